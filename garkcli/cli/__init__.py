@@ -1,4 +1,4 @@
-"""The command line: ``main`` is what ``gark`` runs."""
+"""The command line; ``gark`` runs ``main``."""
 
 import gc
 

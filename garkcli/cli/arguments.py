@@ -1,6 +1,4 @@
-"""What arguments and options take: files and names of the catalogue, problems, numbers; with
-completion.
-"""
+"""The types of arguments and options: methods, files, problems, numbers, with completion."""
 
 from __future__ import annotations
 
@@ -20,20 +18,18 @@ if TYPE_CHECKING:
     from flint import fmpq
 
 _NOTES = "garkcli.notes"
-"""Where a context keeps its notes until it is known how much the user wants to hear."""
+"""The key in a context under which notes are kept until the verbosity is known."""
 _VARIABLE = "GARK_PATH"
 SPELLINGS = {"color": "colour", "minimiz": "minimis", "recogniz": "recognis"}
-"""American spellings in options, and the ones that the help shows."""
+"""American spellings in options, and those in the help."""
 OLD_NAMES = {"emit-all": "output-dir"}
-"""Options that had another name."""
+"""Former names of options."""
 DECADES = 50
-"""Times, frequencies and errors are numbers from 10^-50 to 10^50."""
+"""Times, frequencies and errors are between 10^-50 and 10^50."""
 
 
 class InputType(click.Path):
-    """A path that the command reads, so that nothing is written over it; whoever reads it says what
-    is wrong with it.
-    """
+    """A path that the command reads and never overwrites; errors are reported when it is read."""
 
     name = "file"
 
@@ -41,25 +37,22 @@ class InputType(click.Path):
         super().__init__(readable=False)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """The path as it is given, remembered as an input."""
         found = super().convert(value, param, ctx)
         note_input(str(found))
         return found
 
 
 INPUT = InputType()
-"""The type of arguments and options that are files which are read."""
 PATH = click.Path(readable=False)
-"""That of places to write to."""
 
 
 class MethodType(InputType):
-    """A path, a name or an alias."""
-
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
-        """Names that begin so with files beside them; below folders the shell goes on alone."""
+        """Returns the names and files that begin with a text; below a folder the shell
+        completes.
+        """
         from click.shell_completion import CompletionItem
 
         from garkcli.methodfile.naming import can_be_name, names_beginning
@@ -74,7 +67,7 @@ class MethodType(InputType):
 
 
 def _entries_beginning(path: str) -> Iterator[str]:
-    """Files that begin so, and folders with a separator behind them."""
+    """Yields files that begin with a text, and folders followed by a separator."""
     folder, start = os.path.split(path)
     with suppress(OSError):
         for name in sorted(os.listdir(folder or ".")):
@@ -84,16 +77,13 @@ def _entries_beginning(path: str) -> Iterator[str]:
 
 
 class ProblemType(click.ParamType):  # type: ignore[type-arg]
-    """The name of a built-in problem or the path of a problem file."""
-
     name = "problem"
 
     def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
-        """What help shows."""
         return "NAME|FILE"
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """Refuse what is neither, before anything is read."""
+        """Fails for a text that is neither a name nor a file, before anything is read."""
         from garkcli.problems.builtin import PROBLEMS, is_path
 
         if value not in PROBLEMS and not is_path(value):
@@ -106,7 +96,7 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
-        """The names, and problem files; folders are for the shell, which goes on below them."""
+        """Returns the names and problem files; below a folder the shell completes."""
         from click.shell_completion import CompletionItem
 
         from garkcli.problems.builtin import PROBLEMS
@@ -119,22 +109,21 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
 
 def named(place: str) -> Any:
-    """What a module of the package calls so; of a function, what it returns."""
+    """Returns an object of a module of the package; of a function, its result."""
     file, _, name = place.partition(":")
     found = getattr(import_module(f"garkcli.{file}"), name)
     return found() if callable(found) else found
 
 
 def completed(place: str) -> Callable[..., list[str]]:
-    """Completion: the words of that name that begin so."""
+    """Returns the completion with the words of a list."""
     return lambda _context, _parameter, start: [x for x in named(place) if x.startswith(start)]
 
 
 def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
-    """Put folders before those of ``GARK_PATH``, for this run and the processes that it starts.
+    """Adds folders before those of ``GARK_PATH``, for this run and its processes.
 
-    Raises:
-        UsageProblem: one of them is no folder.
+    Raises UsageProblem if one of them is not a folder.
     """
     if not folders or context.resilient_parsing:
         return
@@ -159,7 +148,7 @@ def _restore(before: str | None) -> None:
 
 
 def with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
-    """Keep notes on names, until it is known how much the user wants to hear."""
+    """Keeps notes on names until the verbosity is known."""
     if os.environ.get(_VARIABLE) and not context.resilient_parsing:
         from garkcli.methodfile.naming import note_of
 
@@ -171,7 +160,7 @@ def with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
 
 
 def notes() -> list[str]:
-    """The notes that were kept, once."""
+    """Returns the notes that were kept, and forgets them."""
     context = click.get_current_context(silent=True)
     kept: list[str] = context.meta.pop(_NOTES, []) if context else []
     return kept
@@ -180,7 +169,6 @@ def notes() -> list[str]:
 def pairs(
     context: click.Context, parameter: click.Parameter, given: tuple[str, ...]
 ) -> dict[str, str]:
-    """``NAME=VALUE``, each name once."""
     settings: dict[str, str] = {}
     for given_text in given:
         name, sign, value = given_text.partition("=")
@@ -194,17 +182,16 @@ def pairs(
 
 
 def finite(_: click.Context, __: click.Parameter, seconds: float | None) -> float | None:
-    """A number of seconds; nan, which no limit of a range holds off, is none."""
+    """Returns a number of seconds; fails for NaN, which no range excludes."""
     if seconds is not None and seconds != seconds:
         raise click.BadParameter("nan is no number of seconds")
     return seconds
 
 
 def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | None:
-    """A file to draw into, of a kind that can be drawn.
+    """Returns the file of a plot.
 
-    Raises:
-        UsageProblem: its suffix is none of those.
+    Raises UsageProblem for a suffix that cannot be drawn.
     """
     if path is not None:
         from pathlib import Path
@@ -216,8 +203,8 @@ def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | No
 
 
 def spelled(word: str) -> str:
-    """An option or one of its words, however the reader spells: ``--minimize`` is ``--minimise``,
-    ``--colors`` is ``--colours``. ``--color`` is about text and stays.
+    """Returns an option or a word of it in the spelling of the help: ``--minimize`` becomes
+    ``--minimise``, ``--colors`` becomes ``--colours``. ``--color`` is about text and stays.
 
     >>> spelled("minimize"), spelled("colors-used"), spelled("color"), spelled("emit-all")
     ('minimise', 'colours-used', 'color', 'output-dir')
@@ -230,12 +217,12 @@ def spelled(word: str) -> str:
 
 
 def workers(_: click.Context, __: click.Parameter, jobs: int | None) -> int | None:
-    """How many processes: 0 is one for each processor."""
+    """Returns the number of processes, one for each processor if 0 is given."""
     return (os.cpu_count() or 1) if jobs == 0 else jobs
 
 
 def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:
-    """What an option says, as it is read where it is given; of one that repeats, each."""
+    """Returns a callback that reads the value of an option, or each of several."""
 
     def callback(_: click.Context, parameter: click.Parameter, given: Any) -> Any:
         option = max(parameter.opts, key=len)
@@ -247,15 +234,9 @@ def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:
 
 
 def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
-    """The rational number that was given for ``option``.
+    """Returns the rational number given for ``option``.
 
-    Args:
-        option: what messages call it.
-        text: what was given.
-        cure: for a number that is not rational.
-
-    Raises:
-        UsageProblem: it is none.
+    ``cure`` is for irrational numbers. Raises UsageProblem for other texts.
     """
     from garkcli.exact.domain import Domain
     from garkcli.exact.expression import parse
@@ -274,10 +255,9 @@ def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
 
 
 def positive(option: str, text: str) -> fmpq:
-    """The positive rational number that was given for ``option``, a time, a frequency or an error.
+    """Returns the positive rational number given for ``option``, a time, a frequency or an error.
 
-    Raises:
-        UsageProblem: it is none, or beyond what such things are.
+    Raises UsageProblem for other texts, and for numbers out of range.
     """
     from flint import fmpq
 
@@ -292,15 +272,13 @@ def positive(option: str, text: str) -> fmpq:
 
 
 def positives(option: str, text: str) -> tuple[fmpq, ...]:
-    """Several of them, with commas between."""
     return tuple(positive(option, x) for x in text.split(","))
 
 
 def point(option: str, text: str) -> tuple[fmpq, fmpq]:
-    """A complex number, by its parts.
+    """Returns the real and the imaginary part.
 
-    Raises:
-        UsageProblem: they are not rational.
+    Raises UsageProblem unless they are rational.
     """
     from garkcli.exact.given import complex_parts
 
@@ -309,10 +287,9 @@ def point(option: str, text: str) -> tuple[fmpq, fmpq]:
 
 
 def ratio(option: str, text: str) -> fmpq:
-    """The ratio of two radii.
+    """Returns the ratio of two radii.
 
-    Raises:
-        UsageProblem: it is none.
+    Raises UsageProblem for other texts.
     """
     number = rational(option, text)
     if number <= 0:
@@ -322,10 +299,9 @@ def ratio(option: str, text: str) -> fmpq:
 
 
 def square(option: str, text: str) -> fmpq:
-    """The rational number, not negative, that was given for ``option``.
+    """Returns the nonnegative rational number given for ``option``.
 
-    Raises:
-        UsageProblem: it is none.
+    Raises UsageProblem for other texts.
     """
     number = rational(option, text)
     if number < 0:

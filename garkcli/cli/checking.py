@@ -1,4 +1,4 @@
-"""``gark check``, many files side by side with the same outcome as one after the other."""
+"""``gark check``: many files in parallel, with the same outcome as one after the other."""
 
 from __future__ import annotations
 
@@ -68,7 +68,6 @@ def check(given: Given, output: Output) -> int:
 
 
 def _explain(key: str, output: Output) -> int:
-    """Write what a claim means."""
     from garkcli.check.meanings import claim_meaning
     from garkcli.report.meaning import REPORT, told
     from garkcli.tell.report import FORMATS as TOLD
@@ -80,7 +79,7 @@ def _explain(key: str, output: Output) -> int:
 
 
 def _compare(project: Project, given: Given, output: Output) -> int:
-    """Write what is worse than in an earlier report."""
+    """Writes what is worse than in an earlier report; returns 1 if anything is."""
     from garkcli.check.baseline import read_baseline, regressions
     from garkcli.report.check_findings import baseline_text
     from garkcli.report.checked import REPORT
@@ -93,9 +92,7 @@ def _compare(project: Project, given: Given, output: Output) -> int:
 
 
 def _outcomes(project: Project, given: Given, output: Output) -> list[Outcome]:
-    """The outcome of each file that is meant, in order, with what it is to tell and what fails
-    it.
-    """
+    """Returns the outcomes of all files in order, with the options of the report."""
     paths = given.files_meant(output)
     work = partial(check_file, **given.of("check_file"), settings=given.settings)
     running = counting("files", check_files(work, paths, given.jobs), len(paths))
@@ -111,11 +108,10 @@ def _outcomes(project: Project, given: Given, output: Output) -> list[Outcome]:
 
 
 def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) -> Iterator[Outcome]:
-    """Check ``paths`` in their order, ``jobs`` of them at a time; 0 is one per
-    processor.
+    """Yields the outcomes of ``paths`` in order, with ``jobs`` processes; 0 is one per processor.
 
-    A file that ends its worker, by a lack of memory or a signal, has an outcome that says so, and
-    the others are checked as if nothing had been.
+    A file that ends its worker, by lack of memory or a signal, has an outcome that says so; the
+    others are not affected.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(paths))
     if any(map(is_stream, paths)):
@@ -125,7 +121,7 @@ def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) ->
 
 
 def _checked(check: Callable[[str], Outcome], path: str) -> Outcome:
-    """The outcome of one file, also where the program has a fault."""
+    """Returns the outcome of one file, also after an internal error."""
     try:
         with doing(path):
             return check(path)
@@ -143,6 +139,6 @@ def _crashed(path: str, what: str, cure: str, code: str) -> Outcome:
 
 
 def _ended(path: str, why: str) -> Outcome:
-    """The outcome of a file that ended its worker."""
+    """Returns the outcome of a file that ended its worker."""
     cure = "check it alone; where memory is short use fewer --jobs"
     return _crashed(path, f"its check was ended {why}", cure, "worker-lost")

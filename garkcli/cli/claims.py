@@ -14,10 +14,11 @@ if TYPE_CHECKING:
 
 @declared("claims", FORMATS)
 def claims(given: Given, output: Output) -> None:
-    """What is true of a method, as a file claims it under `expect`.
+    """The true claims of a method, as a file makes them under `expect`.
 
     For a file with claims: these, corrected. Otherwise the orders, whether it is symplectic, its
-    stage order, and the properties that it has. What has no meaning or is not decided is left out.
+    stage order, and the properties that it has. Claims that do not apply or are undecided are left
+    out.
 
     --write puts the claims into the files, so that gark check fails once the method changes.
     """
@@ -57,11 +58,9 @@ def claims(given: Given, output: Output) -> None:
 
 
 def _loaded(path: str) -> MethodFile:
-    """A method with its claims.
+    """Returns a method with its claims.
 
-    Raises:
-        MethodFileError: the file is no method.
-        UsageProblem: it is a family of them.
+    Raises UsageProblem for a family of methods.
     """
     from garkcli.methodfile.load import load
 

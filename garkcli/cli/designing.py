@@ -1,4 +1,4 @@
-"""``gark design`` and ``gark sweep``: methods found."""
+"""``gark design`` and ``gark sweep``: the search for methods."""
 
 from __future__ import annotations
 
@@ -40,19 +40,19 @@ AnyResult = TypeVar("AnyResult", "Result", "Curve")
 _STANDARD_INPUT = {STDIN, "<stdin>"}
 _PLOT = "--plot draws the A-stable values of two parameters"
 PROOFS = ("exact", "exists", "numerical")
-"""What is known of a method that was found, the most first."""
+"""The certainty of methods that were found, the most certain first."""
 
 
 @declared("design", [*FORMATS, "csv"])
 def design(given: Given, output: Output) -> int:
-    """For which values of its free parameters a method has an order, exactly.
+    """The values of the free parameters for which a method has an order, exactly.
 
     parameters: {tau: free} makes a parameter free. The answer is every value, finitely many, a
     family of some dimension, or none, with the tree whose condition cannot be met. Each value
     passes the certificate of gark check.
 
-    --search looks for methods from random starts by least squares. A find is exact with its order
-    proved, proved to exist, or numerical and not proved. The same seed has the same finds
+    --search looks for methods from random starts by least squares. A method found is exact with its
+    order proved, proved to exist, or numerical and not proved. The same seed gives the same methods
     everywhere.
 
     Exit code: 1 no value has the order or stability asked for, 3 a search found nothing, which
@@ -108,10 +108,8 @@ def design(given: Given, output: Output) -> int:
 
 
 def _refuse_rounded(family: FamilyFile, given: Given) -> None:
-    """Refuse what exact coefficients alone have.
-
-    Raises:
-        UsageProblem: an option asks for it, and coefficients are rounded.
+    """Raises UsageProblem if an option needs exact coefficients and those of the file are
+    rounded.
     """
     if family.tolerance is None:
         return
@@ -128,7 +126,7 @@ def _refuse_rounded(family: FamilyFile, given: Given) -> None:
 
 
 def _within(family: FamilyFile, given: Given, output: Output) -> int:
-    """Values within the tolerance: report them, write the files, and return the exit code."""
+    """Reports values within the tolerance and writes the files; returns the exit code."""
     from garkcli.api.design import find_parameters
     from garkcli.design.within import DesignWithin
     from garkcli.methodfile.naming import called
@@ -145,11 +143,7 @@ def _within(family: FamilyFile, given: Given, output: Output) -> int:
 
 
 def _check_stability(given: Given) -> None:
-    """Refuse what a set of values does not have.
-
-    Raises:
-        UsageProblem: a file or a search is requested too.
-    """
+    """Raises UsageProblem for options that a set of values excludes: files or a search."""
     others = (given.emit, given.folder, given.search, given.minimise)
     if all(option is None for option in others):
         return
@@ -162,7 +156,7 @@ def _check_stability(given: Given) -> None:
 
 @contextmanager
 def _half(given: Given) -> Iterator[None]:
-    """Half of the time that is left, where there is work to come."""
+    """Limits the time to half of what is left, as more work follows."""
     with until(given.moment):
         left = seconds_left()
         with within(None if left is None else left / 2):
@@ -170,10 +164,9 @@ def _half(given: Given) -> Iterator[None]:
 
 
 def _asked(family: FamilyFile, given: Given) -> Stability | None:
-    """The stability that an option asks for, if any.
+    """Returns the stability that an option requests, if any.
 
-    Raises:
-        UsageProblem: there is no such colour.
+    Raises UsageProblem for an unknown colour.
     """
     from garkcli.tableau.family import Stability
 
@@ -189,21 +182,16 @@ def _asked(family: FamilyFile, given: Given) -> Stability | None:
 
 
 def _refuse_unsettled(family: FamilyFile) -> None:
-    """Refuse to look for methods by what was not worked out.
-
-    Raises:
-        UsageProblem: something was not.
-    """
+    """Raises UsageProblem if a demand of the file was not worked out in time."""
     for key in family.unsettled:
         message = f"what {key} under design asks was not worked out in the time of --seconds"
         raise UsageProblem(message, "give it more, or want less", code="not-found")
 
 
 def make_folder(path: str) -> None:
-    """Make a folder that files are written into, where there is none.
+    """Makes a folder for files unless it exists.
 
-    Raises:
-        UsageProblem: its name is empty, or it cannot be made.
+    Raises UsageProblem if it cannot be made.
     """
     if not path:
         raise UsageProblem("the name of the folder is empty", "name a folder", code="cannot-write")
@@ -215,11 +203,7 @@ def make_folder(path: str) -> None:
 
 
 def _refuse_other_wishes(family: FamilyFile, asked: Stability, is_of_springs: bool) -> None:
-    """Refuse what a file wants that a set of values with one kind of stability leaves out.
-
-    Raises:
-        UsageProblem: an order, or another kind of stability.
-    """
+    """Raises UsageProblem for demands of the file that a set of stable values ignores."""
     wishes = [str(x) for x in family.stable if is_of_springs or x != asked]
     if family.order is not None:
         wishes.insert(0, f"order {family.order}")
@@ -235,14 +219,14 @@ def _refuse_other_wishes(family: FamilyFile, asked: Stability, is_of_springs: bo
 
 
 def _as_stable(family: FamilyFile, asked: Stability | None) -> FamilyFile:
-    """A family of which methods with a kind of stability are wanted, if any."""
+    """Returns a family with a further demand for stability, if any."""
     if asked is None or asked in family.stable:
         return family
     return replace(family, stable=(*family.stable, asked))
 
 
 def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output) -> int:
-    """Find the values, write the report and the files, and return the exit code."""
+    """Finds the values, and writes the report and the files; returns the exit code."""
     from garkcli.methodfile.naming import called
     from garkcli.report.design import REPORT, DesignReport
 
@@ -266,14 +250,13 @@ def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output
 
 
 def _found(family: FamilyFile, given: Given) -> Design:
-    """For which values the method has the order."""
     from garkcli.design.design import find_parameters
 
     return find_parameters(family, given.order, given.whose)
 
 
 def _least(found: Design, given: Given) -> Minimum | None:
-    """The minimum of the objective; None, and it is said why, where it is open."""
+    """Returns the minimum of the objective; None, with a message, if it was not found in time."""
     from garkcli.api.design import minimise
 
     try:
@@ -290,8 +273,8 @@ def _least(found: Design, given: Given) -> Minimum | None:
 
 
 def _sets(found: Design, given: Given) -> tuple[StableValues, ...] | None:
-    """The values that are as stable as is wanted, where all have the order; None, and it is said,
-    where they take too long.
+    """Returns the values that are as stable as demanded, if all values have the order; None, with a
+    message, if they were not found in time.
     """
     from garkcli.design.design import stable_sets
 
@@ -304,11 +287,10 @@ def _sets(found: Design, given: Given) -> tuple[StableValues, ...] | None:
 
 
 def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
-    """What each value of --choose leaves.
+    """Returns what each value of --choose leaves.
 
-    Raises:
-        UsageProblem: a choice is none, leaves no unknown, or leaves a question that is undecided in
-            time.
+    Raises UsageProblem if a choice is not valid, leaves no unknown, or leads to a question that is
+    not decided in time.
     """
     from garkcli.design.choices import walk_down
 
@@ -331,7 +313,6 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
 
 
 def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
-    """The set of values with a kind of stability."""
     from garkcli.api.design import stable_values
     from garkcli.cli.stability import colour_named
     from garkcli.design.member import TABLEAUS
@@ -364,11 +345,10 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
 def _emit(
     found: Design | DesignWithin | Minimum, family: FamilyFile, given: Given, output: Output
 ) -> None:
-    """Write the first of the methods found, or all.
+    """Writes the first of the methods found, or all.
 
-    Raises:
-        UsageProblem: there is none.
-        MethodError: the values of the first cannot be written in a method file.
+    Raises UsageProblem if there is none, MethodError if its values cannot be written in a method
+    file.
     """
     if given.emit is None and given.folder is None:
         return
@@ -399,17 +379,16 @@ def _emit(
 
 
 def file_names(folder: str, source: str) -> Iterator[str]:
-    """Where the files of the methods go that are found from a file, one after the other."""
+    """Yields the names of the files for the methods found in a file."""
     stem = "" if source in _STANDARD_INPUT else Path(source).name.split(".")[0]
     return (str(Path(folder, f"{stem or 'method'}-{k}.gark.yaml")) for k in count(1))
 
 
 EXIT_CODES = {True: 0, False: 1, None: 3}
-"""By what is reached; that it cannot be decided is no fault of the file, as what cannot be done."""
+"""By whether the order is reached; an undecided question is not an error of the file."""
 
 
 def _search(family: FamilyFile, given: Given, output: Output) -> int:
-    """Search for methods, report them and write their files."""
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.report.search import REPORT, SearchReport
 
@@ -472,8 +451,8 @@ def _order(given: Given) -> int:
 
 
 def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
-    """The result, and the exit code where an interrupt or a lost worker ends the search; where the
-    time does, it is that of what was found.
+    """Returns the result, and the exit code if an interrupt or a lost worker ended the search. If
+    the time did, the exit code is that of the result.
     """
     from garkcli.design.search.run import MOST, Result, results
 
@@ -522,7 +501,9 @@ def _worked(
 
 
 def _lost(_task: Task, why: str) -> Timed:
-    """A piece of a search that ended its process; the others' are kept."""
+    """Raises WorkerLost for a part of a search that ended its process; the results of the others
+    are kept.
+    """
     message = f"a process of the search was ended {why}"
     raise WorkerLost(message, "where memory is short use fewer --jobs")
 
@@ -530,8 +511,8 @@ def _lost(_task: Task, why: str) -> Timed:
 def _written(
     family: FamilyFile, result: Result, given: Given, output: Output
 ) -> Sequence[str | None]:
-    """Write the files that are requested, of one the first method of which most is proved; where
-    each method is.
+    """Writes the requested files, of a single one the method with the strongest proof; returns the
+    file of each method.
     """
     from garkcli.api.design import found_files
 
@@ -549,7 +530,7 @@ def _written(
 
 
 def _proof(found: Found) -> int:
-    """The less is proved, the more."""
+    """Returns a sort key, larger for weaker proofs."""
     member: Any = found.member
     return PROOFS.index(member.proof)
 

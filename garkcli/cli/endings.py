@@ -1,4 +1,4 @@
-"""The format of a file by its ending: one rule for every option that names a file to write."""
+"""The format of a file by its ending: one rule for all options that name a file to write."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from os.path import splitext
 from garkcli.errors import UsageProblem
 
 AUTO = "auto"
-"""The format that suits where a command runs."""
+"""The format that suits the environment of the command."""
 PLAIN = ".txt"
 """The ending of any text."""
 ENDINGS: Mapping[str, tuple[str, ...]] = {
@@ -41,7 +41,7 @@ ENDINGS: Mapping[str, tuple[str, ...]] = {
     ".py": ("python",),
     ".r": ("r",),
 }
-"""Formats by endings; of several a command writes the first that it can. Others say nothing."""
+"""Formats by endings; of several, a command writes the first that it can."""
 CURES = {
     "yaml": "gark convert, design --emit and claims --write write method files",
     **dict.fromkeys(("png", "svg", "pdf"), "--plot FILE draws, where a command can"),
@@ -55,7 +55,7 @@ CURES = {
 
 
 def ending_of(path: str) -> str:
-    """The ending of a file, in small letters; empty where it says nothing."""
+    """Returns the ending of a file in lower case; empty if it is not known."""
     ending = splitext(path)[1].lower()
     return ending if ending in ENDINGS else ""
 
@@ -63,17 +63,11 @@ def ending_of(path: str) -> str:
 def settled(
     path: str, formats: Sequence[str], chosen: str | None = None, option: str = "-o"
 ) -> str | None:
-    """The format that a file gets: that of its ending, else the one that is chosen; None where
-    neither says one.
+    """Returns the format of a file: that of its ending, otherwise the chosen one; None without
+    either.
 
-    Args:
-        path: of the file.
-        formats: those that can be written.
-        chosen: what ``--format`` says.
-        option: that names the file.
-
-    Raises:
-        UsageProblem: its ending is that of something else.
+    ``option`` is the one that names the file, for the message. Raises UsageProblem if the ending
+    belongs to another format.
     """
     ending = ending_of(path)
     if not ending:
@@ -96,7 +90,6 @@ def settled(
 
 
 def _listed(formats: Sequence[str]) -> str:
-    """The endings of some formats, one each."""
     found = [PLAIN] if "text" in formats else []
     for format in formats:
         found += [x for x, held in ENDINGS.items() if format == held[0]][:1]

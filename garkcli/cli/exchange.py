@@ -1,4 +1,4 @@
-"""``gark export``, ``import`` and ``audit``: methods in other people's formats."""
+"""``gark export``, ``import`` and ``audit``: methods in other formats."""
 
 from __future__ import annotations
 
@@ -53,11 +53,7 @@ def export(given: Given, output: Output) -> None:
 
 
 def _refuse_other_ending(path: str, bridge: Bridge) -> None:
-    """Refuse a file whose ending is that of another target.
-
-    Raises:
-        UsageProblem: it is.
-    """
+    """Raises UsageProblem for a file whose ending belongs to another target."""
     ending, held = ending_of(path), ENDINGS.get(bridge.suffix.lower(), ())
     if not ending or {*held} & {*ENDINGS[ending]}:
         return
@@ -126,7 +122,7 @@ def import_(given: Given, output: Output) -> int:
 
 
 def _tell_signs(results: Sequence[Result], output: Output) -> None:
-    """Say how error estimates of unknown sign are read; a report has this among its notes."""
+    """Notes how error estimates of unknown sign are read, as a report does."""
     for result in results:
         if result.method is not None and result.method.sign:
             output.note(f"{_place(result)}: {result.method.sign}")
@@ -138,7 +134,7 @@ def _place(result: Result) -> str:
 
 
 def _tell_wrong(results: Sequence[Result]) -> None:
-    """Name each wrong table and its cure, where the output is method files alone."""
+    """Reports each wrong table and its cure, if the output consists of method files alone."""
     for result in results:
         for finding in result.errors:
             say(f"{_place(result)}: {finding.message}")
@@ -147,15 +143,9 @@ def _tell_wrong(results: Sequence[Result]) -> None:
 
 
 def _refuse_several(results: Sequence[Result], place: str, option: str) -> None:
-    """Refuse to write several methods into one method file.
+    """Raises UsageProblem for several methods in one method file.
 
-    Args:
-        results: the methods.
-        place: the option and the file.
-        option: that names a folder instead.
-
-    Raises:
-        UsageProblem: there are several.
+    ``place`` is the option and the file, ``option`` the one that names a folder.
     """
     names = [x.table.name or x.stem for x in results if x.method is not None]
     if len(names) > 1 and ending_of(place):
@@ -167,7 +157,7 @@ def _refuse_several(results: Sequence[Result], place: str, option: str) -> None:
 
 
 def _tell_unread(unread: Sequence[Result], output: Output) -> None:
-    """Name sources that were not read; count other tables that were not, with -v name each."""
+    """Notes sources that were not read, and the number of other tables, with -v their names."""
     for result in unread:
         if result.table.is_source:
             output.note(f"{printable(result.table.source)} {result.trouble}")
@@ -182,7 +172,7 @@ def _tell_unread(unread: Sequence[Result], output: Output) -> None:
 
 
 def _other(table: FoundTable) -> tuple[str, str]:
-    """What the report says of arrays that may be no method, and the cure."""
+    """Returns the remark about arrays that may not be a method, and the cure."""
     place = f"{printable(table.source)}:{table.line}"
     cure = f"--from {table.format} takes them for one"
     if table.c[0] is None:
@@ -193,7 +183,7 @@ def _other(table: FoundTable) -> tuple[str, str]:
 def _nothing(
     sources: Sequence[str], files: int, results: Sequence[Result], left_out: Sequence[FoundTable]
 ) -> UsageProblem:
-    """Why there is nothing to be written."""
+    """Returns the error if there is nothing to write."""
     from garkcli.bridges.readers.registry import all_readers
 
     for result in results:
@@ -218,7 +208,7 @@ def _no_table(sources: Sequence[str], files: int) -> str:
 
 
 def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
-    """Write the method files; their names by the numbers of the results."""
+    """Writes the method files; returns their names by the numbers of the results."""
     from garkcli.page.writing import write_whole
 
     files = {}
@@ -231,7 +221,7 @@ def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
 
 @declared("audit", ("auto", *FORMATS, "github", "sarif"))
 def audit(given: Given, output: Output) -> int:
-    """The tables of a solver's source tree against what they declare.
+    """The tables in a solver's source tree compared with their declared orders.
 
     PATH is a folder (all files in it of the formats that gark import reads), a file, or - for
     standard input; gark executes nothing in it. Of every table: does it have the order and embedded
@@ -269,7 +259,7 @@ def audit(given: Given, output: Output) -> int:
 
 
 def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output) -> None:
-    """Write the repairs that are sure, and say of how many tables."""
+    """Writes the certain repairs, and notes the number of tables."""
     from garkcli.bridges.patching import patches
 
     if any(map(is_stream, files)):
@@ -293,7 +283,7 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
 
 
 def _claim(files: Sequence[str], place: str, output: Output) -> None:
-    """Write the method files of the tables, which claim what the sources declare."""
+    """Writes the method files of the tables, with the declared orders as claims."""
     from garkcli.bridges.collecting import collected
     from garkcli.cli.designing import make_folder
 

@@ -1,4 +1,4 @@
-"""What is known: ``gark list``, ``show``, ``explain``, ``cite``, ``certificate``, ``report``,
+"""Information: ``gark list``, ``show``, ``explain``, ``cite``, ``certificate``, ``report``,
 ``schema``.
 """
 
@@ -69,7 +69,7 @@ def certificate(given: Given, output: Output) -> None:
 
 @declared("explain", FORMATS, WORD={"shell_complete": completed("check.meanings:known_words")})
 def explain(given: Given, output: Output) -> None:
-    """What a word of a report or of a file means: definition, formula, source.
+    """The meaning of a word in a report or a file: definition, formula, source.
 
     WORD is a term such as density or "stage order", a line of a report, a claim, a key of a file
     such as compose.steps, a family, a transfer rule, a problem, or the code or message of an error.
@@ -86,14 +86,13 @@ def explain(given: Given, output: Output) -> None:
 
 
 class RangeType(click.ParamType):  # type: ignore[type-arg]
-    """A whole number or several that follow each other."""
+    """A whole number or a range."""
 
     name = "range"
 
     def convert(
         self, value: object, param: click.Parameter | None, ctx: click.Context | None
     ) -> object:
-        """The numbers that are meant."""
         from garkcli.catalogue.entries import read_range
 
         try:
@@ -103,8 +102,8 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]
 
 
 def _filters() -> list[click.Option]:
-    """All options that say which methods are listed, and how they are sorted; they arrive by their
-    keys in entries of the catalogue, None where they were not given.
+    """Returns all options that filter and sort the lists of methods. Their values are passed by the
+    keys of catalogue entries, None if not given.
     """
     from garkcli.catalogue.entries import ORDERS
     from garkcli.properties.registry import every_property
@@ -171,7 +170,7 @@ def list_(given: Given, output: Output) -> None:
 
 
 def _listed(given: Mapping[str, Any]) -> list[Entry]:
-    """The methods that are as wanted, sorted."""
+    """Returns the methods that match, sorted."""
     from garkcli.catalogue.entries import Wanted, all_entries, sorted_by
 
     others = ("judge", "sort", "folder", "words")
@@ -211,7 +210,7 @@ def show(given: Given, output: Output) -> None:
 
 @declared("cite", ("bibtex", *FORMATS))
 def cite(given: Given, output: Output) -> None:
-    """Where methods were published, each publication as one entry of a bibliography.
+    """The publications of methods, each as one entry of a bibliography.
 
     The word catalogue: means all of the catalogue, gark this program. A file without `reference` is
     cited by its families and rules. A `reference` that is plain text becomes a note; gark names
@@ -270,7 +269,7 @@ def report(given: Given, output: Output) -> int:
 
 
 def _is_no_page(path: str) -> bool:
-    """Whether there is something that gark did not write as a page."""
+    """Returns whether there is a file that gark did not write as a page."""
     try:
         return b"gark report" not in begin_of(path, 20_000).lower()
     except NotAFile:
@@ -280,7 +279,7 @@ def _is_no_page(path: str) -> bool:
 
 
 def _page_name(paths: list[str], which: str | None) -> str:
-    """The file of a page that no option names: METHOD.html, or report.html of several methods."""
+    """Returns the default file of a page: METHOD.html, or report.html for several methods."""
     if len(paths) > 1 or is_stream(paths[0]):
         return "report.html"
     from garkcli.methodfile.naming import called
@@ -294,11 +293,9 @@ def _page_name(paths: list[str], which: str | None) -> str:
 
 
 def _meant(path: str, given: Given) -> str | GarkMethod:
-    """What the page is about: a file as it is, or the conjugate or the pair of its method.
+    """Returns the subject of the page: a file, or the conjugate or the pair of its method.
 
-    Raises:
-        UsageProblem: the coefficients have free parameters.
-        ZeroWeight: a conjugate would divide by zero.
+    Raises UsageProblem for free parameters.
     """
     if given.which is None:
         return path

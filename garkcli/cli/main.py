@@ -1,4 +1,4 @@
-"""The group of commands, each imported when it is used, and the last word on every error."""
+"""The group of commands, each imported when it is used, and the handling of all errors."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 REPORT_TO = "the issue tracker of the project"
 HELP = "help"
-"""Before the name of a command: what its option ``--help`` shows."""
+"""Followed by the name of a command, it shows the help of the command."""
 COMPLETION = "_GARK_COMPLETE"
 """The variable in which shells ask for completions."""
 
@@ -52,7 +52,7 @@ class _LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Commands, also behind the word that shows their help, and that word."""
+        """Returns the commands, the word for help, and the commands behind it."""
         from click.shell_completion import CompletionItem
 
         found = super().shell_complete(ctx, incomplete)
@@ -120,11 +120,11 @@ gark.params.append(help_option())
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command line and exit.
+    """Runs the command line and exits.
 
-    Exit codes: 0 all is well, 1 a claim fails, 2 usage or input, or there is no place for the
-    report, 3 undecided, or our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads
-    the report.
+    Exit codes: 0 success, 1 a claim fails, 2 wrong usage or input, or no place for the report, 3
+    undecided, or an internal error, 128 + n ended by signal n: 130 interrupted, 141 the reader of
+    the report is gone.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     streams.prepare()
@@ -136,7 +136,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 
 def _exit_code(arguments: list[str]) -> int:
-    """Run the command line, say what went wrong, and return the exit code."""
+    """Runs the command line, reports errors, and returns the exit code."""
     try:
         with at_once(), noting_inputs():
             code = _run(arguments)
@@ -172,8 +172,8 @@ def _exit_code(arguments: list[str]) -> int:
 
 
 def _run(arguments: list[str]) -> int:
-    """Run the command line without what click does at its end: it exits 1 where a reader goes away,
-    which is the code of a claim that fails.
+    """Runs the command line without the exit of click, which would return 1, the code of a failing
+    claim, if the reader is gone.
     """
     if arguments[:1] == [HELP]:
         names = [x for x in arguments[1:] if not x.startswith("-")]
@@ -193,7 +193,7 @@ def _run(arguments: list[str]) -> int:
 
 
 def _own_up(error: Exception, with_traceback: bool) -> None:
-    """Say that the fault is ours."""
+    """Reports an internal error."""
     if with_traceback:
         import traceback
 

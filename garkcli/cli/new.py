@@ -60,10 +60,9 @@ def new(given: Given, output: Output) -> None:
 
 
 def of_tableau_text(name: str, text: str) -> str:
-    """A method file of a pasted tableau; ``-`` is standard input, ``@FILE`` a file.
+    """Returns a method file for a pasted tableau; ``-`` is standard input, ``@FILE`` a file.
 
-    Raises:
-        MethodError: it is no tableau, or no text.
+    Raises MethodError if it is not a tableau.
     """
     from garkcli.methodfile.pasted import read_pasted
     from garkcli.methodfile.reading import read_text
@@ -78,10 +77,9 @@ def of_tableau_text(name: str, text: str) -> str:
 
 
 def _member(text: str) -> Member:
-    """A family with its stages.
+    """Returns the family and the stages.
 
-    Raises:
-        UsageProblem: it is not written so.
+    Raises UsageProblem for other texts.
     """
     from garkcli.families.registry import member_named
     from garkcli.methodfile.template import Member
@@ -95,10 +93,9 @@ def _member(text: str) -> Member:
 
 
 def _ask(given: Given) -> None:
-    """Ask for what no option says: a name, a tableau, or families and a transfer rule.
+    """Asks for a name, a tableau, or families and a transfer rule that no option gives.
 
-    Raises:
-        UsageProblem: nobody is there to answer.
+    Raises UsageProblem without a terminal.
     """
     if not is_terminal(sys.stdin):
         raise UsageProblem("a new method needs --tableau or --family", EXAMPLE, code="option-alone")

@@ -1,5 +1,5 @@
-"""What the commands share: how they are made of the table of calls, what they are given, where the
-report goes, whether it has colour.
+"""Common parts of the commands: their construction from the table of calls, their arguments, and
+the output.
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ ARGUMENTS: dict[str, dict[str, Any]] = {
     "SOURCE": {"type": INPUT},
     "PATH": {"type": INPUT},
 }
-"""What commands take, by the words of their usage; the command gives the others."""
+"""The arguments of commands, by the words of the usage."""
 METHOD = (
     "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
     "or - for standard input"
 )
-"""Words for one method on the command line."""
+"""The description of one method on the command line."""
 SEVERAL = (
     "a directory stands for all *.gark.yaml below it, a pattern (in quotes, ** for any "
     "directories) for the files that match"
 )
-"""Words for several methods."""
+"""The description of several methods."""
 KINDS: dict[str, dict[str, Any]] = {
     "written": {"type": PATH},
     "picture": {"type": PATH, "callback": arguments.picture},
@@ -85,17 +85,16 @@ KINDS: dict[str, dict[str, Any]] = {
     "target": {"required": True, "shell_complete": completed("bridges.registry:bridges")},
     "report": {"shell_complete": completed("report.schemas:REPORTS")},
 }
-"""What values of options are, by the words of the table."""
+"""The types of values of options, by the words of the table."""
 WORDS = {"forms": "cli.options:forms", "kinds": "ntrees.symplectic:KINDS"}
-"""Where the words are that an option takes one of."""
+"""The places of the words that options accept."""
 
 
 REDUCED = "reduced"
-"""What ``--to`` takes besides the forms: the smallest method that does the same."""
+"""The value of ``--to`` for the smallest equivalent method, besides the forms."""
 
 
 def forms() -> list[str]:
-    """What ``gark convert --to`` takes."""
     from garkcli.conversion.targets import TARGETS
 
     return [*TARGETS, REDUCED]
@@ -108,7 +107,7 @@ def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None
 
 
 def help_option() -> click.Option:
-    """The option that shows the help of its command."""
+    """Returns the option that shows the help of its command."""
     return click.Option(
         ["-h", "--help"],
         is_flag=True,
@@ -120,9 +119,10 @@ def help_option() -> click.Option:
 
 
 class _Argument(click.Option):
-    """An option that is an argument of a function of the package. Its help and its default are
-    those of the argument, looked up for the help alone: where it is not given, it is not handed
-    over.
+    """An option for an argument of a function of the package.
+
+    Its help and its default are those of the argument, looked up only for the help; if it is not
+    given, it is not passed.
     """
 
     def __init__(self, flags: list[str], of: str, **settings: Any) -> None:
@@ -133,7 +133,7 @@ class _Argument(click.Option):
 
     @property
     def help(self) -> str | None:
-        """What the option says itself, or the documentation of the argument."""
+        """The text of the option, or the documentation of the argument."""
         return self._help or told(self._of)
 
     @help.setter
@@ -141,7 +141,7 @@ class _Argument(click.Option):
         self._help = text
 
     def get_default(self, ctx: click.Context, call: bool = True) -> Any:
-        """For the help that of the argument, unless the command has its own."""
+        """Returns the default of the argument for the help, unless the command has its own."""
         if self._has_default:
             return super().get_default(ctx, call)
         default = None if call else parameter_of(self._of).default
@@ -150,13 +150,13 @@ class _Argument(click.Option):
 
 
 def parameter_of(of: str) -> inspect.Parameter:
-    """The argument that is called ``function.argument`` in the package."""
+    """Returns the argument ``function.argument`` of the package."""
     function, _, name = of.partition(".")
     return inspect.signature(getattr(import_module("garkcli"), function)).parameters[name]
 
 
 def told(of: str) -> str:
-    """What the docstring of a function says of an argument."""
+    """Returns the text about an argument in the docstring of a function."""
     function, _, name = of.partition(".")
     lines = iter((inspect.getdoc(getattr(import_module("garkcli"), function)) or "").splitlines())
     found = ""
@@ -175,16 +175,11 @@ _DECLARED: dict[str, Callable[[], click.Command]] = {}
 def declared(
     name: str, formats: Sequence[str] = (), **more: Any
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """The function is what the command of that name in the table of calls does.
+    """Makes the function the implementation of a command in the table of calls.
 
-    It takes what the command is ``Given`` and its ``Output``, and returns the exit code, or nothing
-    where all is well.
-
-    Args:
-        name: of the command.
-        formats: that it writes, the first one by default.
-        more: settings of its arguments that it knows itself; ``options``, a function that makes
-            further ones.
+    It takes the arguments as ``Given`` and the ``Output``, and returns the exit code, or None for
+    0. ``formats`` are those it writes, the first by default; ``more`` has settings of its
+    arguments, and under ``options`` a function that makes further ones.
     """
 
     def declare(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -196,7 +191,7 @@ def declared(
 
 @cache
 def command_of(name: str) -> click.Command:
-    """The command of that name, from the file that the table says."""
+    """Returns the command of that name, from the file in the table."""
     import_module(f"garkcli.cli.{COMMANDS[name].file}")
     return _DECLARED[name]()
 
@@ -243,13 +238,14 @@ def _made(
 
 
 def takes_methods(arguments: str) -> list[str]:
-    """The arguments of a command that stand for methods."""
+    """Returns the arguments of a command that stand for methods."""
     return [x for x in arguments.split() if ARGUMENTS.get(x.strip("[].")) is _FILE]
 
 
 def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
-    """Say of which methods the coefficients look rounded, with the line that is missing; check has
-    it in its report. To find them takes as long as a check: with -q nobody reads them.
+    """Notes methods whose coefficients look rounded, with the missing line.
+
+    ``gark check`` has this in its report. It takes as long as a check and is skipped with -q.
     """
     if output.verbosity < 0:
         return
@@ -270,7 +266,7 @@ def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
 
 
 def _help(text: str, arguments: str) -> str:
-    """The help of a command; a paragraph of it says what stands for a method."""
+    """Returns the help of a command, with a paragraph about its methods."""
     words = takes_methods(arguments)
     if not words:
         return text
@@ -283,11 +279,7 @@ def _help(text: str, arguments: str) -> str:
 
 
 def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> None:
-    """Refuse options that do not go together, before anything is read.
-
-    Raises:
-        UsageProblem: some do not.
-    """
+    """Raises UsageProblem for options that exclude each other, before anything is read."""
 
     def is_given(word: str) -> bool:
         flag, _, wanted = word.partition("=")
@@ -308,7 +300,7 @@ def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> No
 
 
 def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
-    """An argument as it is in the usage: [FILE...] for several that may be left out."""
+    """Returns an argument from its usage: [FILE...] stands for several that may be left out."""
     required, several = not word.startswith("["), word.endswith(("...", "...]"))
     bare = word.strip("[].")
     settings = {**ARGUMENTS.get(bare, {}), **more.get(bare, {})}
@@ -353,20 +345,17 @@ def _option(row: Option, formats: Sequence[str]) -> click.Option:
 def _held(
     format: str, _: click.Context, parameter: click.Parameter, path: str | None
 ) -> str | None:
-    """A file to be written whose ending says nothing else than what it holds."""
+    """Checks that the ending of a file fits its content."""
     if path is not None:
         settled(path, [format], option=max(parameter.opts, key=len))
     return path
 
 
 class Given(SimpleNamespace):
-    """What a command is given: its arguments and options by their names.
+    """The arguments and options of a command by their names.
 
-    ``which`` is ``"conjugate"`` or ``"pair"`` where one of these is meant, else None.
-
-    Args:
-        values: by their names.
-        calls: the functions and arguments of the package that options are, by the same names.
+    ``which`` is ``"conjugate"``, ``"pair"`` or None. ``calls`` has the functions and arguments of
+    the package for the options.
     """
 
     def __init__(self, values: Mapping[str, Any], calls: Mapping[str, str]) -> None:
@@ -375,8 +364,8 @@ class Given(SimpleNamespace):
         self.which: Any = next((x for x in ("conjugate", "pair") if values.get(x)), None)
 
     def of(self, function: str) -> dict[str, Any]:
-        """The options that are given and are arguments of a function of the package, by their
-        names there.
+        """Returns the given options that are arguments of a function of the package, by their names
+        there.
         """
         found = {}
         for name, of in self._calls.items():
@@ -387,16 +376,10 @@ class Given(SimpleNamespace):
         return found
 
     def method(self, file: str = "", is_any_kind: bool = False) -> GarkMethod:
-        """The method of FILE with the values of --set, or its conjugate or its pair.
+        """Returns the method of FILE with the values of --set, or its conjugate or its pair.
 
-        Args:
-            file: another one.
-            is_any_kind: whether it may be another than a GARK method.
-
-        Raises:
-            MethodFileError: it is none.
-            HasFreeParameters: a parameter has no value.
-            ZeroWeight: a conjugate would divide by zero.
+        Raises MethodFileError if it is not a method, HasFreeParameters if a parameter has no value,
+        ZeroWeight if a conjugate would divide by zero.
         """
         from garkcli.methodfile.load import load
 
@@ -406,11 +389,10 @@ class Given(SimpleNamespace):
         return getattr(method, self.which) if self.which else method
 
     def files_meant(self, output: Output) -> list[str]:
-        """The files that FILE... means: folders and patterns are searched, and none of the files
-        is written over.
+        """Returns the files that FILE... stands for, and protects them from being overwritten.
 
-        Raises:
-            UsageProblem: the report is to go to one of them, or --set is given with several.
+        Raises UsageProblem if the report would go to one of them, or if --set is given with
+        several.
         """
         from garkcli.methodfile.finding import find_files
 
@@ -425,17 +407,11 @@ class Given(SimpleNamespace):
 
 
 class Output:
-    """Where a report goes and how it may look.
+    """The place and the appearance of a report.
 
-    Attributes:
-        format: the chosen format.
-        path: the file of ``-o``, or None.
-        verbosity: −1, 0 or 1.
-        is_streamed: whether ``-o -`` asks for standard output.
-        is_by_ending: whether the ending of the file says the format.
-
-    Raises:
-        UsageProblem: the report will have no place; said before any work is done.
+    ``path`` is the file of ``-o``, or None; ``verbosity`` −1, 0 or 1; ``is_streamed`` says that
+    ``-o -`` was given, ``is_by_ending`` that the ending of the file determines the format. Raises
+    UsageProblem, before any work, if the report cannot be written.
     """
 
     def __init__(
@@ -458,15 +434,11 @@ class Output:
 
     @classmethod
     def of(cls, values: dict[str, Any], formats: Sequence[str] = ()) -> Output:
-        """What ``--format``, ``-o``, ``-q``, ``-v`` and ``--color`` say, taken out of the values of
-        options.
+        """Returns the output for ``--format``, ``-o``, ``-q``, ``-v`` and ``--color``, which are
+        removed from ``values``.
 
-        Args:
-            values: by their names.
-            formats: that the command writes; empty where the ending of the file is its own matter.
-
-        Raises:
-            UsageProblem: the ending of the file is that of something else.
+        ``formats`` are those that the command writes, empty if it checks the ending itself. Raises
+        UsageProblem if the ending of the file belongs to another format.
         """
         verbosity = values.pop("verbose", False) - values.pop("quiet", False)
         format, path = values.pop("format", "text"), values.pop("output", None)
@@ -483,11 +455,7 @@ class Output:
         return output
 
     def check_place(self, path: str | None = None) -> None:
-        """Look whether the report, or another file, may be written where it is to go.
-
-        Raises:
-            UsageProblem: it may not.
-        """
+        """Raises UsageProblem if the report, or another file, cannot be written."""
         path = self.path if path is None else path
         if path is not None:
             from garkcli.page.writing import refuse_unwritable
@@ -496,7 +464,7 @@ class Output:
 
     @property
     def paint(self) -> Paint:
-        """Colour, where it is wanted, and the encoding of where the report goes."""
+        """The colours and the encoding of the report."""
         from garkcli.page.paint import Paint
 
         encoding = None if self.path else getattr(sys.stdout, "encoding", None)
@@ -504,17 +472,15 @@ class Output:
 
     @property
     def width(self) -> int:
-        """Columns to fill: the terminal's; 80 without one."""
+        """The width of the terminal in columns, or 80."""
         from shutil import get_terminal_size
 
         return get_terminal_size((80, 24)).columns if self.path is None else 80
 
     def write(self, text: str | Iterable[str], format: str = "") -> None:
-        """Write the report; a file appears whole or not at all.
+        """Writes the report; a file appears whole or not at all.
 
-        Args:
-            text: the report, or its pieces.
-            format: where it is not that of ``--format``.
+        ``format`` overrides that of ``--format``.
         """
         pieces = [text] if isinstance(text, str) else text
         format = format or self.format
@@ -526,30 +492,26 @@ class Output:
         self.save(self.path, safe_pieces(pieces, format, coloured))
 
     def write_exactly(self, text: str) -> None:
-        """Write a text that has to keep every sign and line end, such as a patch."""
+        """Writes a text with all its characters and line ends, such as a patch."""
         if self.path is None:
             put_exactly(text)
         else:
             self.save(self.path, [text.encode()])
 
     def save(self, path: str, pieces: Iterable[str | bytes]) -> None:
-        """Write a file, and say so where it is one."""
+        """Writes a file, and notes it."""
         from garkcli.page.writing import write_whole
 
         if write_whole(path, pieces):
             self.note(f"wrote {path}")
 
     def tell(self, report: Report[Any], *wholes: Any) -> None:
-        """Write results in the format that is requested."""
         self.write(report.render(wholes, self.format, self.paint, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
-        """Write a result while it is found.
+        """Writes a result while it is computed.
 
-        Args:
-            report: its rows.
-            whole: the result.
-            is_document: whether LaTeX has its preamble, or names it; None for neither.
+        ``is_document`` says whether LaTeX has its preamble or only names it; None for neither.
         """
         pieces = report.pieces(whole, self.format, self.paint, self.verbosity, width=self.width)
         if self.format == "latex" and is_document is not None:
@@ -559,18 +521,17 @@ class Output:
         self.write(pieces)
 
     def suit(self) -> None:
-        """Take for the format ``auto`` the one that suits where the command runs."""
+        """Replaces the format ``auto`` by the one that suits the environment."""
         if self.format == "auto":
             is_job = os.environ.get("GITHUB_ACTIONS") == "true"
             self.format = "github" if is_job else "text"
 
     def note(self, text: str) -> None:
-        """A remark beside the report, on stderr."""
+        """Writes a remark to stderr unless -q is given."""
         if self.verbosity >= 0:
             say(text)
 
     def save_plot(self, scene: Scene, path: str) -> None:
-        """Draw the scene into a file, and say so."""
         from pathlib import Path
 
         from garkcli.plots.saving import save_scene
@@ -579,13 +540,8 @@ class Output:
         self.note(f"wrote {path}")
 
     def tell_failure(self, error: GarkError, name: str, report: Report[Any]) -> int:
-        """Tell people why a run has no result, and programs in the report; and return the exit
+        """Reports on stderr, and in reports for programs, why a run has no result; returns the exit
         code.
-
-        Args:
-            error: what has failed.
-            name: of the method.
-            report: of the command.
         """
         from garkcli.report.remarks import FailedRun
 
@@ -596,21 +552,20 @@ class Output:
 
 
 def _chosen(format: str) -> str | None:
-    """The format, where the command line says one."""
+    """Returns the format if the command line has one."""
     source = click.get_current_context().get_parameter_source("format")
     is_said = source is not click.core.ParameterSource.DEFAULT
     return format if is_said and format != AUTO else None
 
 
 def faults_of(error: GarkError) -> tuple[Remark, ...]:
-    """What is wrong: the faults of a file, or one fault."""
     if isinstance(error, MethodFileError):
         return error.faults
     return (Remark(error.message, error.help, code=error.code),)
 
 
 def failure_code(error: GarkError) -> int:
-    """The exit code of a run that has failed: of a step 1, of everything else 2."""
+    """Returns the exit code of a failed run: 1 for a step, 2 for anything else."""
     from garkcli.stepping.integrator import StepFailed
 
     return 1 if isinstance(error, StepFailed) else 2

@@ -1,4 +1,4 @@
-"""What a project wants of its method files: ``.gark.toml``, or ``[tool.gark]`` of pyproject."""
+"""The settings of a project: ``.gark.toml``, or ``[tool.gark]`` of pyproject.toml."""
 
 from __future__ import annotations
 
@@ -21,15 +21,10 @@ MOST_BYTES = 1_000_000
 
 
 class Project(Frozen):
-    """What a file of a project says.
+    """The settings of a project.
 
-    Attributes:
-        file: its path; empty where there is none.
-        paths: the method files, folders or patterns that are checked where none are named, from
-            here.
-        require_claims: whether a file without a claim fails.
-        needed: claims without which a file fails.
-        defaults: values of options that are not given, by their names.
+    ``paths`` are the method files, folders or patterns that are checked if none are named;
+    ``needed`` are required claims; ``defaults`` are values for options that are not given.
     """
 
     file: str = ""
@@ -40,12 +35,10 @@ class Project(Frozen):
 
 
 def find_project() -> Project:
-    """The project of the folder we are in: the first file above that speaks of gark; folders above
-    that of a repository are not looked at.
+    """Returns the project of the current folder: the first file in it or above with settings for
+    gark, up to the root of the repository.
 
-    Raises:
-        UsageProblem: the file cannot be read.
-        MethodFileError: it says what means nothing; every fault of it.
+    Raises UsageProblem if the file cannot be read, MethodFileError with all its faults.
     """
     for folder in _folders():
         for name in (OWN, SHARED):
@@ -61,7 +54,7 @@ def find_project() -> Project:
 
 
 def _folders() -> Iterator[str]:
-    """The folder we are in, and those above it."""
+    """Yields the current folder and those above it."""
     try:
         folder = os.getcwd()
     except OSError:  # it was removed
@@ -75,10 +68,9 @@ def _folders() -> Iterator[str]:
 
 
 def _text(path: str, name: str) -> str | None:
-    """The text of a file; None where it cannot have a table for gark.
+    """Returns the text of a file; None if it cannot have settings for gark.
 
-    Raises:
-        UsageProblem: it cannot be read, or is too large.
+    Raises UsageProblem if it cannot be read, or is too large.
     """
     try:
         data = read_bytes(path, MOST_BYTES)
@@ -96,11 +88,11 @@ _TOOL = (
     rb"tool[\"' \t]*\.[\"' \t]*gark"
     rb"|^[ \t]*\[[ \t]*[\"']?tool[\"']?[ \t]*\]|^[ \t]*[\"']?tool[\"']?[ \t]*="
 )
-"""What begins a table of gark, or one of tools that may have it."""
+"""The start of a table of gark, or of a table of tools that may contain it."""
 
 
 _DEEP = r"(?<![\w\"'-])(?:[\w\"'-]++[ \t]*+\.[ \t]*+){100}"
-"""A key of a hundred names with dots between: tomllib takes the square of their number."""
+"""A key of a hundred names with dots between: the time of tomllib is quadratic in their number."""
 
 
 def _not_toml(path: str, error: Exception) -> UsageProblem:
@@ -109,10 +101,9 @@ def _not_toml(path: str, error: Exception) -> UsageProblem:
 
 
 def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
-    """What a file says of gark; None where it does not.
+    """Returns the settings for gark, or None.
 
-    Raises:
-        UsageProblem: it is no TOML.
+    Raises UsageProblem unless the file is TOML.
     """
     import tomllib
 
@@ -135,11 +126,6 @@ def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
 
 
 def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Project:
-    """The project that a table of a file says.
-
-    Raises:
-        MethodFileError: every fault of it, with positions.
-    """
     from garkcli.methodfile.finding import fixed_part
     from garkcli.methodfile.grammar import FILE
     from garkcli.methodfile.project_file import read_settings
@@ -170,9 +156,10 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
 
 
 def _from_here(path: str) -> str:
-    """The path from the folder we are in, where there is one: on Windows not to another drive.
+    """Returns the path relative to the current folder, if there is one: on Windows not to another
+    drive.
 
-    It is never taken for a name of the catalogue, or for standard input.
+    It is never mistaken for a name of the catalogue, or for standard input.
     """
     try:
         here = os.path.relpath(path)
@@ -183,7 +170,6 @@ def _from_here(path: str) -> str:
 
 
 def _kind() -> Kind:
-    """What the file has."""
     from garkcli.methodfile.project_file import file_of
     from garkcli.report.check_formats import FORMATS
 
@@ -202,7 +188,6 @@ def project_schema() -> dict[str, Any]:
 
 
 def told(files: Files) -> Iterator[Key]:
-    """What the report says of the keys."""
     from garkcli.methodfile.grammar import told
 
     for key in told(_kind().inside(), files.page):

@@ -1,4 +1,4 @@
-"""``gark converge``, ``energy`` and ``modified``: methods on problems."""
+"""``gark converge``, ``energy`` and ``modified``: methods at work on problems."""
 
 from __future__ import annotations
 
@@ -26,17 +26,13 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 DRIFTING = frozenset({"drifts", "unstable"})
-"""Verdicts that do not meet ``--bounded``."""
+"""Verdicts that contradict ``--bounded``."""
 UNDECIDED = 3
-"""The exit code of what could not be decided."""
+"""The exit code of undecided questions."""
 
 
 def refuse_misplaced(given: Given) -> None:
-    """Refuse options of another problem than --problem: they would change nothing.
-
-    Raises:
-        UsageProblem: one of them was given.
-    """
+    """Raises UsageProblem for options that do not apply to --problem."""
     from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
 
     for option in ("omega", "split"):
@@ -49,7 +45,7 @@ def refuse_misplaced(given: Given) -> None:
 
 
 def note_changing(problem: Problem, output: Output) -> None:
-    """Say which invariants of a problem file are none: their errors are not the method's."""
+    """Notes invariants of a problem file that the exact solution does not conserve."""
     from garkcli.convergence.reference import changing
 
     for name, change, time in changing(problem):
@@ -94,7 +90,7 @@ def converge(given: Given, output: Output) -> int:
 
 
 def _one(path: str, given: Given, output: Output) -> int:
-    """The test of one method."""
+    """Tests one method."""
     from garkcli.report.convergence import REPORT, ConvergenceReport
 
     name = path
@@ -115,12 +111,11 @@ def _one(path: str, given: Given, output: Output) -> int:
 
 
 def _several(paths: Sequence[str], given: Given, output: Output) -> int:
-    """The comparison: the tests of all files, in order. What fails is reported on stderr at once,
-    and stops none of the others.
+    """Tests all files and compares them. Failures are reported at once on stderr and do not stop
+    the other tests.
 
-    Raises:
-        MethodFileError: the problem file has faults.
-        UsageProblem: the steps that are wanted do not fit the time.
+    Raises MethodFileError for faults of the problem file, UsageProblem if the steps do not fit the
+    time.
     """
     from garkcli.methodfile.naming import called
     from garkcli.plots.convergence import errors_scene
@@ -147,7 +142,6 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
 
 
 def _loaded(path: str, given: Given) -> GarkMethod | ConvergedMethod:
-    """The method that steps, or what its failure leaves."""
     try:
         return given.method(path, is_any_kind=True)
     except GarkError as error:
@@ -166,7 +160,7 @@ def _entry(path: str, method: GarkMethod, problems: Problems) -> ConvergedMethod
 
 
 def _failed(path: str, name: str, error: GarkError) -> ConvergedMethod:
-    """Tell an error with the name of the file."""
+    """Reports an error with the name of the file."""
     from garkcli.check.outcome import Outcome
     from garkcli.report.comparison import ConvergedMethod
 
@@ -177,14 +171,10 @@ def _failed(path: str, name: str, error: GarkError) -> ConvergedMethod:
 
 
 class Problems:
-    """The problem of a convergence test, split for each of the methods that are tested on it.
+    """The problem of a convergence test, split for each of the tested methods.
 
-    A file is read once. All methods get the same sum of terms, also where its coefficients depend
-    on their number. Where no problem is named it is one that sees every tree of the methods.
-
-    Errors:
-        MethodFileError: the problem file has faults.
-        UsageProblem: the steps that are wanted do not fit the time.
+    A file is read once. All methods get the same sum of terms, even if its coefficients depend on
+    their number. Without a name, the problem is one for which every tree of the methods matters.
     """
 
     def __init__(self, given: Given) -> None:
@@ -210,10 +200,9 @@ class Problems:
             check_steps(whole, given.t_end or usual_time(whole), given.steps)
 
     def prepare(self, methods: Sequence[GarkMethod], output: Output) -> None:
-        """Make the problem one for all of these methods.
+        """Chooses the same problem for all methods.
 
-        Raises:
-            UsageProblem: none is named, and there is none for their structures.
+        Raises UsageProblem without one for their structures.
         """
         tableaux = [self._stepped(method) for method in methods]
         self._tableaux = tableaux
@@ -225,7 +214,7 @@ class Problems:
             note_changing(self._read, output)
 
     def _stepped(self, method: GarkMethod) -> Tableau:
-        """The tableau that steps; the first method that is for one problem alone names it."""
+        """Returns the tableau that takes the steps; a method for a single problem names it."""
         from garkcli.api.stepped import stepped
 
         problem = self._read or self._name
@@ -235,10 +224,9 @@ class Problems:
         return tableau
 
     def of(self, tableau: Tableau) -> Problem | Oscillator:
-        """The problem for one of the methods that it was prepared for.
+        """Returns the problem for one of the prepared methods.
 
-        Raises:
-            UsageProblem: it cannot be split for it.
+        Raises UsageProblem if it cannot be split.
         """
         from garkcli.api.problems import problem_for, split_for
         from garkcli.convergence.convergence import in_common
@@ -253,10 +241,9 @@ class Problems:
         return problem_for(self._name, tableau, None, given.stiffness, given.omega, given.split)
 
     def tested(self, method: GarkMethod) -> Convergence:
-        """The convergence test of one method.
+        """Returns the test of one method.
 
-        Raises:
-            GarkError: the method is not for the problem, or a step fails.
+        Raises GarkError if the problem does not fit, or a step fails.
         """
         from garkcli.api.converging import converge
 
@@ -316,11 +303,9 @@ def energy(given: Given, output: Output) -> int:
 
 
 def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Problem:
-    """The problem of a long run, in as many terms as the tableau is for.
+    """Returns the problem of a long run, with as many terms as the tableau needs.
 
-    Raises:
-        UsageProblem: nothing is conserved, or the problem is not Hamiltonian and its steps are to
-            be symplectic.
+    Raises UsageProblem if nothing is conserved, or --symplecticity does not apply.
     """
     from garkcli.api.problems import problem_for
     from garkcli.problems.builtin import is_path
@@ -346,8 +331,8 @@ def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Pr
 
 
 def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Symplecticity | None:
-    """Of the steps of ``run``: by the coefficients, and measured where that was requested; None
-    where the problem is not Hamiltonian.
+    """Returns the symplecticity of the steps, by the coefficients and on request as measured; None
+    if the problem is not Hamiltonian.
     """
     from garkcli.longtime.symplecticity import (
         Symplecticity,
@@ -370,7 +355,7 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
 
 
 def _claims(run: LongRun, given: Given) -> tuple[RunClaim, ...]:
-    """What the options claim. An undecided run is neither bounded nor drifting."""
+    """Returns the claims of the options. An undecided run is neither bounded nor drifting."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
     from garkcli.report.energy import RunClaim
@@ -395,10 +380,9 @@ def _claims(run: LongRun, given: Given) -> tuple[RunClaim, ...]:
 
 
 def _in_modified(given: Given, output: Output) -> int:
-    """The energy error in the modified Hamiltonian.
+    """Reports the error in the modified Hamiltonian.
 
-    Raises:
-        UsageProblem: the coefficients are rounded.
+    Raises UsageProblem for rounded coefficients.
     """
     from garkcli.api.modified import modified_run
     from garkcli.api.problems import hamiltonian_for
@@ -458,10 +442,9 @@ def modified(given: Given, output: Output) -> None:
 
 
 def _formula(method: GarkMethod, given: Given) -> ModifiedFormula:
-    """The formula on the problem of --problem.
+    """Returns the formula on the problem of --problem.
 
-    Raises:
-        UsageProblem: the coefficients are rounded, or the problem is not Hamiltonian.
+    Raises UsageProblem for rounded coefficients, or if the problem is not Hamiltonian.
     """
     from garkcli.api.modified import modified_formula
     from garkcli.api.problems import hamiltonian_for

@@ -65,10 +65,9 @@ def stability(given: Given, output: Output) -> None:
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:
-    """The colour that was given for --fast, counted from 1.
+    """Returns the colour given for --fast, counted from 1.
 
-    Raises:
-        UsageProblem: there is no such colour.
+    Raises UsageProblem if there is none.
     """
     names = [x.name for x in tableau.colours]
     if colour not in names:
@@ -78,9 +77,7 @@ def colour_named(tableau: Tableau, colour: str) -> int:
 
 
 def _report(file: str, method: GarkMethod, given: Given, output: Output) -> StabilityReport:
-    """What the report says of one method: its stability, or the two springs that the options ask
-    for.
-    """
+    """Returns the report on one method: its stability, or the two springs of the options."""
     from garkcli.api.calls import find_stability, two_springs
     from garkcli.report.stability import StabilityReport
     from garkcli.stability.springs_plane import plane_with_ends_of
@@ -116,7 +113,7 @@ def _report(file: str, method: GarkMethod, given: Given, output: Output) -> Stab
 
 
 def _strengths(slow: str) -> tuple[fmpq, fmpq]:
-    """The ends of --slow, the same twice for one number."""
+    """Returns the ends of --slow, equal ones for one number."""
     first, dots, last = slow.partition("..")
     low = square("--slow", first)
     high = rational("--slow", last) if dots else low

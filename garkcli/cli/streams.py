@@ -1,6 +1,4 @@
-"""The three standard streams: any encoding, closed ones, readers that go away; and the signals that
-end the program.
-"""
+"""The standard streams with any encoding, closed ones, readers that stop, and signals."""
 
 from __future__ import annotations
 
@@ -23,23 +21,23 @@ if TYPE_CHECKING:
 HANDLER = "garkcli.plaintext"
 """The name of the error handler of streams."""
 TERMINAL = 80
-"""Columns that texts for people fit, in the longer forms of ASCII too."""
+"""The width of texts for people, also in their longer ASCII forms."""
 READER_GONE = 128 + 13
-"""The exit code where nobody reads the report: that of a program that SIGPIPE ends."""
+"""The exit code if the reader of the report is gone: that of a program ended by SIGPIPE."""
 INTERRUPTED = 128 + signal.SIGINT
 
 
 class NoStandardOutput(Exception):
-    """The report has nowhere to go."""
+    """Standard output is closed."""
 
 
 class ReaderGone(Exception):
-    """Whoever read the report has stopped, which is their right."""
+    """The reader of the report has stopped."""
 
 
 def prepare() -> None:
-    """Ready the streams: what their encoding lacks is written in ASCII, and a stream that is closed
-    leaves no place for a file to be opened in.
+    """Prepares the streams: characters that their encoding lacks are written in ASCII, and no file
+    is opened in the place of a closed stream.
     """
     _fill_places()
     codecs.register_error(HANDLER, _handled)
@@ -61,9 +59,7 @@ def _handled(error: UnicodeError) -> tuple[str, int]:
 
 
 def _fill_places() -> None:
-    """Open nothing as 0, 1 and 2 where these are closed: the next file would count as one of
-    them.
-    """
+    """Opens the null device for closed streams, so that no file takes the numbers 0, 1 and 2."""
     if sys.stdin is not None and sys.stdout is not None and sys.stderr is not None:
         return
     while True:
@@ -74,11 +70,9 @@ def _fill_places() -> None:
 
 
 def put(text: str, format: str = "text", coloured: bool = False) -> None:
-    """Write a piece of a report to standard output.
+    """Writes a part of a report to standard output.
 
-    Raises:
-        NoStandardOutput: it is closed.
-        ReaderGone: nobody reads it any more.
+    Raises NoStandardOutput or ReaderGone.
     """
     if not text:
         return
@@ -95,11 +89,9 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
 
 
 def put_exactly(text: str) -> None:
-    """Write a text as UTF-8 with the line ends that it has, whatever standard output is like.
+    """Writes a text as UTF-8 with its line ends, whatever the encoding of standard output.
 
-    Raises:
-        NoStandardOutput: it is closed.
-        ReaderGone: nobody reads it any more.
+    Raises NoStandardOutput or ReaderGone.
     """
     if sys.stdout is None:
         raise NoStandardOutput
@@ -115,10 +107,9 @@ def put_exactly(text: str) -> None:
 
 
 def flush() -> None:
-    """Write what is held back.
+    """Flushes standard output.
 
-    Raises:
-        ReaderGone: nobody reads it any more.
+    Raises ReaderGone.
     """
     if sys.stdout is None:
         return
@@ -129,7 +120,7 @@ def flush() -> None:
 
 
 def say(text: str, coloured: bool = False) -> None:
-    """Write a line to standard error, which is never a reason to stop."""
+    """Writes a line to standard error, ignoring failures."""
     text = safe(text, "text", coloured)
     with aside():
         try:
@@ -140,14 +131,14 @@ def say(text: str, coloured: bool = False) -> None:
 
 
 def say_problem(error: GarkError) -> None:
-    """Say what is wrong and the cure, each in one line whatever a stranger has put into it."""
+    """Reports a problem and its cure, one line each, whatever they contain."""
     say(f"gark: {printable(error.message)}")
     if error.help:
         say(f"help: {printable(error.help)}")
 
 
 def complain(error: GarkError) -> None:
-    """Say what is wrong with a file, an option or a run, and the cure."""
+    """Reports a problem with a file, an option or a run, and its cure."""
     if isinstance(error, MethodFileError):
         from garkcli.check.outcome import Outcome
 
@@ -157,7 +148,6 @@ def complain(error: GarkError) -> None:
 
 
 def say_faults(outcome: Outcome) -> None:
-    """Say every fault of a file that cannot be read."""
     from garkcli.page.paint import Paint
     from garkcli.report import remarks
 
@@ -166,7 +156,7 @@ def say_faults(outcome: Outcome) -> None:
 
 
 def drop(stream: io.TextIOBase | object) -> None:
-    """Keep the interpreter from flushing, at its end, what cannot be written."""
+    """Prevents the interpreter from flushing a broken stream at its end."""
     fileno = getattr(stream, "fileno", None)
     if fileno is None:
         return
@@ -177,7 +167,7 @@ def drop(stream: io.TextIOBase | object) -> None:
 
 
 def safe(text: str, format: str = "text", coloured: bool = False) -> str:
-    """A text that gives no orders to a terminal or to the runner of a job."""
+    """Returns a text without commands to a terminal or to the runner of a job."""
     from garkcli.page.safety import without_commands, written_out
 
     text = written_out(text, format, coloured)
@@ -186,12 +176,11 @@ def safe(text: str, format: str = "text", coloured: bool = False) -> str:
 
 
 def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[str]:
-    """The same for a report in pieces."""
     return (safe(piece, format, coloured) for piece in pieces)
 
 
 def _for(encoding: str | None, text: str, format: str, width: int | None = None) -> str:
-    """A text for a stream of this encoding: in formats that have escapes nothing is lost."""
+    """Returns a text for a stream of this encoding; formats with escapes lose nothing."""
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):
         return text
@@ -204,16 +193,16 @@ def _for(encoding: str | None, text: str, format: str, width: int | None = None)
 
 
 def is_terminal(stream: object) -> bool:
-    """Whether somebody sits at the other end; nobody does where it is closed."""
+    """Returns whether a stream is a terminal; False if it is closed."""
     isatty = getattr(stream, "isatty", None)
     return bool(isatty is not None and isatty())
 
 
 def wants_colour(stream: object) -> bool:
-    """Whether text on this stream has colour where no option says so.
+    """Returns whether text on a stream is coloured without an option.
 
-    ``NO_COLOR`` says no and ``FORCE_COLOR`` yes, where they are not empty; without them a terminal
-    has colour unless it says that it is a dumb one.
+    A nonempty ``NO_COLOR`` turns colours off and ``FORCE_COLOR`` on; otherwise terminals have them,
+    unless they declare themselves dumb.
     """
     if os.environ.get("NO_COLOR"):
         return False

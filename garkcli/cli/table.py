@@ -1,4 +1,4 @@
-"""The one table of calls: every command with what it is in Python, and every option once."""
+"""The table of calls: all commands with their Python functions, and all options."""
 
 from __future__ import annotations
 
@@ -11,11 +11,9 @@ from garkcli.frozen import Frozen
 class Option(Frozen):
     """An option.
 
-    Attributes:
-        written: its flags; before them the command, where it is another one elsewhere.
-        kind: the words that say what its value is, as ``OPTIONS`` explains; none for a flag.
-        of: the function and the argument that it is in Python; empty where it is none.
-        help: what it does; empty where the docstring of the argument says it.
+    ``written`` has its flags, after the name of a command if it differs there; ``kind`` describes
+    its value as ``OPTIONS`` explains, empty for a flag; ``of`` is the function and the argument in
+    Python, or empty; ``help`` is empty if the docstring of the argument serves.
     """
 
     written: str
@@ -25,40 +23,32 @@ class Option(Frozen):
 
     @property
     def flags(self) -> list[str]:
-        """How it is written."""
         return [word for word in self.written.split() if word.startswith("-")]
 
     @property
     def key(self) -> str:
-        """The command, where it says one, and the flag of whole words."""
+        """The command, if the option depends on it, and the long flag."""
         words = self.written.split()
         long = next(x for x in self.flags if x.startswith("--")).partition("/")[0]
         return long if words[0].startswith("-") else f"{words[0]} {long}"
 
     @property
     def name(self) -> str:
-        """What its value is called where the command runs."""
+        """The name of the value in the command."""
         names = (word.removeprefix("name=") for word in self.kind if word.startswith("name="))
         return next(names, self.key.split()[-1].lstrip("-").replace("-", "_"))
 
     @property
     def is_flag(self) -> bool:
-        """Whether it has no value of its own."""
         return all(word.startswith(("name=", "default=")) for word in self.kind)
 
 
 class Command(Frozen):
     """A command.
 
-    Attributes:
-        group: the heading that the help lists it under; ``HIDDEN`` for a name that is not listed.
-        file: of this room that has it.
-        arguments: what it takes; FILE is what ``options.METHOD`` says.
-        summary: its line in the help.
-        calls: the names of the package that do the same.
-        options: its own, in the order of the help; ``OPTIONS`` has them, first by the name of the
-            command and theirs, then by theirs alone.
-        common: the options that commands share, in the order of the help.
+    ``group`` is its heading in the help, ``HIDDEN`` for names that are not listed; ``file`` its
+    module; ``arguments`` as in the usage; ``calls`` the equivalent functions of the package;
+    ``options`` its own, ``common`` those that commands share.
     """
 
     group: str
@@ -71,15 +61,11 @@ class Command(Frozen):
 
 
 class Rule(Frozen):
-    """Options that need others, or exclude them. An option with ``=`` is that value of it; of the
-    form of a report the one that is meant, of its place a file.
+    """Options that require or exclude others.
 
-    Attributes:
-        options: of which one is given.
-        needs: whether one of the others has to be given too; otherwise none of them may be.
-        others: these.
-        message: what is wrong; OPTION in it is the option that is given.
-        cure: what to do.
+    One of ``options`` is given; if ``needs``, one of ``others`` is required, otherwise they are
+    excluded. An option with ``=`` stands for that value; for ``--format`` the effective format
+    counts, for ``--output`` a file. OPTION in the message is the option that is given.
     """
 
     options: tuple[str, ...]
@@ -90,14 +76,14 @@ class Rule(Frozen):
 
     @property
     def code(self) -> str:
-        """The kind of the fault."""
+        """The kind of fault."""
         return "option-alone" if self.needs else "options-clash"
 
 
 HIDDEN = "hidden"
-"""The group of old names: they work, and no list has them."""
+"""The group of former names: they work and are not listed."""
 SECONDS = 60.0
-"""The time of ``gark design`` where none is given."""
+"""The default time of ``gark design``."""
 _COMMON = "--format --output --quiet --verbose --color --help"
 _OPTIONS = f"""
 --format formats
@@ -290,11 +276,11 @@ schema --problem | The schema of problem files.
 --report [COMMAND] report alone=check = report_schema.command
     | The schema of the JSON report of COMMAND; by default gark check.
 """
-"""A row an option: the command where another has one of the same name, its flags, what its value is
-called in the help, what it is (``options.KINDS``; a range, or words), ``=`` the argument that it is
-in Python, ``|`` its help. Help and default that are not here are those of the argument: its
-docstring and its signature. ``alone=`` is the value of a flag without one, ``value=`` of one that
-is a word of several, ``default=`` without a word shows none.
+"""One option per row: the command, if another one has an option of the same name; the flags; the
+metavariable; the type (``options.KINDS``, a range, or words); ``=`` the argument in Python; ``|``
+the help. Missing help and defaults are those of the argument, from its docstring and signature.
+``alone=`` is the value of a flag without one, ``value=`` that of a flag for one of several words;
+an empty ``default=`` is not shown.
 """
 _COMMANDS = """
 [Inspect]
@@ -391,9 +377,9 @@ tableaux: reduce FILE | the smallest method that does the same: convert --to red
     = reduced
     --set
 """
-"""A group, in brackets, before its commands; those of ``HIDDEN`` are old names that still work. A
-paragraph a command: the file that has it, its name, what it takes, ``|`` its summary, ``=``
-the calls of Python that do the same, its options; ``only`` the common options where it has not all.
+"""A group, in brackets, before its commands; those of ``HIDDEN`` are former names that still work.
+One command per paragraph: its file, its name, its arguments, ``|`` the summary, ``=`` the Python
+functions, the options; ``only`` the common options if they are not all.
 """
 
 RULES = """
@@ -456,14 +442,13 @@ stability: --order-star without --plot --verbose
 export: --test without --output
     | --test writes further files beside the first | name it: -o FILE
 """
-"""A row a rule, in the order in which they are examined: the commands, the options of which one is
-given, ``without`` those that it needs or ``with`` those that it excludes, ``|`` what is wrong,
-``|`` the cure.
+"""One rule per row, in the order in which they are examined: the commands; the options; ``without``
+those that they require or ``with`` those that they exclude; ``|`` the message; ``|`` the cure.
 """
 
 
 def _paragraphs(table: str) -> Iterator[str]:
-    """Rows with the lines that go on below them, in one line."""
+    """Yields rows together with their continuation lines."""
     yield from filter(None, re.sub(r"\n +", " ", table).splitlines())
 
 
@@ -478,7 +463,7 @@ def _option(row: str) -> Option:
 
 
 def _commands(table: str) -> Iterator[tuple[str, Command]]:
-    """Every command, by its name, in the group whose heading is above it."""
+    """Yields the commands with their names."""
     group = ""
     for row in _paragraphs(table):
         if row.startswith("["):
@@ -496,20 +481,20 @@ def _commands(table: str) -> Iterator[tuple[str, Command]]:
 
 
 OPTIONS = {row.key: row for row in map(_option, _paragraphs(_OPTIONS))}
-"""Every option, by its longest flag, and by the command where it is another one there."""
+"""All options, by their longest flags, with the command if it matters."""
 COMMANDS = dict(_commands(_COMMANDS))
-"""Every command, also those under an old name."""
+"""All commands, including former names."""
 SHOWN = {name: row for name, row in COMMANDS.items() if row.group != HIDDEN}
-"""The commands that the help lists, group by group."""
+"""The commands in the help, group by group."""
 
 
 def option_of(command: str, flag: str) -> Option:
-    """The option that a flag is, at a command."""
+    """Returns the option for a flag of a command."""
     return OPTIONS.get(f"{command} {flag}") or OPTIONS[flag]
 
 
 def options_of(command: str) -> Iterator[Option]:
-    """The options of a command: its own, then those that it shares."""
+    """Yields the options of a command: its own, then the common ones."""
     row = COMMANDS[command]
     for flag in (*row.options.split(), *row.common.split()):
         if flag != "--help":
@@ -517,7 +502,7 @@ def options_of(command: str) -> Iterator[Option]:
 
 
 def rules_of(command: str) -> list[Rule]:
-    """Which options of a command need others, or exclude them."""
+    """Returns the rules about the options of a command."""
     found = []
     for row in _paragraphs(RULES):
         head, message, cure = row.split(" | ")

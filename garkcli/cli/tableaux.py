@@ -1,5 +1,5 @@
 """``gark tableau``, ``conjugate``, ``reduce``, ``convert`` and ``diff``: methods as tableaux and as
-method files, also those with free parameters.
+method files, also with free parameters.
 """
 
 from __future__ import annotations
@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 DEFAULT_DIGITS = 17
-"""Digits of entries that have no simple radicals, where none are requested."""
+"""The default number of digits of entries without simple radicals."""
 EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "undecided": 3}
-"""By what the methods are to each other."""
 
 
 @declared("tableau", (*FORMATS, "yaml"))
@@ -64,14 +63,10 @@ def conjugate(given: Given, output: Output) -> None:
 def write_tableau(
     method: GarkMethod, output: Output, digits: int | None = None, is_document: bool = False
 ) -> None:
-    """Write a tableau as text, JSON or LaTeX.
+    """Writes a tableau as text, JSON or LaTeX.
 
-    Args:
-        method: any.
-        output: where to, and in which format.
-        digits: the digits of all entries; None for exact entries where the nodes have simple
-            radicals.
-        is_document: whether LaTeX gets a preamble.
+    ``digits`` are those of all entries; by default entries are exact if the nodes have simple
+    radicals.
     """
     from garkcli.report.tableau import REPORT, of_method
 
@@ -79,10 +74,9 @@ def write_tableau(
 
 
 def _method_file(method: GarkMethod, digits: int | None) -> str:
-    """A method as a method file.
+    """Returns a method as a method file.
 
-    Raises:
-        UsageProblem: none spells it out.
+    Raises UsageProblem if it cannot be spelled out.
     """
     from garkcli.methodfile.writer import tolerance_of_file, write_rounded, write_tableau_file
     from garkcli.tableau.pointwise import in_points
@@ -103,10 +97,9 @@ def _method_file(method: GarkMethod, digits: int | None) -> str:
 
 
 def _derived_file(made: GarkMethod, output: Output) -> str:
-    """The method file of a conjugate or a pair.
+    """Returns the method file of a conjugate or a pair.
 
-    Raises:
-        UsageProblem: the nodes of a pair have no simple radicals.
+    Raises UsageProblem if the nodes of a pair have no simple radicals.
     """
     from garkcli.methodfile.carried import write_conjugate_of
     from garkcli.methodfile.writer import can_spell_out, write_tableau_file
@@ -126,10 +119,8 @@ def _derived_file(made: GarkMethod, output: Output) -> str:
 
 
 def _refuse_partitioned(tableau: Tableau) -> None:
-    """Refuse what a method file has no form for.
-
-    Raises:
-        UsageProblem: it is partitioned, and no pair (q, p).
+    """Raises UsageProblem for a partitioned method other than a pair (q, p), which has no method
+    file.
     """
     from garkcli.methodfile.writer import can_spell_out
 
@@ -147,16 +138,11 @@ def read_family(
     needs: Mapping[str, object],
     is_judged: bool = True,
 ) -> tuple[FamilyFile, EveryFamily]:
-    """The family of a file, from the refusal to read it as a method.
+    """Returns the family of a file, from the error of reading it as a method.
 
-    Args:
-        error: the refusal.
-        settings: values of other parameters.
-        needs: options that need numbers, with their values; falsy ones were not given.
-        is_judged: whether it is decided what holds, which rounded numbers do not tell.
-
-    Raises:
-        UsageProblem: it is not said for every value, or one of the options was given.
+    ``needs`` has options that require numbers, with their values. With ``is_judged`` decisions
+    follow, for which exact coefficients are required. Raises UsageProblem if that fails, or if one
+    of the options was given.
     """
     from garkcli.check.every_family import every_family
     from garkcli.methodfile.family import family_of, refuse_rounded
@@ -177,10 +163,9 @@ def read_family(
 
 
 def _write_family(error: HasFreeParameters, given: Given, output: Output) -> None:
-    """Write the tableau of a family, its entries rational functions of the parameters.
+    """Writes the tableau of a family, with rational functions of the parameters.
 
-    Raises:
-        UsageProblem: the nodes have no simple radicals, or numbers are requested.
+    Raises UsageProblem if the nodes have no simple radicals, or decimals are requested.
     """
     from garkcli.order.meant import derived, printed
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
@@ -204,7 +189,6 @@ def _write_family(error: HasFreeParameters, given: Given, output: Output) -> Non
 
 
 def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
-    """A method file with the same free parameters."""
     from garkcli.methodfile.writer import write_tableau_file
 
     _refuse_partitioned(tableau)
@@ -226,10 +210,9 @@ def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
 
 
 def _end_text(parameter: str, end: RealRoot | None) -> str:
-    """An end of a range as a file has it.
+    """Returns an end of a range as in a file.
 
-    Raises:
-        UsageProblem: it has no simple radicals.
+    Raises UsageProblem if it has no simple radicals.
     """
     from garkcli.exact.polynomial_text import root_text
 
@@ -243,11 +226,11 @@ def _end_text(parameter: str, end: RealRoot | None) -> str:
 
 @declared("reduce", ("yaml", *FORMATS))
 def reduce(given: Given, output: Output) -> None:
-    """The smallest method that does the same: gark convert FILE --to reduced.
+    """The smallest equivalent method: gark convert FILE --to reduced.
 
-    It leaves out the stages that do not influence the step, and joins those that are equal on every
-    problem. A method with no such stage is written as it is, and a note says so. Claims are left
-    out: the orders stay, B, C and D may change.
+    It removes the stages that do not influence the step, and merges those that are equal on every
+    problem. A method without such stages is written unchanged, with a note. Claims are left out:
+    the orders stay, B, C and D may change.
     """
     from garkcli.api.methods import reduced
     from garkcli.methodfile.load import load
@@ -286,12 +269,12 @@ def _stages(tableau: Tableau) -> str:
 
 @declared("convert", ("yaml", *FORMATS))
 def convert(given: Given, output: Output) -> None:
-    """The same method in another form, as a method file.
+    """A method in another form, as a method file.
 
     Name, reference, tolerance, embedded weights and dense output stay. So do the claims that hold
     of the result; a note names the others. The pair is another method: its file claims of it what
-    FILE claims of the pair. --to reduced writes the smallest method that does the same, without
-    claims: it leaves out stages that do not influence the step, and joins equal ones.
+    FILE claims of the pair. --to reduced writes the smallest equivalent method, without claims:
+    stages that do not influence the step are removed, and equal ones merged.
     """
     if given.to == REDUCED:
         reduce(given, output)
@@ -314,7 +297,7 @@ def convert(given: Given, output: Output) -> None:
 
 
 def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
-    """With details, what a method is to the one in the file below, as a comment."""
+    """With details, returns the comparison with the method in the file, as a comment."""
     if output.verbosity <= 0 or not first.tableau.has_fields_alone:
         return ""
     from garkcli.comparison.comparison import compare
@@ -328,8 +311,8 @@ def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
 
 @declared("diff", FORMATS)
 def diff(given: Given, output: Output) -> int:
-    """How two methods differ in entries, orders, conditions and properties; whether they are one
-    method in another numbering or form.
+    """The differences of two methods in entries, orders, conditions and properties; whether they
+    are the same method in another numbering or form.
 
     Exit code: 0 the steps and further weights are the same, up to renumbering, stages without
     influence and the rounding that both files admit; 1 they are not; 3 not decided.
@@ -347,10 +330,9 @@ def diff(given: Given, output: Output) -> int:
 
 
 def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodFile]:
-    """Methods, each with the values of its own parameters.
+    """Returns methods with values for their parameters.
 
-    Raises:
-        UsageProblem: a value is for a parameter of none of them.
+    Raises UsageProblem for an unknown parameter.
     """
     from garkcli.methodfile.carried import parameter_names
     from garkcli.methodfile.load import loads, read_method_text

@@ -1,5 +1,5 @@
 """``gark trees`` and ``gark conditions``: trees with their numbers and pictures, conditions with
-their values, and the free trees of symplectic methods in place of either.
+their values, and the free trees of symplectic methods.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from garkcli.report.trees import Query, TreeRow
 
 MANY = 1_000_000
-"""So many lines are requested twice."""
+"""For more lines the command asks first."""
 MAX_PICTURES = 2000
-"""Most trees on one sheet of pictures."""
+"""The largest number of trees on a sheet of pictures."""
 BLOCK_SIZE = 1 << 14
-"""So many trees are made at a time."""
+"""The number of trees that are made at a time."""
 
 
 @declared("trees", ["text", "json", "ndjson", "csv", "markdown", "latex"])
@@ -71,10 +71,9 @@ def trees(given: Given, output: Output) -> None:
 
 
 def _orders(given: Given) -> range:
-    """The orders asked for.
+    """Returns the requested orders.
 
-    Raises:
-        UsageProblem: none is.
+    Raises UsageProblem without any.
     """
     if given.order is None:
         raise UsageProblem(
@@ -84,7 +83,7 @@ def _orders(given: Given) -> range:
 
 
 def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
-    """For each order the number of trees by root colour."""
+    """Returns the number of trees by root colour for each order."""
     from garkcli.ntrees.count import Admissible, count_by_root, counts_upto
 
     if not query.upto:
@@ -93,7 +92,6 @@ def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
 
 
 def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
-    """A row for each tree of these orders."""
     from garkcli.ntrees.blocks import select
     from garkcli.report.trees import TreeRow
 
@@ -113,10 +111,9 @@ def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
 
 
 def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Output) -> None:
-    """Draw trees into a file, and say so.
+    """Draws trees into a file.
 
-    Raises:
-        UsageProblem: they are too many for a sheet.
+    Raises UsageProblem if they are too many for a sheet.
     """
     from garkcli.ntrees.drawing import draw_svg_sheet
     from garkcli.ntrees.notation import format_tree
@@ -129,10 +126,9 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
 
 
 def _refuse_millions(lines: int | None, yes: bool) -> None:
-    """Ask on a terminal whether so many lines are meant, and refuse them without one.
+    """Asks on a terminal whether so many lines are wanted.
 
-    Raises:
-        UsageProblem: they are not meant, or nobody was asked.
+    Raises UsageProblem if not, or without a terminal.
     """
     if yes or lines is None or lines <= MANY:
         return
@@ -146,7 +142,7 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
 
 
 def _free_trees(given: Given, output: Output) -> None:
-    """A row for each class of equivalent conditions of symplectic methods."""
+    """Writes a row for each class of equivalent conditions of symplectic methods."""
     from garkcli.report import symplectic as report
     from garkcli.report.symplectic_subject import subject_of_kind
 
@@ -165,7 +161,6 @@ def _free_trees(given: Given, output: Output) -> None:
 
 
 def _single(given: Given, output: Output) -> None:
-    """One tree, given in bracket text."""
     from garkcli.ntrees.notation import NotationError, format_tree, parse_tree
     from garkcli.report import trees as report
 
@@ -187,9 +182,7 @@ def _single(given: Given, output: Output) -> None:
 
 @contextmanager
 def _any_digits() -> Iterator[None]:
-    """Whole numbers are written with any number of digits: Python's limit is for texts from
-    strangers.
-    """
+    """Lifts Python's limit on the digits of integers, which is for untrusted texts."""
     limit = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)
     try:
@@ -199,7 +192,6 @@ def _any_digits() -> Iterator[None]:
 
 
 def _colours(text: str | None, colours: int) -> tuple[int, ...]:
-    """The colours of --colours-used, counted from 0."""
     if text is None:
         return ()
     used = set()
@@ -262,8 +254,8 @@ def conditions(given: Given, output: Output) -> None:
 
 
 def _valued(given: Given) -> Valued:
-    """The method whose values are reported; of a file with free parameters these are rational
-    functions of them.
+    """Returns the method whose values are reported; for free parameters they are rational
+    functions.
     """
     from garkcli.methodfile.load import load
     from garkcli.order.meant import as_meant, derived
@@ -283,7 +275,9 @@ def _valued(given: Given) -> Valued:
 
 
 def _subject(given: Given, orders: range, valued: Valued | None) -> SymplecticSubject:
-    """What the conditions are independent for: a kind of methods, or the one of a file."""
+    """Returns what the conditions are independent for: a kind of methods, or the method of a
+    file.
+    """
     from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
 
     if valued is None:
@@ -294,7 +288,7 @@ def _subject(given: Given, orders: range, valued: Valued | None) -> SymplecticSu
 def _independent(
     subject: SymplecticSubject, members: bool, valued: Valued | None
 ) -> Iterator[ConditionRow]:
-    """A row for each class, with its value where there is a method."""
+    """Yields a row for each class, with its value if there is a method."""
     from garkcli.order.conditions import conditions
     from garkcli.report.conditions import ConditionRow
 
@@ -309,7 +303,6 @@ def _independent(
 
 
 def _table(colours: int, orders: range) -> Iterator[ConditionRow]:
-    """A row for each tree, or for each shape."""
     from garkcli.ntrees.blocks import iter_blocks
     from garkcli.report.conditions import ConditionRow
 

@@ -1,4 +1,4 @@
-"""Mistakes in the arguments, in words that are the same whatever release of click finds them."""
+"""Usage errors, with the same messages in all releases of click."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ CURES = {
     "SPEC": "name a spec file, as docs/sweep.md shows it",
     "--to": "gark list exports shows what can be written",
 }
-"""What to give where an argument or an option is missing."""
+"""Advice about missing arguments and options."""
 _NUMBERS = re.compile(r"is not a valid (integer|float)( range)?")
 _CHOICE = re.compile(r"'([^']*)' is not one of (.*)\.")
 _EXTRA = re.compile(r"[Gg]ot unexpected extra arguments? \((\d+)\)")
 
 
 def no_such_command(word: str, commands: Iterable[str]) -> str:
-    """The message for a word that is no command: a method is for ``gark check``."""
+    """Returns the message for an unknown command: a method is for ``gark check``."""
     message = f"no such command {printable(word)!r}"
     if word.lower() in MEANT:
         return f"{message}\nhelp: did you mean {MEANT[word.lower()]!r}?"
@@ -52,7 +52,7 @@ def no_such_command(word: str, commands: Iterable[str]) -> str:
 
 
 def _is_a_method(word: str) -> bool:
-    """Whether a word is a file, is called like one, or is a name of the catalogue."""
+    """Returns whether a word is a file, looks like one, or is a name of the catalogue."""
     if word.endswith((".yaml", ".yml")) or os.path.exists(word):
         return True
     from garkcli.methodfile.naming import look_up
@@ -64,7 +64,7 @@ def _is_a_method(word: str) -> bool:
 
 
 def usage_text(error: click.ClickException) -> str:
-    """A mistake in the arguments, with how to use the command and a cure."""
+    """Returns a usage error with the usage and a cure."""
     context: click.Context | None = getattr(error, "ctx", None)
     message = _message(error, context)
     lines = []
@@ -74,8 +74,8 @@ def usage_text(error: click.ClickException) -> str:
 
 
 def _to_the_terminal(text: str) -> str:
-    """A line in lines as long as those of the terminal; one line for programs."""
-    if sys.stderr is None or not sys.stderr.isatty():  # None where it is closed
+    """Returns a line folded to the width of the terminal, unfolded for programs."""
+    if sys.stderr is None or not sys.stderr.isatty():  # None if it is closed
         return text
     from shutil import get_terminal_size
     from textwrap import fill
@@ -114,11 +114,10 @@ def _no_such_option(name: str, options: list[str], context: click.Context | None
 
 
 _SHOWN = 4
-"""Commands that have an option which another one lacks."""
+"""The number of commands that are listed for an option they have."""
 
 
 def _commands_with(option: str, context: click.Context | None) -> Iterator[str]:
-    """The other commands that have an option."""
     group = context and context.parent and context.parent.command
     if context is None or not isinstance(group, click.Group):
         return
@@ -129,7 +128,7 @@ def _commands_with(option: str, context: click.Context | None) -> Iterator[str]:
 
 
 def _cure_of_choice(word: str, words: list[str]) -> str:
-    """For a word that is none of a list; methods are listed by their names."""
+    """Returns the cure for a word that is not in a list; methods have a list of their own."""
     near = nearest(word, words)
     if near:
         return f"did you mean {near!r}?"
