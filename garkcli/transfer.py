@@ -64,15 +64,10 @@ MAX_DEGREE = 100
 
 
 def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
-    """A^{l,m} g = Σ (2j + 1) b_m(P_j g) ∫_0^x P_j over j ≤ K, with the Legendre polynomials P_j of
-    [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md.
+    """Returns A^{l,m} g = Σ (2j + 1) b_m(P_j g) ∫_0^x P_j over j ≤ K = ``degree``, with the
+    Legendre polynomials P_j of [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md.
 
     A^{m,l} is then the symplectic conjugate. Nodes may coincide, and weights may be zero.
-
-    Args:
-        l: the method whose stages see the other.
-        m: the other method.
-        degree: K; by default ``legendre_degree`` of the two methods.
     """
     if degree is None:
         degree = legendre_degree([gark([l], {}), gark([m], {})])

@@ -39,10 +39,7 @@ MAX_SOLVED = 1_000_000
 class EffectiveOrder(Frozen):
     """The effective order of a method.
 
-    Attributes:
-        order: the largest found.
-        is_proved: whether it is proved that no change of coordinates gives more; otherwise a lower
-            bound.
+    ``is_proved`` says that no change of coordinates gives more; otherwise it is a lower bound.
     """
 
     order: int

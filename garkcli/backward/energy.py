@@ -50,12 +50,7 @@ _LOST = 4  # digits that steps and formulas lose, besides those of their number
 class Meter(Mutable):
     """Steps and measures all truncations of the modified Hamiltonian.
 
-    Attributes:
-        bound: the method on the problem.
-        formulas: H and the coefficients of the powers.
-        powers: the powers of h, 0 first.
-        t_end: the final time.
-        digits: the digits of the steps.
+    ``formulas`` are H and the coefficients of ``powers`` of h, 0 first.
     """
 
     bound: Binding
@@ -226,19 +221,12 @@ def modified_run(
     t_end: fmpq | None = None,
     longest: fmpq | None = None,
 ) -> ModifiedRun:
-    """Measures the error of ``tableau`` on ``problem`` in its modified Hamiltonian.
+    """Measures the error of a symplectic method on ``problem`` in its modified Hamiltonian.
 
-    Args:
-        tableau: an exact symplectic method.
-        problem: in as many terms as the tableau has, or in one with a natural split.
-        max_order: the order of the largest trees; powers of h up to one less.
-        t_end: the problem's own by default.
-        longest: a bound on the largest step size.
-
-    Raises:
-        UsageProblem: the method is not symplectic or not consistent, there are too many trees or
-            steps.
-        StepFailed: the stage equations of a step were not solved.
+    The problem is in as many terms as the tableau has, or in one with a natural split. Powers of h
+    go up to one less than ``max_order``; ``longest`` bounds the step size. Raises UsageProblem if
+    the method is not symplectic or not consistent, or there are too many trees or steps; StepFailed
+    if the stage equations of a step were not solved.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau

@@ -40,10 +40,7 @@ FormulaVector: TypeAlias = tuple[Formula, ...]
 class Differentials:
     """F(u) and H(u) of a problem split by the colours of a tableau.
 
-    Args:
-        tableau: the colours; their terms are indices into ``energies``.
-        problem: the problem with the unknowns.
-        energies: H^{l}, sympy expressions.
+    The terms of the colours are indices into ``energies``, the H^{l} as sympy expressions.
     """
 
     def __init__(self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]) -> None:
@@ -173,7 +170,7 @@ class PowerTerm(Frozen):
     """The coefficient of a power of h.
 
     Attributes:
-        power: of h.
+        power: the power of h.
         formulas: one for a Hamiltonian, 2d for an equation.
     """
 
@@ -218,15 +215,10 @@ class ModifiedFormula(Shown, Frozen):
 
 @doing("modified Hamiltonian of the problem")
 def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> ModifiedFormula:
-    """The modified Hamiltonian of a symplectic method, the modified equation of any other.
+    """Returns the modified Hamiltonian of a symplectic method, the modified equation of any other.
 
-    Args:
-        tableau: an exact method.
-        problem: in as many terms as the tableau has, or in one with a natural split.
-        max_order: the order of the largest trees.
-
-    Raises:
-        UsageProblem: the problem does not suit the structure, or there are too many trees.
+    The problem is in as many terms as the tableau has, or in one with a natural split. Raises
+    UsageProblem if it does not suit the structure, or there are too many trees.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau

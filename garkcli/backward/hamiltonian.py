@@ -99,9 +99,7 @@ def hamiltonian_structure(tableau: Tableau) -> Structure | None:
 class HamiltonianTerm(Frozen):
     """One term c · H(u) of h^(ρ−1) in the modified Hamiltonian.
 
-    Attributes:
-        tree: the free tree.
-        coefficient: b(u) of its representative u.
+    ``coefficient`` is b(u) of the representative u of the free tree.
     """
 
     tree: FreeTree
@@ -114,13 +112,10 @@ class HamiltonianTerm(Frozen):
 
 
 def defect(equation: ModifiedEquation, tree: FreeTree, zero: fmpq = ZERO) -> bool:
-    """Whether the coefficients of the rootings of a free tree do not belong to a Hamiltonian.
+    """Returns whether the coefficients of the rootings of a free tree do not belong to a
+    Hamiltonian.
 
-    Args:
-        equation: the coefficients.
-        tree: the free tree.
-        zero: the size up to which a difference counts as zero, for rational coefficients of a
-            rounded method.
+    Differences up to ``zero`` count as zero, for rational coefficients of a rounded method.
     """
     expected = equation[tree.representative]
     if not tree.has_hamiltonian and not is_zero(expected, zero):

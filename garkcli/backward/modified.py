@@ -21,12 +21,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class ModifiedEquation(Frozen):
-    """The coefficients b(u) of a method up to an order.
-
-    Attributes:
-        tableau: the method.
-        forest: the trees that it sees.
-        coefficients: b(u), by the indices of the trees.
+    """The coefficients b(u) of a method up to an order, by the indices of the trees in
+    ``forest``.
     """
 
     tableau: Tableau

@@ -49,11 +49,7 @@ class Cut(Frozen):
 class Forest(Frozen):
     """The admissible trees of a coupling graph up to an order, in the order of :class:`Tree`.
 
-    Attributes:
-        admissible: the class of trees.
-        max_order: the order of the largest trees.
-        trees: all trees; the index of a tree is its number.
-        cuts: for each tree its edges.
+    The index of a tree is its number; ``cuts`` has its edges.
 
     >>> forest = Forest.of(Admissible.of(1), 4)
     >>> [len(forest.of_order(n)) for n in range(1, 5)]

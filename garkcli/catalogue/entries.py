@@ -159,12 +159,9 @@ def read_range(text: str) -> Range:
 class Wanted(Frozen):
     """Conditions on methods, all of which have to hold.
 
-    Attributes:
-        values: by their keys in entries: ranges of numbers, truths, texts; unknown values
-            match nothing.
-        folder: of the catalogue; empty for any.
-        words: each is in the name, an alias, the title or the reference, or is one of the first
-            two in another spelling.
+    ``values`` are ranges of numbers, truth values or texts by the keys of entries; unknown values
+    match nothing. ``folder`` is one of the catalogue, or empty. Each of ``words`` is in the name,
+    an alias, the title or the reference, or is a name or an alias in another spelling.
     """
 
     values: Mapping[str, Range | bool | str]

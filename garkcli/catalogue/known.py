@@ -32,11 +32,9 @@ class Known(Frozen):
     """A method of the catalogue that a tableau equals, or nearly equals, up to the order of the
     stages.
 
-    Attributes:
-        method: its name.
-        within: how far apart entries are at most; None if they are equal exactly.
-        step_only: whether embedded weights differ, or one of the two has none.
-        is_same: whether that is within the rounding that both files admit.
+    ``within`` is the largest distance of entries, None if they are equal. ``step_only`` says that
+    embedded weights differ, ``is_same`` that the distance is within the rounding that both files
+    admit.
     """
 
     method: str

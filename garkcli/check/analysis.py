@@ -211,14 +211,10 @@ class MethodProof(Shown, Frozen):
 
 @doing("proof")
 def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
-    """The orders of a method, its conjugate and its pair, with spanning trees and witnesses.
+    """Returns the orders of an exact method, its conjugate and its pair, with spanning trees and
+    witnesses.
 
-    Args:
-        method: as it was loaded; its coefficients are exact.
-        limit: the order at which to stop.
-
-    Raises:
-        MethodError: the coefficients are rounded.
+    Raises MethodError for rounded coefficients.
     """
     if method.tolerance is not None:
         message = "the coefficients are rounded: an order within a tolerance has no exact proof"

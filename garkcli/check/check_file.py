@@ -28,13 +28,10 @@ def check_file(
     want_constants: bool = False,
     settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Outcome:
-    """Check one method file. A file that cannot be read gives an outcome with its faults.
+    """Checks one method file. A file that cannot be read gives an outcome with its faults.
 
-    Args:
-        path: a file, or ``-`` for standard input.
-        limit: where the search for orders stops, unless a claim of the file reaches further.
-        want_constants: compute the error constants too.
-        settings: values of its parameters, by name, in place of those in the file.
+    ``limit`` is where the search for orders stops, unless a claim is higher; ``settings`` are
+    values of parameters in place of those in the file.
     """
     try:
         method = load(path, settings)
@@ -50,12 +47,9 @@ def check_file(
 def check_method(
     method: MethodFile, limit: int = DEFAULT_LIMIT, want_constants: bool = False
 ) -> Outcome:
-    """Check a method that was read from a file.
+    """Checks a method that was read from a file.
 
-    Args:
-        method: with its claims.
-        limit: where the search for orders stops, unless a claim reaches further.
-        want_constants: compute the error constants too.
+    ``limit`` is where the search for orders stops, unless a claim is higher.
     """
     reach = max(limit, highest_order(method.claims) + 1)
     if not method.tableau.is_gark:

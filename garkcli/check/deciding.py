@@ -76,13 +76,8 @@ def analyse(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> Analysis:
-    """Decide all that ``gark check`` reports, with orders up to ``limit``.
-
-    Args:
-        tableau: the method.
-        limit: where the search for orders stops.
-        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        further: its embedded weights and its dense output.
+    """Decides all that ``gark check`` reports, with orders up to ``limit``; ``tolerance`` is None
+    for exact coefficients.
     """
     tableau.demand_fields("this analysis")
     method = meant(tableau, tolerance, further)

@@ -285,12 +285,10 @@ MOST_SAMPLES = 40
 
 
 class EveryFamily(Frozen):
-    """A family whose only relations are those of its roots. ¶ The tableau has entries in
-    ``family.parameters``, which are the free ones, and in roots of numbers.
+    """A family whose only relations are those of its roots.
 
-    Attributes:
-        family: its tableau has entries in the parameters that are left, ``family.parameters``,
-            and in roots of numbers.
+    The tableau of ``family`` has entries in ``family.parameters``, which are the remaining ones,
+    and in roots of numbers.
     """
 
     family: Family

@@ -28,11 +28,8 @@ MOST_PARTS = 100_000
 class PrintedNumber(Frozen):
     """A number of a rounded method.
 
-    Attributes:
-        printed: the number in the file.
-        radius: its largest error.
-        centre: its value in the approximate method around which an exact one exists.
-        width: the largest distance from ``centre``.
+    ``radius`` is its largest error, ``centre`` its value in the approximate method around which an
+    exact one exists, ``width`` the largest distance from it.
     """
 
     printed: fmpq
@@ -67,15 +64,10 @@ class ExistenceProof(Shown, Frozen):
 
 @doing("proof")
 def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> ExistenceProof:
-    """Proofs that a method within the rounding of a printed one has its order, and none a higher
+    """Proves that a method within the rounding of a printed one has its order, and none a higher
     one.
 
-    Args:
-        method: as it was loaded; its coefficients are rounded.
-        limit: the order at which to stop.
-
-    Raises:
-        MethodError: its coefficients are exact, or it is not proved.
+    Raises MethodError for exact coefficients, and without a proof.
     """
     rounded = meant(method.tableau, method.tolerance, method.further)
     if isinstance(rounded, Tableau):

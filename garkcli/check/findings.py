@@ -166,12 +166,7 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
 
 
 def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
-    """Returns an entry with its new and its old value.
-
-    Args:
-        repair: an entry with another value.
-        names: of the colours.
-    """
+    """Returns an entry with its new and its old value."""
     colours = [repair.l] if repair.i is None or repair.m is None else [repair.l, repair.m]
     letter = "b" if len(colours) == 1 else "a"
     indices = (repair.j,) if repair.i is None or repair.m is None else (repair.i, repair.j)
@@ -182,12 +177,7 @@ def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
 
 
 def sum_text(found: WrongSum, names: Sequence[str]) -> Reason:
-    """Returns a sum with its actual and its expected value.
-
-    Args:
-        found: that of weights or of a row.
-        names: of the colours.
-    """
+    """Returns a sum of weights or of a row with its actual and its expected value."""
     if found.m is None or found.i is None:
         kind = "embedded weights" if found.is_embedded else "weights"
         whose = [Place("b", names_of([found.l], names))] if len(names) > 1 else []
@@ -240,12 +230,9 @@ OTHER_DEGREE = "leave out the degree: the rule then takes one that keeps the ord
 class Finding(Frozen):
     """A remark on a file, as formats for machines have it.
 
-    Attributes:
-        remark: on line 1 and column 1 where the place is unknown.
-        rule: a key of ``KINDS``, or the code of a remark on a table.
-        file: the path as given, with forward slashes.
-        fingerprint: the same as long as the same thing is wrong with the same file, wherever it
-            is in it.
+    ``rule`` is a key of ``KINDS``, or the code of a remark on a table. ``remark`` is on line 1 and
+    column 1 if the place is unknown. ``file`` is the path as given, with forward slashes.
+    ``fingerprint`` does not depend on the place in the file.
     """
 
     remark: Remark
@@ -261,7 +248,7 @@ KINDS = {
     "no-claim": "the file lacks a claim that is required",
     "loses-pair-order": "a transfer rule loses the order of the pair",
 }
-"""Every kind of remark on a method file, in words."""
+"""The kinds of remarks on a method file, in words."""
 
 
 def _unmet(outcome: Outcome, claim: Claim) -> Remark:
@@ -275,7 +262,7 @@ def _unmet(outcome: Outcome, claim: Claim) -> Remark:
 
 
 def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
-    """Rules and remarks, with keys that stay the same as long as the same is wrong."""
+    """Yields rules and remarks, with keys that do not depend on the place in the file."""
     seen: Counter[str] = Counter()
     for fault in outcome.faults:
         yield "unreadable", fault, f"{fault.message}\0{seen[fault.message]}"

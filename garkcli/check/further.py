@@ -18,12 +18,8 @@ from garkcli.tableau.tableau import Tableau
 class EmbeddedFacts(Frozen):
     """The orders of embedded weights, and their error estimate.
 
-    Attributes:
-        tableau: the method with them in place of b.
-        order: their order.
-        nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None if
-            not applicable.
-        estimator: the error estimate.
+    ``tableau`` is the method with them in place of b; ``nonautonomous_order``, on problems ẏ = f(t,
+    y) with the nodes as printed, is None if not applicable.
     """
 
     tableau: Tableau
@@ -33,13 +29,9 @@ class EmbeddedFacts(Frozen):
 
 
 class DenseFacts(Frozen):
-    """The order and the continuity of dense output.
+    """The order, for all θ, and the continuity of dense output.
 
-    Attributes:
-        order: the order for all θ.
-        degree: the degree of its polynomials.
-        ends_at_step: whether b(1) = b.
-        slopes: whether its slope is continuous from step to step.
+    ``ends_at_step`` says that b(1) = b.
     """
 
     order: DenseOrder
@@ -87,15 +79,9 @@ def estimate(
     limit: int,
     spans: StageSpans | None = None,
 ) -> Estimator:
-    """Returns the error estimate of embedded weights. ¶ ``orders`` are those of the method and with
-    these weights.
+    """Returns the error estimate of embedded weights.
 
-    Args:
-        method: the tableau, with its rounding where it is rounded.
-        weights: a row per colour.
-        orders: of the method and with these weights.
-        limit: where the search for orders stops.
-        spans: of the stage vectors, where some are known.
+    ``orders`` are those of the method and with these weights.
     """
     order, other = orders
     smaller = other if other.order < order.order else order

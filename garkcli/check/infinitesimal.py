@@ -16,11 +16,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 class InfinitesimalAnalysis(OrderFacts, kw_only=True):
-    """The orders of a multirate infinitesimal method whose fast problems are solved exactly. Its
+    """The orders of a multirate infinitesimal method whose fast problems are solved exactly; its
     tableau has collocation in their place.
 
-    Attributes:
-        slow_order: where the fast part is 0: that of its slow method.
+    ``slow_order`` is that of the slow method, for a fast part 0.
     """
 
     slow_order: AnyOrder

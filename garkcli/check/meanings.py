@@ -49,12 +49,7 @@ class Meaning(Frozen):
 
 
 class Sense(Frozen):
-    """A kind of words.
-
-    Attributes:
-        names: the words of this kind, each with its other spellings.
-        mean: the meaning of a name.
-    """
+    """A kind of words, with their other spellings and a function that gives their meaning."""
 
     names: Mapping[str, tuple[str, ...]]
     mean: Callable[[str], Meaning]
@@ -86,10 +81,9 @@ def term_meaning(term: Term) -> Meaning:
 
 
 def claim_meaning(key: str) -> Meaning:
-    """Returns the meaning of a claim of a method file. ¶ Raises UsageProblem for an unknown claim.
+    """Returns the meaning of a claim of a method file.
 
-    Raises:
-        UsageProblem: there is no such claim.
+    Raises UsageProblem for an unknown claim.
     """
     from garkcli.properties.definitions import definition
 
@@ -247,10 +241,9 @@ def _known(word: str) -> list[tuple[Sense, str]]:
 
 
 def _of_message(text: str) -> Meaning:
-    """Returns the meaning of an error message. ¶ Raises UsageProblem if it is unknown.
+    """Returns the meaning of an error message.
 
-    Raises:
-        UsageProblem: it is none.
+    Raises UsageProblem if it is unknown.
     """
     code = code_of(text.removeprefix("gark: "), _SURELY)
     if code == UNKNOWN:

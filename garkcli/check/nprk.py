@@ -32,13 +32,8 @@ def analyse_nprk(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NprkAnalysis:
-    """Decide all that ``gark check`` reports of a nonlinearly partitioned method.
-
-    Args:
-        tableau: of the method.
-        limit: where the search for orders stops.
-        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        further: its embedded weights.
+    """Decides all that ``gark check`` reports of a nonlinearly partitioned method, with orders up
+    to ``limit``.
     """
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if further and method is tableau else None

@@ -37,13 +37,8 @@ _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Nyström 
 
 
 class NystromOrders(Frozen):
-    """The orders of weights at the stages of a Nyström method.
-
-    Attributes:
-        tableau: the tableau of the method.
-        order: the order in both components, the smaller one.
-        position_order: the order in q.
-        velocity_order: the order in q′.
+    """The orders of weights at the stages of a Nyström method; ``order`` is the smaller one of both
+    components.
     """
 
     tableau: Tableau
@@ -66,11 +61,8 @@ class NystromOrders(Frozen):
 
 
 class NystromDense(DenseFacts):
-    """The order of dense output. The slope of q should be q′ at both ends.
-
-    Attributes:
-        position_order: for all θ, of q.
-        velocity_order: likewise of q′.
+    """The orders of dense output in q and q′, for all θ. The slope of q should be q′ at both
+    ends.
     """
 
     position_order: DenseOrder
@@ -102,12 +94,7 @@ def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> Ends:
 
 
 class EmbeddedOrders(Frozen):
-    """The orders of embedded weights, and their error estimate.
-
-    Attributes:
-        orders: of the method with them for b̄ and b.
-        estimator: the estimate of the error that they give.
-    """
+    """The orders of embedded weights in place of b̄ and b, and their error estimate."""
 
     orders: NystromOrders
     estimator: Estimator
@@ -166,14 +153,7 @@ def analyse_nystrom(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NystromAnalysis:
-    """Decide all that ``gark check`` reports of a Nyström method.
-
-    Args:
-        tableau: of the method.
-        limit: where the search for orders stops.
-        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        further: its embedded weights and its dense output.
-    """
+    """Decides all that ``gark check`` reports of a Nyström method, with orders up to ``limit``."""
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if method is tableau else None
     orders = NystromOrders.of(method, limit, spans)

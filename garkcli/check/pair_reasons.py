@@ -26,10 +26,8 @@ if TYPE_CHECKING:
 class PairReason(Frozen):
     """The consequences of B, C, D and the even condition for the order of the pair.
 
-    Attributes:
-        order: the least order of the pair; None if the theorem does not apply.
-        parts: the reason, and the conditions missing for the next order.
-        is_sharp: whether the order is not larger, by this theorem.
+    ``order`` is a lower bound, sharp if ``is_sharp``, None if the theorem does not apply; ``parts``
+    are the reason, and the conditions missing for the next order.
     """
 
     order: int | None
@@ -194,9 +192,7 @@ def is_lost(reason: str) -> bool:
 class Fit(Frozen):
     """Whether a block by a rule preserves the least pair order of the diagonal methods.
 
-    Attributes:
-        keeps: whether it does; None if that depends on the entries.
-        numbers: the numbers that decide it, as text.
+    ``keeps`` is None if that depends on the entries; ``numbers`` are those that decide it, as text.
     """
 
     keeps: bool | None

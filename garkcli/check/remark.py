@@ -34,12 +34,10 @@ COARSEST = -1
 class RoundingHint(Frozen):
     """A remark on the digits of a file: its missing tolerance, or its wrong entry.
 
-    Attributes:
-        order: the order that the method would have.
-        of: which order: ``order`` or ``embedded-order``.
-        exponent: the tolerance to write is 10 to this power; None if an entry is wrong.
-        repairs: the entries of which one is wrong, with their correct values, the smallest changes
-            first.
+    ``order`` is that which the method would have, ``of`` says whether with b or the embedded
+    weights. The tolerance to write is 10 to the power ``exponent``, None if an entry is wrong;
+    ``repairs`` are the entries of which one is wrong, with their correct values, the smallest
+    changes first.
     """
 
     order: int

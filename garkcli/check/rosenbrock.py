@@ -25,15 +25,12 @@ if TYPE_CHECKING:
 
 
 class RosenbrockOrders(Frozen):
-    """The orders of weights at the stages of a Rosenbrock method.
+    """The orders of weights at the stages of a Rosenbrock method: with the Jacobian, with any
+    matrix, with a matrix that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the
+    file.
 
-    Attributes:
-        method: the method with the Jacobian; a rounded one has a search of its own, refined by each
-            order on DAEs, so that the results are consistent.
-        order: the order with the Jacobian.
-        w_order: the order with any matrix in its place.
-        old_jacobian_order: the order with a matrix that differs from it by O(h).
-        nonautonomous_order: the order on problems ẏ = f(t, y), with the c and d of the file.
+    A rounded ``method`` has a search of its own, refined by each order on DAEs, so that the results
+    are consistent.
     """
 
     method: AnyTableau
@@ -104,12 +101,7 @@ class RosenbrockOrders(Frozen):
 
 
 class EmbeddedOrders(Frozen):
-    """The orders of embedded weights, and their error estimate.
-
-    Attributes:
-        orders: of the method with them for b.
-        estimator: the estimate of the error that they give.
-    """
+    """The orders of embedded weights in place of b, and their error estimate."""
 
     orders: RosenbrockOrders
     estimator: Estimator
@@ -208,13 +200,8 @@ def analyse_rosenbrock(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> RosenbrockAnalysis:
-    """Decide all that ``gark check`` reports of a Rosenbrock method.
-
-    Args:
-        tableau: of the method with the Jacobian.
-        limit: where the search for orders stops.
-        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        further: its embedded weights and its dense output.
+    """Decides all that ``gark check`` reports of a Rosenbrock method, with orders up to
+    ``limit``.
     """
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if method is tableau else None

@@ -45,11 +45,8 @@ DIGITS = 12
 class TrueClaims(Frozen):
     """True claims of one method.
 
-    Attributes:
-        file: the path.
-        claims: values in YAML by key.
-        left: requested claims that do not apply or are undecided.
-        analysis: the analysis of the method.
+    ``claims`` has the values in YAML by key; requested claims that do not apply or are undecided
+    are ``left``.
     """
 
     file: str

@@ -157,18 +157,10 @@ class Comparison(Shown, Frozen):
 def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
     """Compare two methods.
 
-    Methods are the same where a renumbering of stages or colours turns one into the other, once
-    colours that share stages have copies of their own, and stages without influence and equal
-    stages are left out.
-
-    Args:
-        one: a loaded method, or one from arrays.
-        other: another.
-        limit: where the search for orders stops.
-
-    Raises:
-        MethodError: one is a Rosenbrock, Nyström or nonlinearly partitioned method, or a multirate
-            one with ``fast: exact``, and the other is not.
+    Methods are the same if renumbering stages or colours turns one into the other, after colours
+    that share stages were given copies of them, and equal or redundant stages were removed. Orders
+    are sought up to ``limit``. Raises MethodError for methods of different kinds, if one is a
+    Rosenbrock, Nyström or nonlinearly partitioned method, or a multirate one with ``fast: exact``.
 
     >>> from garkcli.methodfile.load import loads
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")

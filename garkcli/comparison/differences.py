@@ -19,11 +19,8 @@ from garkcli.tableau.pointwise import Block, Cell
 class EntryGap(Frozen):
     """An entry that differs.
 
-    Attributes:
-        row: its row from 0; None in weights and nodes.
-        entry: its place in the row from 0.
-        one, other: the entries.
-        is_open: whether enclosures cannot tell them apart.
+    ``row`` and ``entry`` count from 0; ``row`` is None in weights and nodes. ``is_open`` says that
+    enclosures cannot tell the two apart.
     """
 
     row: int | None
@@ -40,15 +37,11 @@ class EntryGap(Frozen):
 class BlockGap(Frozen):
     """A block, or a row of weights or nodes, that differs.
 
-    Attributes:
-        kind: ``A``, ``b``, ``c``, ``embedded`` or ``dense``; ``alpha``, ``beta`` and ``c + d`` of
-            Rosenbrock methods; ``Abar``, ``bbar`` and ``embedded bbar`` of Nyström methods.
-        colour: the colour whose stages it belongs to, from 0.
-        seen: of a block the colour that they see, from 0; None otherwise.
-        power: of dense weights the power of θ; 0 otherwise.
-        entries: how many entries it has; 0 where the shapes differ.
-        gaps: the entries that differ.
-        shapes: the shapes where these differ, in words; empty otherwise.
+    ``kind`` is ``A``, ``b``, ``c``, ``embedded`` or ``dense``; ``alpha``, ``beta`` or ``c + d`` of
+    Rosenbrock methods; ``Abar``, ``bbar`` or ``embedded bbar`` of Nyström methods. ``colour`` is
+    that of its stages, from 0, ``seen`` the second colour of a block, ``power`` that of θ in dense
+    weights. If the shapes differ, ``shapes`` has them in words, and ``entries``, the number of
+    entries, is 0.
     """
 
     kind: str
@@ -156,9 +149,8 @@ MAX_CONDITIONS = 2000
 class Met(Frozen):
     """The conditions that only one of two methods fulfils.
 
-    Attributes:
-        order: all conditions up to this order were compared.
-        pairs: for each tree with one verdict for each method the two conditions.
+    All conditions up to ``order`` were compared; ``pairs`` has the conditions of both methods for
+    the trees with different verdicts.
     """
 
     order: int

@@ -1,7 +1,6 @@
-"""Methods as compared: by colours and entries. ¶ Two entries are equal exactly, or within the
-rounding that their files admit.
+"""Methods as compared: by colours and entries.
 
-Two entries count as the same exactly, or within the rounding that their files admit.
+Two entries are equal exactly, or within the rounding that their files admit.
 """
 
 from __future__ import annotations
@@ -30,12 +29,8 @@ CellRows: TypeAlias = tuple[Row, ...]
 class Grid(Frozen):
     """The entries of a method in which each colour has its own stages.
 
-    Attributes:
-        A: ``A[l][m]`` is a block, or None.
-        b, c: a row per colour.
-        embedded: the embedded weights, or None.
-        powers: what is before θ, θ², … in the dense weights.
-        kinds: for each colour what its vertices are like.
+    ``A[l][m]`` is a block or None; ``powers`` are the coefficients of θ, θ², … in the dense
+    weights; ``kinds`` are those of the vertices of each colour.
     """
 
     A: tuple[tuple[Block, ...], ...]
@@ -133,10 +128,8 @@ def _ball(cell: Cell) -> arb:
 
 
 class Likeness(Frozen):
-    """The comparison of entries.
-
-    Attributes:
-        allowed: how far rounding may have moved two equal entries apart; 0 where both are exact.
+    """The comparison of entries, where rounding may have moved equal ones apart by ``allowed``; 0
+    if both are exact.
     """
 
     allowed: fmpq = ZERO

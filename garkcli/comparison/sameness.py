@@ -122,12 +122,10 @@ MOST_COLOURS = 5
 class Sameness(Frozen):
     """The correspondence of two methods, with numbers from 0.
 
-    Attributes:
-        colours: for each colour of the first the colour of the second that it is.
-        stages: for each colour of the first the stages of the second that its stages are.
-        is_reduced: whether stages without influence, or equal ones, are left out before.
-        step_only: whether further weights, embedded or dense ones, differ all the same.
-        allowed: the rounding within which entries are equal; 0 where they are equal exactly.
+    ``colours`` and ``stages`` have the colours and stages of the second method for those of the
+    first. ``is_reduced`` says that redundant or equal stages were removed, ``step_only`` that the
+    further weights differ. ``allowed`` is the rounding within which entries are equal, 0 if
+    exactly.
     """
 
     colours: tuple[int, ...]
@@ -151,11 +149,8 @@ class Sameness(Frozen):
 
 
 class Answer(Frozen):
-    """The result of a search for a correspondence.
-
-    Attributes:
-        sameness: how; None if they are not, or if it is not known.
-        obstacle: why it is not known; empty where it is.
+    """The result of a search for a correspondence; None if there is none, or if it is unknown
+    because of ``obstacle``.
     """
 
     sameness: Sameness | None
@@ -163,11 +158,8 @@ class Answer(Frozen):
 
 
 class Views(Frozen):
-    """The entries of two methods.
-
-    Attributes:
-        one, other: their entries.
-        sheets: the same exactly, from one field; None if enclosures are compared.
+    """The entries of two methods, and the exact ones in one field; None if enclosures are
+    compared.
     """
 
     one: Grid

@@ -53,12 +53,7 @@ def refuse_large(stages: int, cure: str) -> None:
 
 
 class Substep(Frozen):
-    """A substep of a composition.
-
-    Attributes:
-        tableau: its method, on point stages.
-        fraction: the fraction of the step, possibly negative.
-    """
+    """A substep of a composition, on point stages; the fraction of the step may be negative."""
 
     tableau: Tableau
     fraction: Number
@@ -179,11 +174,10 @@ Flow = tuple[int, Number]
 
 
 def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
-    """A splitting method of a separable Hamiltonian: part 0 moves q, part 1 moves p.
+    """Returns a splitting method of a separable Hamiltonian: part 0 moves q, part 1 moves p.
 
-    Args:
-        flows: in order; flows of length 0 are left out.
-        is_nystrom: whether velocities are linear in the momenta.
+    ``flows`` of length 0 are left out; ``is_nystrom`` says that velocities are linear in the
+    momenta.
     """
     nothing: Vector = ()
     drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
@@ -194,11 +188,9 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
 
 
 def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
-    """A splitting method for ẏ = Σ f^{l}(y), with one colour for each part.
+    """Returns a splitting method for ẏ = Σ f^{l}(y), with one colour for each part.
 
-    Args:
-        methods: the method of each part, on point stages.
-        flows: in order; flows of length 0 are left out.
+    ``methods`` has the method of each part on point stages; ``flows`` of length 0 are left out.
     """
     parts = [alone(methods, l) for l in range(len(methods))]
     return composed([Substep(parts[l], g) for l, g in flows if g])
@@ -270,21 +262,16 @@ def _turn(space: StageSpace) -> Matrix:
 
 
 def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: bool) -> Tableau:
-    """The extrapolated method with equal stages merged: a combination of numbers of substeps that
-    cancels powers of h.
+    """Returns the extrapolated method with equal stages merged: a combination of numbers of
+    substeps that cancels powers of h.
 
     E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, section II.9:
     the error of a method of order p with n equal substeps has an expansion in h^p, h^(p+1), …, that
     of a symmetric method in h^p, h^(p+2), …
 
-    Args:
-        base: the method, on point stages.
-        parts: the number of equal substeps in each row of the extrapolation table.
-        order: the order of the base.
-        is_symmetric: whether its error has only every second power.
-
-    Raises:
-        MethodError: there are too many stages.
+    ``base`` is on point stages; ``parts`` has the number of equal substeps in each row of the
+    extrapolation table, ``order`` is that of the base. Raises MethodError if there are too many
+    stages.
     """
     refuse_large(count_stages(base) * sum(parts), "extrapolate fewer times, or a smaller method")
     gap = 2 if is_symmetric else 1

@@ -122,14 +122,12 @@ def following(
     matrices: tuple[tuple[Matrix, ...], ...],
     embedded: tuple[Powers, ...] | None = None,
 ) -> Coupling:
-    """A coupling in which every fast problem begins where the one before ends; MIS, MRI-GARK,
-    IMEX-MRI-GARK.
+    """Returns a coupling in which every fast problem begins where the one before ends; MIS,
+    MRI-GARK, IMEX-MRI-GARK.
 
-    Args:
-        nodes: from 0 to 1, the last one for the end of the step.
-        matrices: for each slow part the matrices of τ⁰, τ¹, …; row i leads from stage i to the
-            next, with a column for each node.
-        embedded: for each slow part the rows from the last stage but one to the embedded value.
+    ``nodes`` go from 0 to 1, the last one for the end of the step. ``matrices`` are for each slow
+    part those of τ⁰, τ¹, …; row i leads from stage i to the next, with a column for each node.
+    ``embedded`` has for each slow part the rows from the last stage but one to the embedded value.
     """
     columns = len(nodes)
     intervals = [
@@ -157,15 +155,12 @@ def restarted(
     after: Matrix | None = None,
     embedded_after: Vector | None = None,
 ) -> Coupling:
-    """A coupling in which every fast problem begins at y_n and goes on to c_i; IMEX-MRI-SR.
+    """Returns a coupling in which every fast problem begins at y_n and goes on to c_i; IMEX-MRI-SR.
 
-    Args:
-        nodes: from 0, in any order; the last one is 1.
-        forcing: for each slow part the matrices of τ⁰, τ¹, …, τ = 1 at c_i; row i leads to the
-            stage after stage i.
-        embedded: for each slow part the rows to the embedded value at 1.
-        after: the correction by the last slow part after each fast problem.
-        embedded_after: the correction of the embedded value.
+    ``nodes`` begin with 0 and end with 1, in any order between. ``forcing`` has for each slow part
+    the matrices of τ⁰, τ¹, …, τ = 1 at c_i; row i leads to the stage after stage i. ``embedded``
+    has for each slow part the rows to the embedded value at 1. ``after`` is the correction by the
+    last slow part after each fast problem, ``embedded_after`` that of the embedded value.
     """
     zeros = _zeros(len(nodes))
     before = ((),) * (len(forcing) - 1)
@@ -388,16 +383,11 @@ def collocation_at(nodes: Vector) -> Method:
 def infinitesimal(
     coupling: Coupling, plan: Plan, fast: Method | None = None, steps: int = 1
 ) -> tuple[Tableau, Further]:
-    """The method with its embedded weights.
+    """Returns the method with its embedded weights.
 
-    Args:
-        coupling: the coupling of the slow stages.
-        plan: its plan.
-        fast: the method of the small steps, on point stages; None for the exact solution.
-        steps: the number of small steps between two slow stages that are apart in time.
-
-    Raises:
-        MethodError: there are too many stages.
+    ``fast`` is the method of the small steps, on point stages; None for the exact solution.
+    ``steps`` is their number between two slow stages that are apart in time. Raises MethodError if
+    there are too many stages.
     """
     if fast is not None:
         refuse_large(len(coupling.every) * (steps * fast.stages + 2), SMALLER)
@@ -424,12 +414,11 @@ def interpolation(slow: Method) -> Powers:
 
 
 def plan_for_predictor(slow: Method, forcing: Iterable[Powers], fast: Method | None) -> Plan:
-    """The plan for a slow method that takes the step for both parts before the fast problem.
+    """Returns the plan for a slow method that takes the step for both parts before the fast
+    problem.
 
-    Args:
-        slow: the method.
-        forcing: the forcing of the fast problem, and for the embedded value.
-        fast: the method of the small steps; None for the exact solution.
+    ``forcing`` is that of the fast problem, and for the embedded value; ``fast`` is the method of
+    the small steps, None for the exact solution.
     """
     s = slow.stages
     stages = tuple(range(s))

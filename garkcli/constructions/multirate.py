@@ -143,11 +143,10 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
 
 
 class Blocks(Frozen):
-    """Coupling matrices, one of each kind for every small step.
+    """Coupling matrices, one of each kind for every small step λ.
 
-    Attributes:
-        fast_slow: A^{f,s,λ}, a row for each fast stage.
-        slow_fast: A^{s,f,λ}, a row for each slow stage; its entries are in small steps.
+    ``fast_slow`` are A^{f,s,λ}, with a row for each fast stage, ``slow_fast`` A^{s,f,λ}, with a row
+    for each slow stage; their entries are in small steps.
     """
 
     fast_slow: tuple[Matrix, ...]

@@ -33,15 +33,10 @@ class Pairs(PointSpace):
 
 
 def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau, Vector | None]:
-    """The tableau of a method, with the pairs in use as stages.
+    """Returns the tableau of a method, with the pairs in use as stages, and the embedded weights at
+    its stages.
 
-    Args:
-        a: a matrix for each stage.
-        b: a row for each first argument.
-        embedded: further weights of the same shape.
-
-    Returns:
-        the tableau, and the embedded weights at its stages.
+    ``a`` has a matrix for each stage, ``b`` and ``embedded`` a row for each first argument.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order

@@ -177,14 +177,10 @@ def weights_of(bbar: Vector, b: Vector) -> Weights:
 
 
 def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
-    """Dense output q + θhq′ + h² Σ b̄_i(θ) g_i, q′ + h Σ b_i(θ) g_i.
+    """Returns dense output q + θhq′ + h² Σ b̄_i(θ) g_i, q′ + h Σ b_i(θ) g_i.
 
-    Args:
-        bbar: for each stage the coefficients of θ, θ², … in b̄_i.
-        b: the coefficients of b_i; None if q′ is the slope of q.
-
-    Raises:
-        MethodError: the slope of q does not begin with q′.
+    ``bbar`` has for each stage the coefficients of θ, θ², … in b̄_i, ``b`` those in b_i, None if q′
+    is the slope of q. Raises MethodError if the slope of q does not begin with q′.
     """
     if b is None:
         if any(row[0] for row in bbar):
@@ -197,17 +193,10 @@ def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
 
 
 def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) -> Nystrom:
-    """A Nyström method.
+    """Returns a Nyström method.
 
-    Args:
-        Abar: shape (s, s).
-        A: shape (s, s); None if g depends on q only.
-        c: length s.
-        bbar: length s.
-        b: length s.
-
-    Raises:
-        ShapeMismatch: the shapes do not fit.
+    ``Abar`` and ``A`` have the shape (s, s), ``A`` is None if g depends on q only. Raises
+    ShapeMismatch if the shapes do not fit.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order

@@ -28,10 +28,7 @@ Numbers: TypeAlias = Sequence[Any]
 class Steps(Frozen):
     """An executed explicit method.
 
-    Attributes:
-        A: shape (s, s).
-        b: the weights.
-        starts: the coefficient of the initial value in each stage and in the final value: all 1.
+    ``starts`` has the coefficient of the initial value in each stage and in the final value: all 1.
     """
 
     A: Sequence[Numbers]
@@ -185,15 +182,11 @@ def ahead(b: Numbers, A: Numbers) -> Steps:
 
 
 def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
-    """Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit method.
+    """Returns Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit
+    method.
 
-    Args:
-        alpha: a row for each stage after the first, and one for the final value; a row of zeros may
-            precede them.
-        beta: like ``alpha``.
-
-    Raises:
-        MethodError: a value needs a later one.
+    ``alpha`` and ``beta`` have a row for each stage after the first, and one for the final value; a
+    row of zeros may precede them. Raises MethodError if a value needs a later one.
     """
     if alpha and beta and all(x == 0 for x in (*alpha[0], *beta[0])):
         alpha, beta = alpha[1:], beta[1:]
@@ -249,16 +242,10 @@ OF_FILES: Mapping[str, Callable[..., Steps]] = {
 def as_butcher(
     scheme: str, numbers: Sequence[Any], c: Vector | None = None, grain: Any = 0
 ) -> Method:
-    """The Runge–Kutta method of a scheme.
+    """Returns the Runge–Kutta method of a scheme in ``OF_FILES``.
 
-    Args:
-        scheme: a name of ``OF_FILES``.
-        numbers: its coefficients.
-        c: the nodes; None for the row sums.
-        grain: the rounding of the nodes.
-
-    Raises:
-        MethodError: they are not a method, or a stage does not begin at the initial value.
+    ``c`` is None for the row sums; ``grain`` is the rounding of the nodes. Raises MethodError if
+    the numbers are not a method, or a stage does not begin at the initial value.
     """
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
@@ -285,15 +272,10 @@ FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {
 
 
 def nystrom(A: Sequence[Numbers], b: Numbers, c: Numbers) -> tuple[list[Numbers], Numbers]:
-    """The weights of velocities in the positions of a Nyström method, as a pair (q, p).
+    """Returns the weights of velocities in the positions of a Nyström method, as a pair (q, p).
 
-    Args:
-        A: Ā, the forces in the positions.
-        b: b̄, the forces in the final position.
-        c: the nodes.
-
-    Returns:
-        for each position and for the final one, a weight more than there are forces.
+    ``A`` is Ā, the forces in the positions, ``b`` b̄, those in the final position. There is, for
+    each position and for the final one, a weight more than there are forces.
     """
     first = [node - sum(row) for node, row in zip(c, A, strict=True)]
     return [[x, *row] for x, row in zip(first, A, strict=True)], [1 - sum(b), *b]

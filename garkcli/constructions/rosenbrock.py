@@ -214,10 +214,10 @@ class Rosenbrock(Frozen):
         return tuple(tuple(map(add, *rows)) for rows in zip(self.alpha, self.gamma, strict=True))
 
     def _tableau(self, *kinds: tuple[str, Kind, Blocks]) -> Tableau:
-        """The tableau whose colours of each kind see all others through blocks of their own.
+        """Returns the tableau whose colours of each kind see all others through blocks of their
+        own.
 
-        Args:
-            kinds: a letter, the kind of vertices, and the blocks.
+        ``kinds`` are a letter, the kind of vertices, and the blocks.
         """
         N = len(self.b)
         c, d = self.nodes
@@ -316,15 +316,10 @@ def _times(further: Further, matrix: Matrix) -> Further:
 
 
 def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
-    """A Rosenbrock method of one colour.
+    """Returns a Rosenbrock method of one colour.
 
-    Args:
-        alpha: shape (s, s), lower triangular or any other.
-        gamma: shape (s, s).
-        b: length s.
-
-    Raises:
-        ShapeMismatch: the shapes do not fit.
+    ``alpha`` and ``gamma`` have the shape (s, s), ``b`` has length s. Raises ShapeMismatch if the
+    shapes do not fit.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -342,16 +337,10 @@ def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
 
 
 def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
-    """A method from the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
+    """Returns a method from the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
 
-    Args:
-        A: shape (s, s).
-        C: shape (s, s); zero on and above its diagonal.
-        gamma: γ_ii of each stage.
-        m: length s.
-
-    Raises:
-        MethodError: a γ_ii is zero, or an entry of C on or above the diagonal is not.
+    ``gamma`` has γ_ii of each stage. Raises MethodError if a γ_ii is zero, or C has a nonzero entry
+    on or above the diagonal.
     """
     full = _full(C, gamma)
     return rosenbrock(multiply(A, full), full, apply_left(m, full))
@@ -360,12 +349,8 @@ def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
 class Stored(Frozen):
     """A method of one colour in the stored form; see ``transformed``.
 
-    Attributes:
-        A: α Γ⁻¹.
-        C: diag(1/γ_ii) − Γ⁻¹.
-        gamma: the γ_ii.
-        m: b Γ⁻¹.
-        further: its embedded weights and its dense output, at the stages of this form.
+    ``A`` is α Γ⁻¹, ``C`` diag(1/γ_ii) − Γ⁻¹, ``gamma`` the γ_ii, ``m`` b Γ⁻¹; ``further`` are the
+    embedded weights and the dense output at the stages of this form.
     """
 
     A: Matrix
@@ -376,14 +361,10 @@ class Stored(Frozen):
 
 
 def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
-    """The stored form of a method of one colour.
+    """Returns the stored form of a method of one colour with γ lower triangular, and its further
+    weights.
 
-    Args:
-        method: a method of one colour with γ lower triangular.
-        further: its embedded weights and its dense output.
-
-    Raises:
-        MethodError: γ is not lower triangular, or a γ_ii is zero.
+    Raises MethodError if γ is not lower triangular, or a γ_ii is zero.
 
     >>> from flint import fmpq
     >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)

@@ -108,23 +108,16 @@ def converge(
 ) -> Convergence:
     """Tests the convergence of ``tableau`` on ``problem``.
 
-    Args:
-        tableau: a method of any structure.
-        problem: in as many terms as the tableau has, or in one with a natural split. The oscillator
-            is solved by the exact step map. By default the problem with random coefficients that
-            sees every tree of the structure.
-        t_end: the problem's own by default, 4/ω for the oscillator.
-        steps: step sizes that divide ``t_end``; by default the ladder of
-            ``garkcli.convergence.ladder``.
-        tolerance: the rounding of the coefficients; slopes may then end on a plateau.
-        is_timed: whether to measure the time of the steps in floats as well.
-        order: the order, if more than the coefficients is known, as for the pair of a rounded
-            method.
+    The problem is in as many terms as the tableau has, or in one with a natural split; the
+    oscillator is solved by the exact step map; by default it is the problem with random
+    coefficients that sees every tree of the structure. ``steps`` divide ``t_end``. ``tolerance`` is
+    the rounding of the coefficients; slopes may then end on a plateau. ``is_timed`` measures the
+    time of the steps in floats as well. ``order`` is given if more than the coefficients is known,
+    as for the pair of a rounded method.
 
-    Raises:
-        UsageProblem: the problem does not suit the structure, a step does not divide ``t_end``, or
-            the stage equations of a given step are singular.
-        StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
+    Raises UsageProblem if the problem does not suit the structure, a step does not divide
+    ``t_end``, or the stage equations of a given step are singular; StepFailed if Newton's method
+    fails for a given step size, or for all of the default ladder.
 
     >>> from garkcli import hamiltonian, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau

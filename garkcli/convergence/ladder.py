@@ -41,19 +41,13 @@ _ABOVE = 300
 
 
 def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
-    """The rows of the default ladder, and the number of last rows that show the rounding of
+    """Returns the rows of the default ladder, and the number of last rows that show the rounding of
     coefficients.
 
     Step sizes that are too large for Newton's method, and poles of a step map, are left out. If the
-    method makes no error, there is a single row with the error 0.
-
-    Args:
-        solver: the method on the problem.
-        is_timed: whether costs are compared: then the ladder keeps its coarse steps, as large
-            errors are needed too.
-
-    Raises:
-        StepFailed: Newton's method fails for steps that are not coarse.
+    method makes no error, there is a single row with the error 0. With ``is_timed`` costs are
+    compared, and the ladder keeps its coarse steps, as large errors are needed too. Raises
+    StepFailed if Newton's method fails for steps that are not coarse.
     """
     rows: list[Row] = []
     is_small: list[bool] = []
@@ -108,11 +102,10 @@ def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
 
 
 def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
-    """Whether the ladder may end with the last of ``rows``.
+    """Returns whether the ladder may end with the last of ``rows``, all so far from the largest
+    step down.
 
-    Args:
-        rows: all so far, from the largest step down.
-        is_small: for each whether its error is at most ``LARGEST`` of the solution.
+    ``is_small`` says for each whether its error is at most ``LARGEST`` of the solution.
     """
     if len(rows) - _first_small(is_small) >= MAX_ROWS:
         return True
@@ -185,15 +178,11 @@ def unspoilt_order(solver: Solver, h: fmpq) -> int:
 
 
 def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
-    """The number of rows at the end that show rounded coefficients instead of ``order``.
+    """Returns the number of rows at the end that show rounded coefficients instead of ``order``.
 
     They begin with the first flat row whose error may come from rounding; rows before it with an
-    error not far above it count too.
-
-    Args:
-        rows: from the largest step down.
-        order: the order before.
-        rounding: the approximate error from the rounding of the coefficients; 0 for exact ones.
+    error not far above it count too. ``rounding`` is the approximate error from the rounding of the
+    coefficients; 0 for exact ones.
     """
     limit = rounding * _ABOVE
     flat = 0  # the first flat row

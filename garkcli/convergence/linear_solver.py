@@ -54,13 +54,8 @@ _AGREEING = 8
 class LinearSolver(Mutable):
     """A method on the oscillator with q(0) = 1, p(0) = ω/2; see ``Solver``.
 
-    Attributes:
-        tableau: the method.
-        step: the exact step map.
-        t_end: the time of the errors.
-        visible: the trees that the problem sees.
-        spoilt: the part of R(1/ω) that comes from the rounding of the coefficients.
-        integrators: the method by number of digits, to measure costs.
+    ``spoilt`` is the part of R(1/ω) that comes from the rounding of the coefficients;
+    ``integrators``, by number of digits, measure costs.
     """
 
     tableau: Tableau
@@ -170,17 +165,10 @@ def linear_solver(
     tolerance: fmpq | None = None,
     predicted: int = 0,
 ) -> LinearSolver:
-    """``tableau`` on ``problem`` up to ``t_end``.
+    """Returns the solver of ``tableau`` on the oscillator up to ``t_end``.
 
-    Args:
-        tableau: the method.
-        problem: the oscillator and its split.
-        t_end: the time of the errors.
-        tolerance: the rounding of the coefficients.
-        predicted: the order of the method, a lower bound of the visible order.
-
-    Raises:
-        UsageProblem: the split does not suit the structure of the tableau.
+    ``predicted`` is the order of the method, a lower bound of the visible order. Raises
+    UsageProblem if the split does not suit the structure of the tableau.
     """
     implicit = LinearlyImplicit.of(tableau)
     if implicit is not None and implicit.taken != "exact":

@@ -60,12 +60,8 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
 class Reference(Mutable):
     """The solution of a problem at one time, with the most digits requested so far.
 
-    Attributes:
-        problem: in one term.
-        t_end: the time.
-        digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 at first.
-        y: (q, p) at ``t_end``, shape (2d,).
-        steps: the steps that it took.
+    The problem is in one term. The error is below 10^(−``digits``) times the ``magnitude`` of the
+    solution; ``digits`` is 0 at first. ``y`` is (q, p) at ``t_end``, shape (2d,).
     """
 
     problem: Problem
@@ -165,11 +161,9 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
 class _Change(Frozen):
     """The change of a solution by more steps.
 
-    Attributes:
-        is_small: whether the remaining error is small enough.
-        is_far: whether the runs are unrelated.
-        factor: the factor of steps that is likely to suffice.
-        decades: the powers of ten by which it exceeds the allowed error.
+    ``is_small`` says that the remaining error is small enough, ``is_far`` that the runs are
+    unrelated. ``factor`` is the factor of steps that is likely to suffice, ``decades`` the powers
+    of ten by which the change exceeds the allowed error.
     """
 
     is_small: bool

@@ -45,12 +45,8 @@ _DECADES = (6, 12, 18)
 class SteppedSolver(Mutable):
     """A method on a problem, with results shared between step sizes; see ``Solver``.
 
-    Attributes:
-        bound: the method on the problem.
-        t_end: the time of the errors.
-        visible: the trees that the problem sees; their order determines the first number of digits.
-        tolerance: the rounding of the coefficients; None for exact ones.
-        integrators: the method by number of digits.
+    The order of the ``visible`` trees determines the first number of digits; ``integrators`` are by
+    number of digits.
     """
 
     bound: Binding

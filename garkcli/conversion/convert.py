@@ -87,21 +87,15 @@ def convert(
     digits: int | None = None,
     is_recognising: bool = False,
 ) -> Converted:
-    """Converts a method to another form.
+    """Converts a method to another form, one of ``TARGETS``.
 
-    Args:
-        method: a loaded method, or one from arrays.
-        to: one of ``TARGETS``.
-        stages: the least number of stages of each colour, filled up by unused ones in front.
-        digits: for ``recovered``: digits after the point; None for 50, or as many as the tolerance
-            has.
-        is_recognising: for ``recovered``: whether exact numbers replace decimals if all digits
-            agree and no order falls.
+    ``stages`` is the least number of stages of each colour, filled up by unused ones in front. For
+    ``recovered`` there are ``digits`` digits after the point, by default 50, or as many as the
+    tolerance has, and with ``is_recognising`` exact numbers replace decimals if all digits agree
+    and no order falls.
 
-    Raises:
-        UsageProblem: there is no such form, or ``digits`` does not apply to it.
-        CannotConvert: the method has no such form; the message says why.
-        ZeroWeight: a pair would divide by zero.
+    Raises UsageProblem if there is no such form, or ``digits`` does not apply to it; CannotConvert,
+    with the reason, if the method has no such form; ZeroWeight if a pair would divide by zero.
 
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
     >>> convert(heun, stages=3).method.A

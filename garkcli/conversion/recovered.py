@@ -83,16 +83,11 @@ class Recovered(Frozen, eq=False):
 def recovered(
     method: GarkMethod, digits: int | None = None, is_recognising: bool = False
 ) -> Recovered:
-    """The method that a rounded one is taken to mean, with ``digits`` digits after the point.
+    """Returns the method that a rounded one is taken to mean, with ``digits`` digits after the
+    point, by default 50 or those of the tolerance if more.
 
-    Args:
-        method: a method with a tolerance.
-        digits: digits after the point; None for 50, or the digits of the tolerance if more.
-        is_recognising: whether to look for exact numbers.
-
-    Raises:
-        CannotConvert: the method is exact.
-        MethodError: no more digits are known.
+    ``is_recognising`` looks for exact numbers. Raises CannotConvert for an exact method,
+    MethodError if no more digits are known.
     """
     meant = with_further(as_meant(method))
     if meant is None:

@@ -52,18 +52,11 @@ _SPARE = 100
 
 
 def text_in_form(method: GarkMethod, to: str, name: str) -> str:
-    """The file of a Rosenbrock method of one colour in one of its forms.
+    """Returns the file of a Rosenbrock method of one colour in one of ``FORMS``.
 
     Exact numbers stay exact. New decimals get two digits more than the tolerance, which is enlarged
-    to cover all methods that the old file admits.
-
-    Args:
-        method: the method.
-        to: one of ``FORMS``.
-        name: its name in the file.
-
-    Raises:
-        CannotConvert: the method has no such form.
+    to cover all methods that the old file admits. Raises CannotConvert if the method has no such
+    form.
     """
     if method.tableau.size > 2 and to == TRANSFORMED:
         message = "programs store Rosenbrock methods of one colour, and this one has more"
@@ -123,13 +116,10 @@ def _blocks(method: Rosenbrock, further: Further) -> _Parts:
 
 
 class _Places:
-    """The numbers of a form as affine forms in the rounded numbers.
+    """The numbers of a form as affine forms in the rounded numbers of a method and its further
+    weights.
 
-    Args:
-        rounded: the method with its further weights.
-        form: the form to write.
-        keys: the keys to write.
-        is_other: whether it differs from the form of the file.
+    ``is_other`` says that the form differs from that of the file.
     """
 
     def __init__(

@@ -80,12 +80,7 @@ class CannotConvert(MethodError):
 
 
 class Sheet(Frozen):
-    """A method on point stages.
-
-    Attributes:
-        tableau: over point spaces, all numbers from one field.
-        further: its embedded weights and its dense output.
-    """
+    """A method with its further weights on point stages, all numbers from one field."""
 
     tableau: Tableau
     further: Further = NOTHING
@@ -142,15 +137,10 @@ def _mapped(sheet: Sheet, field: OneField) -> Sheet:
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
-    """The method with its stages rearranged.
+    """Returns the method with its stages rearranged.
 
-    Args:
-        sheet: the method.
-        spaces: the stages of each new space.
-        homes: for each colour the new space with all its stages.
-
-    Raises:
-        CannotConvert: some stages of a new space see a colour and others do not.
+    ``spaces`` has the stages of each new space, ``homes`` for each colour the new space with all
+    its stages. Raises CannotConvert if some stages of a new space see a colour and others do not.
     """
     homes = [*homes] * (1 + len(sheet.further.rows))
 

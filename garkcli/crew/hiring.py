@@ -16,17 +16,12 @@ def hired(
     scheduler: str = "",
     limit: Limit[Item, Outcome] | None = None,
 ) -> Iterator[Workers[Item, Outcome]]:
-    """Workers as a context manager; none is left behind.
+    """Returns workers as a context manager; none is left behind.
 
-    Args:
-        work: computes the outcome of an item; all three are pickled.
-        crashed: makes the outcome of an item that ended its worker, from how it ended.
-        jobs: the number of processes.
-        scheduler: the address of a Dask scheduler to use instead.
-        limit: the time limit of an item; with one there is at least one worker process.
-
-    Raises:
-        UsageProblem: the cluster cannot be used.
+    ``work`` computes the outcome of an item, ``crashed`` that of an item that ended its worker,
+    from how it ended; both are pickled. ``scheduler`` is the address of a Dask scheduler to use
+    instead of ``jobs`` processes. With a ``limit`` on the time of an item there is at least one
+    worker process. Raises UsageProblem if the cluster cannot be used.
     """
     if scheduler:
         from garkcli.crew.cluster import Cluster

@@ -167,13 +167,7 @@ def constant(number: Any) -> arb:
 
 
 class Forms:
-    """A row of forms over the same K printed numbers.
-
-    Args:
-        centres: balls.
-        slopes: shape (forms, K).
-        remainders: one each.
-    """
+    """A row of forms over the same K printed numbers; ``slopes`` has the shape (forms, K)."""
 
     __slots__ = ("_middle", "_radii", "_reach", "centres", "remainders", "slopes")
 
@@ -284,12 +278,7 @@ class Forms:
 
 
 class FormMatrix:
-    """A matrix of forms with few slopes, kept as a sparse list of them.
-
-    Args:
-        rows: forms and exact numbers.
-        numbers: K.
-    """
+    """A matrix of forms with few slopes, kept as a sparse list of them; ``numbers`` is K."""
 
     def __init__(self, rows: Sequence[Sequence[Any]], numbers: int) -> None:
         height, width = len(rows), len(rows[0])

@@ -37,13 +37,8 @@ Task: TypeAlias = tuple[Callable[..., T], tuple[Any, ...]]
 def apart(work: Callable[..., T], *arguments: Any) -> T:
     """Returns work(*arguments), ended at the deadline; without a deadline it runs in this process.
 
-    Args:
-        work: a function of a module.
-        arguments: its arguments; they and the result are pickled.
-
-    Raises:
-        NotDecided: the time is over, the process ended without a result, or only small work is
-            done.
+    The arguments and the result are pickled. Raises NotDecided if the time is over, the process
+    ended without a result, or only small work is done.
     """
     if seconds_left() is None and not is_only_small():
         return work(*arguments)
@@ -53,11 +48,7 @@ def apart(work: Callable[..., T], *arguments: Any) -> T:
 def first_of(*tasks: Task[T]) -> T:
     """Runs each task in a process of its own and returns the first result; the others are ended.
 
-    Args:
-        tasks: ways to the same result.
-
-    Raises:
-        NotDecided: the time is over, no process had a result, or only small work is done.
+    Raises NotDecided if the time is over, no process had a result, or only small work is done.
     """
     if is_only_small():
         raise NotDecided

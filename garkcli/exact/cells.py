@@ -78,10 +78,8 @@ def where(
 ) -> tuple[Interval, ...]:
     """Returns the x ≥ ``start`` at which ``holds`` is true, as intervals in ascending order.
 
-    Args:
-        holds: decides a point; it depends on the signs of ``polynomials`` there alone.
-        polynomials: the polynomials whose signs matter; zero ones are skipped.
-        start: where the line begins; None for −∞.
+    ``holds`` decides a point by the signs of ``polynomials`` there alone; zero polynomials are
+    skipped. ``start`` is None for −∞.
     """
     roots = roots_of(polynomials)
     left = None if start is None else RealRoot.rational(start)

@@ -31,10 +31,7 @@ def candidates(
     """Yields monic candidates for the greatest common divisor over K: it is the first that divides
     both.
 
-    Args:
-        a: the coefficients in θ, lowest first, the leading one not zero.
-        b: likewise.
-        field: K.
+    ``a`` and ``b`` are the coefficients in θ, lowest first, the leading one not zero.
     """
     number = FIRST
     modulus, known, length = 1, [], None

@@ -33,10 +33,8 @@ MOST_BITS_APART = 1024
 class Image(Frozen):
     """The image u + iv of a polynomial under an embedding.
 
-    Attributes:
-        real: u.
-        imaginary: v; None for an embedding in ℝ. A complex embedding represents its conjugate too,
-            with the image u − iv.
+    ``imaginary`` is None for an embedding in ℝ. A complex embedding represents its conjugate too,
+    with the image u − iv.
     """
 
     real: arb_poly
@@ -108,13 +106,9 @@ def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
 
 
 def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
-    """The images of Σ p_k(θ) x^k, with the identity first if the field has radicals; None if two
-    conjugates of θ are too close to isolate.
+    """Returns the images of Σ p_k(θ) x^k, with the identity first if the field has radicals.
 
-    Args:
-        p: the p_k.
-        field: ℚ(θ).
-        bits: the precision of the conjugates.
+    None if two conjugates of θ are too close to isolate with ``bits`` bits.
     """
     roots = conjugates(field, bits)
     if roots is None:
@@ -141,12 +135,7 @@ def over_integers(p: Sequence[fmpq_poly]) -> list[fmpz_poly]:
 
 
 def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | None:
-    """An integer multiple of the norm of Σ p_k(θ) x^k; None as for ``images``.
-
-    Args:
-        p: the p_k; not all are zero.
-        field: ℚ(θ).
-    """
+    """Returns an integer multiple of the norm of Σ p_k(θ) x^k ≠ 0; None as for ``images``."""
     # a product over the roots of c θ^d + … of polynomials of degree n in θ becomes integral by c^n
     leading = abs(field.modulus.numer().leading_coefficient())
     scale = leading ** (max(map(len, p)) - 1)

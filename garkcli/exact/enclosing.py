@@ -20,13 +20,11 @@ from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power
 
 @lru_cache(maxsize=512)
 def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
-    """The real roots of an irreducible polynomial in ascending order, with about ``bits`` bits.
+    """Returns the real roots of an irreducible polynomial in ascending order, with about ``bits``
+    bits.
 
-    Not by python-flint's complex roots, which may take for ever if two are close.
-
-    Args:
-        coefficients: the lowest first.
-        bits: the precision.
+    ``coefficients`` begin with the lowest. Not by python-flint's complex roots, which may take for
+    ever if two are close.
 
     >>> [float(x) for x in isolated((-2, 0, 1), 64)]
     [-1.4142135623730951, 1.4142135623730951]

@@ -74,12 +74,9 @@ def parse(text: str) -> Expression:
 class Parser:
     """Recursive descent over the tokens of one text; subclasses extend the grammar.
 
-    Attributes:
-        noun: the kind of text, in messages.
-        value_noun: the kind of operand, in messages.
-        example: the cure for an empty text.
-        cure: the signs that are allowed.
-        functions: the cure for an unknown function.
+    ``noun`` and ``value_noun`` name the text and its operands in messages; ``example`` is the cure
+    for an empty text, ``cure`` lists the allowed signs, ``functions`` is the cure for an unknown
+    function.
     """
 
     noun: ClassVar[str] = "coefficient"

@@ -30,11 +30,8 @@ Holds: TypeAlias = Callable[[Sequence[int]], bool]
 class Root(Frozen, eq=False):
     """A number y > 0 at which curves meet the line.
 
-    Attributes:
-        fibre: the line.
-        polynomial: in y over ℚ(t_0), with y as a simple root and the only one in [low, high].
-        low, high: rational bounds, equal if y is rational and known.
-        curves: the indices of the curves that meet the line there.
+    ``polynomial`` is in y over ℚ(t_0) and has y as a simple root, the only one between the rational
+    bounds ``low`` and ``high``, which are equal if y is rational and known. ``curves`` are indices.
     """
 
     fibre: Fibre
@@ -75,12 +72,7 @@ class Root(Frozen, eq=False):
 
 
 class Fibre:
-    """The intersections of curves with the line t = t_0, y > 0.
-
-    Args:
-        t: the number t_0.
-        curves: distinct irreducible curves.
-    """
+    """The intersections of distinct irreducible curves with the line t = t_0, y > 0."""
 
     def __init__(self, t: RealRoot, curves: Sequence[fmpq_mpoly]) -> None:
         self.t = t
@@ -193,14 +185,11 @@ class Fibre:
         return [first.low / 2, *between, self.roots[-1].high + 1]
 
     def first_failure(self, polynomials: Sequence[fmpq_mpoly], holds: Holds) -> Root | fmpq | None:
-        """The smallest y at which a property fails.
+        """Returns the smallest y at which a property fails; 0 if it fails at once, None if it never
+        fails.
 
-        Args:
-            polynomials: products of the curves and of polynomials without a zero on the line.
-            holds: decides by their signs.
-
-        Returns:
-            the y; 0 if it fails at once; None if it never fails.
+        ``polynomials`` are products of the curves and of polynomials without a zero on the line;
+        ``holds`` decides by their signs.
         """
         divisors = [
             frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)

@@ -51,9 +51,8 @@ def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
 class NumberField:
     """K = ℚ(θ), with radicals that generate it.
 
-    Args:
-        modulus: the minimal polynomial of θ, irreducible over ℚ.
-        radicals: pairs ``(expression, element)``; without them elements are written in θ.
+    ``modulus`` is the minimal polynomial of θ; ``radicals`` are pairs ``(expression, element)``,
+    without which elements are written in θ.
     """
 
     def __init__(

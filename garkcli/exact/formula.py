@@ -121,18 +121,12 @@ _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for n
 
 
 def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
-    """The value, at the current ``flint.ctx`` precision; rational operations on rational numbers
-    are exact.
+    """Returns the value of a formula at the current ``flint.ctx`` precision; operations on rational
+    numbers are exact.
 
-    Args:
-        expression: any formula.
-        names: a value for each name except ``pi``.
-
-    Raises:
-        UndefinedValue: an operation without a real value, or with an undecided one: log(-1), 1/0;
-            with offsets.
-        LimitExceeded: a number beyond ``MAX_BITS`` or the floats, or an exponent out of range.
-        KeyError: a name without a value.
+    Raises UndefinedValue, with offsets, for an operation without a real value, or with an undecided
+    one: log(-1), 1/0; LimitExceeded for a number beyond ``MAX_BITS`` or the floats, or an exponent
+    out of range; KeyError for a name without a value.
 
     >>> from garkcli.exact.formula import parse_formula
     >>> value_of(parse_formula("(1 + x)**2/3"), {"x": fmpq(1, 2)})
@@ -166,11 +160,9 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
 
 
 def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
-    """The value of an exponent.
+    """Returns the value of an exponent.
 
-    Raises:
-        UndefinedValue: it is irrational.
-        LimitExceeded: it or its denominator is too large.
+    Raises UndefinedValue if it is irrational, LimitExceeded if it or its denominator is too large.
     """
     value = value_of(expression, names)
     start, end = expression.start, expression.end

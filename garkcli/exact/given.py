@@ -33,19 +33,11 @@ OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
 
 
 def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) -> str:
-    """The text of a coefficient.
+    """Returns the text of a coefficient.
 
     A float stands for the decimal that it prints. With more than 15 digits it is a rounded number
-    and needs a tolerance.
-
-    Args:
-        x: a number, or its text.
-        where: its name in messages.
-        is_rounded: whether a tolerance was given.
-        cure: what to do about a rounded number.
-
-    Raises:
-        MethodError: not a number, or a rounded one without a tolerance.
+    and needs a tolerance. ``where`` names it in messages, ``cure`` is for a rounded number. Raises
+    MethodError for other values.
     """
     if isinstance(x, str):
         return x
@@ -190,15 +182,10 @@ def complex_parts(text: str) -> tuple[str, str]:
 
 
 def rational_of(x: Any, where: str, is_rounded: bool = False) -> fmpq:
-    """The rational value of any kind of number.
+    """Returns the rational value of any kind of number.
 
-    Args:
-        x: a number, or its text.
-        where: its name in messages.
-        is_rounded: whether floats of more than 15 digits are accepted.
-
-    Raises:
-        MethodError: not a rational number; for a text with the position of the error.
+    ``where`` names it in messages; ``is_rounded`` accepts floats of more than 15 digits. Raises
+    MethodError for other values, for a text with the position of the error.
 
     >>> rational_of(0.1, "h"), rational_of("1/3 - 1/4", "h")
     (1/10, 1/12)

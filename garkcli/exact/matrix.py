@@ -208,11 +208,7 @@ class LinearMap:
 
 
 class EntrywiseMap:
-    """The map v ↦ A v for entries that are rational functions of parameters.
-
-    Args:
-        rows: the matrix A.
-    """
+    """The map v ↦ A v for entries that are rational functions of parameters."""
 
     def __init__(self, rows: Matrix) -> None:
         self._rows = rows

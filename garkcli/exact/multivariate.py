@@ -27,10 +27,8 @@ Exponents: TypeAlias = tuple[int, ...]
 class Multivariate(Frozen):
     """Σ a_e z^e.
 
-    Attributes:
-        variables: the number of variables.
-        terms: pairs of exponents and nonzero coefficient, by descending total degree, then
-            exponents.
+    ``terms`` are pairs of exponents and nonzero coefficient, by descending total degree, then
+    exponents.
     """
 
     variables: int
@@ -114,13 +112,10 @@ def lattice(axes: int, degree: int) -> Iterator[Exponents]:
 
 
 def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) -> Multivariate:
-    """The polynomial with given restrictions to lines.
+    """Returns the polynomial with given restrictions to lines.
 
-    Args:
-        lines: for each point i of the lattice of ``degree`` the polynomial t ↦ p(t v) with
-            v = (1, o + i_2, …, o + i_N).
-        offset: o.
-        degree: the total degree of p, or more.
+    ``lines`` has, for each point i of the lattice of ``degree``, the polynomial t ↦ p(t v) with v =
+    (1, o + i_2, …, o + i_N), o the ``offset``. ``degree`` is the total degree of p, or more.
     """
     axes = len(next(iter(lines)))
     terms: dict[Exponents, Number] = {}
@@ -132,11 +127,8 @@ def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) 
 
 
 def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivariate:
-    """The polynomial with given values on a lattice.
-
-    Args:
-        values: its values on the lattice of ``degree``.
-        degree: the total degree of the polynomial, or more.
+    """Returns the polynomial with given values on the lattice of ``degree``, its total degree or
+    more.
 
     >>> through_points({(0, 0): fmpq(1), (0, 1): fmpq(1), (1, 0): fmpq(3)}, 1).terms
     (((1, 0), 2), ((0, 0), 1))

@@ -72,9 +72,8 @@ class Root(Expression):
 class AlgebraicRoot(Expression):
     """A real root of an irreducible polynomial over ℤ of degree 3 or more.
 
-    Attributes:
-        coefficients: of the polynomial, lowest first, with a positive leading one.
-        number: its index among the real roots in ascending order, from 0.
+    ``coefficients`` begin with the lowest; the leading one is positive. ``number`` is the index of
+    the root, from 0 in ascending order.
     """
 
     coefficients: tuple[int, ...]

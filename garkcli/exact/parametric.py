@@ -30,10 +30,7 @@ Mixed: TypeAlias = "fmpq | Parametric"
 class Rule(Frozen):
     """A rewriting rule for a power of an unknown, such as sqrt(3)² = 3.
 
-    Attributes:
-        index: the index of the unknown.
-        degree: the exponent.
-        instead: a polynomial of smaller degree in it, without unknowns of later rules.
+    ``instead`` is a polynomial of smaller degree in it, without unknowns of later rules.
     """
 
     index: int
@@ -42,14 +39,9 @@ class Rule(Frozen):
 
 
 class Parameters:
-    """The ring ℚ[t_1, …, t_k], or a quotient of it.
+    """The ring ℚ[t_1, …, t_k], or a quotient of it by ``rules``.
 
-    Args:
-        names: the names of the parameters.
-
-    Attributes:
-        rules: the relations of the quotient; empty for the ring itself.
-        shown: text and LaTeX of unknowns that are not parameters, such as sqrt(3).
+    ``shown`` has text and LaTeX of unknowns that are not parameters, such as sqrt(3).
 
     >>> ring = Parameters(["t"])
     >>> t = ring.parameter("t")
@@ -154,12 +146,8 @@ class Parameters:
 
 
 class Parametric:
-    """A rational function that is not a plain number.
-
-    Attributes:
-        ring: the ring of its parameters.
-        numerator: a polynomial.
-        denominator: coprime to the numerator, with leading coefficient 1.
+    """A rational function that is not a plain number, in lowest terms; the denominator has leading
+    coefficient 1.
     """
 
     __slots__ = ("denominator", "numerator", "ring")

@@ -17,10 +17,7 @@ from garkcli.graph import components
 
 
 class Polynomial:
-    """Σ a_k x^k with exact coefficients.
-
-    Args:
-        coefficients: a_0, a_1, …; zeros at the end are dropped.
+    """Σ a_k x^k with exact coefficients a_0, a_1, …; zeros at the end are dropped.
 
     >>> x = Polynomial([0, 1])
     >>> (x * x - 2) % (x - 1)
@@ -255,11 +252,9 @@ def in_one(p: fmpq_mpoly, variable: int = 0) -> Polynomial:
 
 
 def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial:
-    """The polynomial of least degree through points, by Newton's divided differences.
+    """Returns the polynomial of least degree through points, by Newton's divided differences.
 
-    Args:
-        points: distinct rational numbers.
-        values: its values there.
+    The ``points`` are distinct.
 
     >>> interpolated([fmpq(0), fmpq(1), fmpq(2)], [fmpq(1), fmpq(2), fmpq(5)])
     Polynomial([1, 0, 1])
@@ -339,13 +334,10 @@ def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial) -> bool:
 
 
 def reciprocal_characteristic(W: Matrix) -> Polynomial:
-    """det(I − z W), the characteristic polynomial of W read backwards.
+    """Returns det(I − z W), the characteristic polynomial of W read backwards.
 
     It is the product over the strongly connected components of the graph of W: single vertices for
     an explicit method, the diagonal entries for a diagonally implicit one.
-
-    Args:
-        W: square, exact.
 
     >>> half = fmpq(1, 2)
     >>> reciprocal_characteristic(((half, half), (half, half)))

@@ -38,18 +38,11 @@ VARIABLE = "x"
 
 
 def root_nearest(polynomial: Expression, near: Expression, start: int, end: int) -> Expression:
-    """The real root of a polynomial nearest to a number; a ``Literal`` if it is rational.
+    """Returns the real root of a polynomial nearest to a number; a ``Literal`` if it is rational.
 
-    Args:
-        polynomial: in the one name x.
-        near: a rational number.
-        start: the offset of the text.
-        end: the offset after it.
-
-    Raises:
-        ExpressionError: not a polynomial in x, or ``near`` is not a number.
-        UndefinedValue: it has no real root, or two are equally near.
-        LimitExceeded: its degree or its coefficients are beyond the limits of this module.
+    ``start`` and ``end`` are the offsets of the text. Raises ExpressionError if it is not a
+    polynomial in x, or ``near`` is not a number; UndefinedValue without a real root, or with two
+    equally near; LimitExceeded beyond the limits of this module.
     """
     p = polynomial_in_x(polynomial)
     if p.degree() < 1:

@@ -139,12 +139,9 @@ def is_nonnegative(p: Polynomial) -> bool:
 
 
 def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) -> int:
-    """The multiplicity of ``root`` as a root of p ≠ 0, decided exactly.
+    """Returns the multiplicity of ``root`` as a root of p ≠ 0, decided exactly.
 
-    Args:
-        p: the polynomial.
-        root: the number.
-        together: its multiplicity in the norm, if it is known.
+    ``together`` is its multiplicity in the norm, if known.
     """
     if together is None:
         together = _multiplicity(p.norm(), root.polynomial)
@@ -268,12 +265,7 @@ def roots_below(M: fmpq_poly, x: fmpq) -> int:
 
 
 def root_within(p: Polynomial, ball: Callable[[int], arb]) -> RealRoot:
-    """The real root of a polynomial that a ball encloses.
-
-    Args:
-        p: a polynomial over ℚ.
-        ball: encloses the root to about so many bits.
-    """
+    """Returns the real root of a polynomial that a ball encloses, to about so many bits."""
     candidates = [x for x, _ in real_roots(p)]
     bits = FIRST_BITS
     while len(candidates) > 1:

@@ -25,10 +25,8 @@ _X = fmpq_poly([0, 1])
 class Tower(Frozen):
     """A field ℚ(θ) with the real numbers adjoined so far.
 
-    Attributes:
-        modulus: the minimal polynomial of θ; x for ℚ itself, with θ = 0.
-        elements: the adjoined numbers, as polynomials in θ.
-        combination: θ = Σ combination[i] · elements[i].
+    ``modulus`` is the minimal polynomial of θ, x for ℚ itself; ``elements`` are the adjoined
+    numbers as polynomials in θ, and θ = Σ combination[i] · elements[i].
     """
 
     modulus: fmpq_poly
@@ -40,11 +38,10 @@ class Tower(Frozen):
         return int(self.modulus.degree())
 
     def adjoin(self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]) -> Tower:
-        """The field with a real root y of yⁿ = r_0 + r_1 y + … adjoined.
+        """Returns the field with a real root y of yⁿ = r_0 + r_1 y + … adjoined.
 
-        Args:
-            relation: the r_j as polynomials in θ, n ≥ 2; the equation has no double root.
-            values: encloses all elements, then y, at the current precision of flint.
+        ``relation`` has the r_j as polynomials in θ, n ≥ 2; the equation has no double root.
+        ``values`` encloses all elements, then y, at the current precision of flint.
         """
         multiply_y, multiply_theta = self._multiplications(relation)
         for k in count():

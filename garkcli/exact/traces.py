@@ -17,11 +17,8 @@ class Untold(ValueError):
 class Trace:
     """A printed number, or an expression of some.
 
-    A trace is never zero, and equal to nothing but itself.
-
-    Attributes:
-        told: its expression.
-        length: the number of leaves in it.
+    A trace is never zero, and equal to nothing but itself. ``told`` is its expression, ``length``
+    the number of leaves in it.
     """
 
     __slots__ = ("length", "told")
@@ -73,19 +70,14 @@ class Trace:
         return 1 / result if exponent < 0 else result
 
     def root(self, index: int) -> Trace:
-        """Always fails: a recomputation has sums and products only.
-
-        Raises:
-            Untold: always.
-        """
+        """Always raises Untold: a recomputation has sums and products only."""
         raise Untold(f"a rounded number is under a root of index {index}")
 
 
 def told(number: Any) -> Told:
-    """The expression of a number, a trace or not.
+    """Returns the expression of a number, a trace or not.
 
-    Raises:
-        Untold: it is only known as a ball.
+    Raises Untold if it is only known as a ball.
 
     >>> x = Trace(1)
     >>> told(1 - x * x / 3)

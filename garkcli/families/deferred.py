@@ -100,11 +100,8 @@ def _nodes(word: str, points: int) -> tuple[Expression, ...]:
 
 
 class _Corrections:
-    """The stages of one method.
-
-    Args:
-        nodes: in ascending order.
-        is_implicit: whether the sweeps use the implicit Euler method.
+    """The stages of one method with ascending nodes; the sweeps use the explicit or the implicit
+    Euler method.
     """
 
     def __init__(self, nodes: Vector, is_implicit: bool) -> None:

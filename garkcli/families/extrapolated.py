@@ -50,11 +50,9 @@ def sequence(name: str, length: int) -> tuple[int, ...]:
 
 
 def extrapolation_weights(parts: Sequence[int], powers: Sequence[int]) -> tuple[fmpq, ...]:
-    """The w_j with Σ w_j = 1 and Σ w_j n_j^(−k) = 0 for the given powers k.
+    """Returns the w_j with Σ w_j = 1 and Σ w_j n_j^(−k) = 0 for the given powers k of h.
 
-    Args:
-        parts: n_j, all different.
-        powers: the powers of h that are eliminated from the error, one fewer than parts.
+    ``parts`` are the n_j, all different; there is one power fewer.
 
     >>> extrapolation_weights([1, 2], [1])
     (-1, 2)

@@ -51,10 +51,8 @@ STAGES = Option("stages", "How many stages the member of the family has.", small
 class Recipe(Frozen):
     """A member of a family that is not made yet.
 
-    Attributes:
-        stages: their number.
-        make: makes the method from the values of ``numbers`` in one exact domain.
-        numbers: the irrational numbers that it needs: given coefficients, nodes.
+    ``numbers`` are the irrational numbers that it needs: given coefficients and nodes; ``make``
+    takes their values in one exact domain.
     """
 
     stages: int

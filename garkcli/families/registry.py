@@ -73,11 +73,10 @@ _MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,6})")
 
 
 def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | None:
-    """The family and size that a word names: ``gauss-2``, ``gauss:2``, or a single method.
+    """Returns the family and the size that a word names: ``gauss-2``, ``gauss:2``, or a single
+    method.
 
-    Args:
-        text: the word.
-        is_known: whether the family has to exist.
+    With ``is_known`` the family has to exist.
 
     >>> member_named("gauss-2"), member_named("lobatto-iiia:3"), member_named("rk4")
     (('gauss', 2), ('lobatto-iiia', 3), ('rk4', None))
@@ -92,15 +91,10 @@ def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | N
 
 
 def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS) -> Recipe:
-    """The recipe of the member of a family.
+    """Returns the recipe of the member of a family.
 
-    Args:
-        name: a key of ``FAMILIES``.
-        size: its size, such as the number of stages; optional for a family of one method.
-        options: the other options; those with a default are optional.
-
-    Raises:
-        UnknownFamily: no such family, or no such member.
+    ``size`` is optional for a family of one method, ``options`` with a default too. Raises
+    UnknownFamily if there is no such family or member.
     """
     family = FAMILIES.get(name)
     if family is None:
@@ -163,16 +157,11 @@ MAX_NAME = 60
 
 
 def diagonal_method(name: str, stages: int | None = None, **options: object) -> Method:
-    """The member of a family.
+    """Returns the member of a family.
 
-    Args:
-        name: a key of ``FAMILIES``, or a member such as ``gauss-2``.
-        stages: the number of stages, or the size the family has instead; optional for a family of
-            one method.
-        options: the other options; coefficients as text or numbers.
-
-    Raises:
-        UnknownFamily: no such family, or no such member.
+    ``name`` is a key of ``FAMILIES``, or a member such as ``gauss-2``; ``stages``, or the size the
+    family has instead, is optional for a family of one method; coefficients among the options may
+    be text or numbers. Raises UnknownFamily if there is no such family or member.
 
     >>> diagonal_method("gauss", 2).space.modulus
     x^2 + (-1)*x + 1/6

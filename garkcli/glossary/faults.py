@@ -34,13 +34,9 @@ _SHORT = 6
 class FaultKind(Frozen):
     """A kind of fault.
 
-    Attributes:
-        code: what it is called in reports for machines.
-        text: what it means and why it is one, in whole sentences.
-        cure: what to do.
-        says: its messages, with ``{}`` for what they are filled with.
-        example: what has it: a method file, or a command after ``$``; empty where that would need
-            more than a few lines.
+    ``code`` is its name in reports for machines. ``says`` are its messages, with ``{}`` for the
+    parts that vary. ``example`` is a method file, or a command after ``$``; empty if more than a
+    few lines were needed.
     """
 
     code: str

@@ -28,13 +28,8 @@ KINDS = {
 class Key(Frozen):
     """The meaning of a key.
 
-    Attributes:
-        path: the key with those that it is below, as ``compose.steps``.
-        text: what it is, in whole sentences.
-        example: a line of such a file with it.
-        default: what holds where it is left out; None if nothing does.
-        page: where more is said.
-        is_word: whether it is found by its own name too.
+    ``path`` includes the parent keys, as ``compose.steps``; ``example`` is a line of a file;
+    ``default`` is None without a default. With ``is_word`` the key is also found by its own name.
     """
 
     path: str

@@ -17,13 +17,7 @@ PAPER = (
 class Term(Frozen):
     """A term and its meaning.
 
-    Attributes:
-        name: as people look for it.
-        text: what it is, in whole sentences.
-        formula: the definition in signs; empty if there is none.
-        source: where it comes from: the paper's section or another.
-        labels: what reports call it, and other names.
-        see: names of terms near it.
+    ``labels`` are its other names, also in reports, ``see`` related terms.
     """
 
     name: str

@@ -53,11 +53,9 @@ class Line(Frozen):
 
 
 def drift_of(errors: Floats, angle: float | None) -> Line:
-    """The slope of the errors in the whole run, and its distance from those in the halves.
+    """Returns the slope of the errors in the whole run, and its distance from those in the halves.
 
-    Args:
-        errors: the errors of steps 0, 1, …
-        angle: 2θ, the angle of the oscillation per step; None without one.
+    ``angle`` is 2θ, the angle of the oscillation per step; None without one.
     """
     import numpy as np
 
@@ -103,12 +101,9 @@ _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
 class _Errors(Frozen):
-    """The energy errors of a run, until they blow up.
+    """The energy errors H(z_n) − H(z_0) of a run from n = 0 on, until they blow up.
 
-    Attributes:
-        values: H(z_n) − H(z_0), from n = 0 on.
-        is_exact: whether the step map conserves energy.
-        blew_up: whether the run ended early.
+    ``is_exact`` says that the step map conserves energy.
     """
 
     values: Floats

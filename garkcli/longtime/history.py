@@ -27,12 +27,9 @@ Fate: TypeAlias = Literal["elliptic", "unstable", "contractive", "marginal"]
 
 
 class Stability(Frozen):
-    """The long-time behaviour of the step map of a linear problem.
+    """The long-time behaviour of the step map R of a linear problem.
 
-    Attributes:
-        determinant: det R; RᵀJR = J if and only if it is 1.
-        trace: tr R.
-        fate: the fate of almost all orbits.
+    RᵀJR = J if and only if ``determinant`` is 1; ``fate`` is that of almost all orbits.
     """
 
     determinant: Number

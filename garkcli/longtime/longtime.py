@@ -67,22 +67,14 @@ def long_run(
     """Steps ``problem`` with ``tableau`` to the time ``t_end`` and judges the energy and the other
     invariants.
 
-    Args:
-        tableau: a method of any structure.
-        problem: in as many terms as the tableau has, or in one with a natural split.
-        t_end: a whole number of steps.
-        step: h.
-        digits: the digits of the steps; floats up to ``FLOAT_DIGITS``. Steps of the oscillator are
-            exact.
-        points: about the number of times that are kept.
-        tolerance: the rounding of the coefficients; a drift that it can cause is undecided.
+    The problem is in as many terms as the tableau has, or in one with a natural split. ``t_end`` is
+    a whole number of steps. Up to ``FLOAT_DIGITS`` digits are floats; steps of the oscillator are
+    exact. About ``points`` times are kept. A drift that ``tolerance`` can cause is undecided.
 
-    Raises:
-        UsageProblem: the problem does not suit the structure, the step does not divide the time,
-            there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are
-            singular.
-        StepFailed: the stage equations of a step were not solved, and the energy had not blown up
-            before.
+    Raises UsageProblem if the problem does not suit the structure, the step does not divide the
+    time, there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are
+    singular; StepFailed if the stage equations of a step were not solved, and the energy had not
+    blown up before.
 
     >>> from garkcli import hamiltonian, loads, pair
     >>> midpoint = pair(loads("methods: [{family: gauss, stages: 1}]").tableau)
@@ -149,13 +141,8 @@ _Finding: TypeAlias = tuple[Verdict, Shape, Doubt | None]
 class _Judge(Frozen):
     """Judges the invariants of a run.
 
-    Attributes:
-        record: the record of the run.
-        step: h.
-        tableau: the method.
-        problem: the problem.
-        tolerance: the rounding of the coefficients.
-        excused: the error of the energy that the rounding can cause.
+    ``step`` is h, ``excused`` the error of the energy that the rounding of the coefficients can
+    cause.
     """
 
     record: Record

@@ -29,18 +29,9 @@ if TYPE_CHECKING:
 class Measure:
     """Evaluates conserved quantities at states, relative to the start.
 
-    Args:
-        problem: a problem with at least one conserved quantity.
-        digits: of the states. Attributes:
-        names: of the quantities; "energy" first if the problem has one.
-        initial: the values at the start.
-        scale: the sum of the sizes of the terms of H, or of the summands of the first invariant, at
-            the start; 1 if all are zero.
-        digits: that the states have.
-        has_energy: whether the first one is the energy.
-
-    Errors:
-        UsageProblem: one of them has no value at the start.
+    ``scale`` is the sum of the sizes of the terms of H, or of the summands of the first invariant,
+    at the start; 1 if all are zero. ``names`` has "energy" first if the problem has one. Raises
+    UsageProblem if a quantity has no value at the start.
     """
 
     def __init__(self, problem: Problem, digits: int) -> None:

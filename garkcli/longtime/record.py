@@ -232,11 +232,9 @@ class Record:
         self._watch(np.array(states[:count], dtype=np.float64))
 
     def lose(self, start: int, errors: Floats) -> None:
-        """Notes invariants that have no value from some step on; their errors become nan.
+        """Notes invariants that have no value from step ``start`` on; their errors become nan.
 
-        Args:
-            start: the number of the first step.
-            errors: the errors from there on, shape (m, invariants), changed in place.
+        ``errors`` are those from there on, shape (m, invariants), changed in place.
         """
         import numpy as np
 

@@ -91,13 +91,10 @@ class Exchange:
 def energy_rate(
     tableau: Tableau, tolerance: fmpq | None, h: float, powers: tuple[float, float]
 ) -> float:
-    """The energy per unit of time that rounding of coefficients can cause, to leading order.
+    """Returns the energy per unit of time that rounding of coefficients can cause, to leading
+    order.
 
-    Args:
-        tableau: the printed method.
-        tolerance: the rounding of each coefficient; None for exact ones.
-        h: the step size.
-        powers: along the trajectory, see ``Exchange``.
+    ``powers`` are along the trajectory, see ``Exchange``.
     """
     if tolerance is None:
         return 0.0

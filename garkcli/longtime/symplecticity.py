@@ -52,11 +52,8 @@ class Defect(Frozen):
 
 
 class Symplecticity(Frozen):
-    """Whether the steps of a method on a problem are symplectic.
-
-    Attributes:
-        is_proved: whether the coefficients prove it, see the function of this name.
-        defects: the measured defects; empty if not requested.
+    """Whether the steps of a method on a problem are symplectic: as proved from the coefficients,
+    and by measured defects, if requested.
     """
 
     is_proved: bool
@@ -69,14 +66,9 @@ def symplecticity_defects(
 ) -> tuple[Defect, ...]:
     """Measures the defects of steps from some states.
 
-    Args:
-        tableau: a method of any structure.
-        problem: in as many terms as the tableau has, or in one with a natural split.
-        step: h.
-        states: pairs of time and (q, p), as in ``LongRun.states``.
-
-    Raises:
-        StepFailed: the stage equations of one were not solved.
+    The problem is in as many terms as the tableau has, or in one with a natural split; ``states``
+    are pairs of time and (q, p), as in ``LongRun.states``. Raises StepFailed if the stage equations
+    of one were not solved.
     """
     method = bind(tableau, problem).at(max(DIGITS, FLOAT_DIGITS + 1))
     defects = []

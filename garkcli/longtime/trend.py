@@ -50,12 +50,8 @@ _FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
 
 class Windows(Frozen):
-    """The lines fitted to the windows of one signal.
-
-    Attributes:
-        slopes: the slopes of the lines, per run, shape (windows,).
-        levels: the lines in the middle of the windows.
-        heights: root mean squares of the oscillation around the lines.
+    """The lines fitted to the windows of one signal, in slopes per run, levels in the middle of the
+    windows, and root mean squares of the oscillation around the lines.
     """
 
     slopes: Floats
@@ -216,11 +212,9 @@ class Trends:
         return Windows(slopes, levels, np.sqrt(left))
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
-        """The trend of one signal with all of at least ``LEAST`` errors.
+        """Returns the trend of one signal with all of at least ``LEAST`` errors.
 
-        Args:
-            signal: its index.
-            noise: the uncertainty of the errors, a lower bound for trends.
+        ``signal`` is its index, ``noise`` the uncertainty of the errors, a lower bound for trends.
         """
         found = self._fitted(signal)
         least = noise + _FLOAT * float(self.largest[signal])

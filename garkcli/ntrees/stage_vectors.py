@@ -28,10 +28,6 @@ class StageVectors(ABC, Generic[Vectors]):
 
     ``Vectors`` holds those of several trees, in the order of their ids. Tables of different orders
     share vectors, and so do colours with the same stages and branches.
-
-    Args:
-        admissible: the class of trees.
-        rows: the stage space of each colour.
     """
 
     def __init__(self, admissible: Admissible, rows: Sequence[int]) -> None:

@@ -93,9 +93,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
 class ConditionClass(Frozen):
     """Order conditions that are equivalent given those of lower order: a free tree.
 
-    Attributes:
-        centred: the free tree, rooted at its centroid.
-        structure: the kind of method.
+    ``centred`` is the free tree, rooted at its centroid.
     """
 
     centred: Tree

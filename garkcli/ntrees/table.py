@@ -526,11 +526,9 @@ class _Root(Frozen):
     root: int
 
     def growths(self, ids: range, arity: Arity) -> Iterator[tuple[Segment, Growth]]:
-        """The nonempty segments, with what grows their trees.
+        """Returns the nonempty segments, with what grows their trees.
 
-        Args:
-            ids: the ids of the trees, without a single vertex.
-            arity: the numbers of branches.
+        ``ids`` are those of the trees without a single vertex, ``arity`` the numbers of branches.
         """
         kind = self.admissible.kinds[self.root]
         start = ids.start

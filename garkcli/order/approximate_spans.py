@@ -52,9 +52,8 @@ class _Hull(Frozen, eq=False):
 class HullSizes(Frozen, eq=False):
     """Bounds on the residuals of one order.
 
-    Attributes:
-        bound: on |b_lᵀ ψ(u) − 1/ρ|, and so on |residual|.
-        members: pairs of |residual| and tree, largest first.
+    ``bound`` is on |b_lᵀ ψ(u) − 1/ρ| and so on |residual|; ``members`` are pairs of |residual| and
+    tree, the largest first.
     """
 
     bound: arb
@@ -68,10 +67,8 @@ class HullSizes(Frozen, eq=False):
 class ApproximateSpans(OrderByOrder[_Hull]):
     """Computes members and bounds for the branches and forests of each stage space, on demand.
 
-    Args:
-        tableau: the tableau.
-        enclosure: its entries; their bits are the precision.
-        grain: a shorter remainder counts as an error, not as a member.
+    ``enclosure`` has the entries of the tableau to the working precision; a remainder below
+    ``grain`` counts as an error, not as a member.
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:

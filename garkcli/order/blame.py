@@ -44,14 +44,10 @@ FEW_CONDITIONS_UNASKED = 2_000
 class Missed(Frozen):
     """A claimed order that the method misses.
 
-    Attributes:
-        order: the first failing order.
-        claimed: the order that was meant.
-        of: the key of the claim in a file.
-        is_embedded: whether it is the order of embedded weights: then only these may be wrong if
-            exact.
-        keeps_shape: whether zeros outside the pattern of a block, such as the diagonal of an
-            explicit method, are taken to be right.
+    ``order`` is the first failing one, ``of`` the key of the claim. With ``is_embedded`` it is the
+    order of embedded weights, and only these may be wrong if they are exact. With ``keeps_shape``
+    zeros outside the pattern of a block, such as the diagonal of an explicit method, are taken to
+    be right.
     """
 
     order: int
@@ -202,14 +198,9 @@ def blame_of(
 ) -> Blame | None:
     """Examines all conditions of the first failing order of a method, its conjugate or their pair.
 
-    Args:
-        method: the tableau whose entries may be wrong; an exact one with the embedded weights as b
-            if these miss an order.
-        missed: the order that it misses.
-        known: its repairs, if they are known.
-
-    Returns:
-        None if there are more than ``MAX_CONDITIONS`` conditions.
+    ``method`` is the tableau whose entries may be wrong: an exact one has the embedded weights as b
+    if these miss the order. ``known`` are its repairs, if known already. None if there are more
+    than ``MAX_CONDITIONS`` conditions.
     """
     judged = derived(method, missed.of)
     tableau = printed(judged)
@@ -256,15 +247,8 @@ def slip_of(method: AnyTableau, missed: Missed, found: AnyOrder) -> Blame | None
     """Finds a single entry that costs a method several orders, if no order is claimed.
 
     Some value of an entry may satisfy a condition by chance, but hardly all of two orders. One
-    order is enough for an entry whose row then sums to its printed node.
-
-    Args:
-        method: the tableau whose entries may be wrong.
-        missed: which weights; its orders are ignored.
-        found: the order of the method.
-
-    Returns:
-        None if there is no such entry, or the search would take long.
+    order is enough for an entry whose row then sums to its printed node. None if there is no such
+    entry, or the search would take long.
     """
     order, tableau = found.order, printed(method)
     missed = replace(missed, order=order + 1, claimed=order + 1, keeps_shape=True)

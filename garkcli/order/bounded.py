@@ -30,11 +30,8 @@ FLOOR = 1e-10
 class Solver:
     """Newton steps with the slopes at one method.
 
-    Args:
-        rows: the rows at that method.
-        radius: the largest radius of the printed numbers.
-        groups: for each number its group; a group moves together.
-        fixed: the groups that are held.
+    ``rows`` are those at the method, ``radius`` is the largest of the printed numbers. Numbers of a
+    group move together; those in ``fixed`` do not move.
     """
 
     def __init__(

@@ -88,15 +88,10 @@ class Order(Shown, Frozen):
 def find_order(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> Order:
-    """The exact order of a tableau, by affine spans.
+    """Returns the exact order of a tableau, at most ``limit``, by affine spans.
 
-    Args:
-        tableau: any tableau; its coupling graph decides which trees count.
-        limit: the order at which to stop.
-        spans: its stage vectors, if some are known; they do not depend on weights.
-
-    Returns:
-        The largest r ≤ limit for which the conditions of all trees of order ≤ r hold.
+    The coupling graph of the tableau decides which trees count. ``spans`` are its stage vectors, if
+    some are known; they do not depend on weights.
     """
     spans = spans or StageSpans(tableau)
     limit = min(limit, tableau.exact_to or limit)
@@ -170,14 +165,10 @@ class StageSpans(Spans):
 def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
-    """Trees whose ψ span those of all trees of an order, order by order.
+    """Yields for each colour the trees with that root whose ψ span those of all trees of an order,
+    order by order, over ℚ at most s + 1.
 
-    Args:
-        tableau: any tableau.
-        orders: ascending, from 1 on.
-
-    Yields:
-        for each colour the trees with that root, over ℚ at most s + 1.
+    ``orders`` are ascending from 1.
     """
     spans = StageSpans(tableau)
     for order in orders:

@@ -61,13 +61,10 @@ class Norms(Frozen):
 
 
 class ErrorConstants(Frozen):
-    """Norms of the error coefficients of one order.
+    """Norms of the error coefficients of one order, one more than that of the method.
 
-    Attributes:
-        order: the order of the trees, one more than that of the method.
-        is_exact: whether the coefficients were computed exactly; otherwise in floats.
-        all: over all trees.
-        coupling: over the trees with more than one colour.
+    ``is_exact`` says that the coefficients were computed exactly, not in floats; ``coupling`` is
+    over the trees with more than one colour.
     """
 
     order: int
@@ -84,12 +81,10 @@ def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
 def estimate_constants(
     difference: Tableau, order: int, is_rounded: bool = False
 ) -> ErrorConstants | None:
-    """Norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u): those of the error estimate h Σ (b_i − b̂_i) k_i.
+    """Returns the norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u), those of the error estimate h Σ (b_i − b̂_i)
+    k_i.
 
-    Args:
-        difference: the tableau with the weights b − b̂.
-        order: the order of the trees.
-        is_rounded: whether the coefficients are rounded, so exact norms mean nothing.
+    ``difference`` has the weights b − b̂. For rounded coefficients exact norms mean nothing.
     """
     exact = 0 if is_rounded else EXACT_ESTIMATES
     return _constants(difference, order, 0, exact)

@@ -20,12 +20,9 @@ AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
 def order_of(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> AnyOrder:
-    """The largest r ≤ ``limit`` for which the conditions of all trees of order ≤ r are met.
+    """Returns the order of an exact or a rounded tableau, at most ``limit``.
 
-    Args:
-        method: an exact or a rounded tableau.
-        limit: the order at which to stop.
-        spans: its stage vectors, if some are known; they do not depend on weights.
+    ``spans`` are its stage vectors, if some are known; they do not depend on weights.
     """
     if isinstance(method, Tableau):
         return find_order(method, limit, spans)

@@ -71,13 +71,8 @@ class DenseOrder(Shown, Frozen):
 def dense_order(
     method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseOrder:
-    """The largest order ≤ ``limit`` for which all conditions of dense output hold, for every θ.
-
-    Args:
-        method: an exact or a rounded tableau.
-        dense: its dense output.
-        limit: the order at which to stop.
-        spans: its stage vectors, if some are known.
+    """Returns the largest order ≤ ``limit`` for which all conditions of dense output hold, for
+    every θ.
     """
     known = dense if isinstance(method, Tableau) else method.further.dense or dense
     functionals = [Functional(known.coefficients(k), k) for k in range(1, dense.degree + 1)]
@@ -153,13 +148,10 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Whether the weights of both ends vanish on every problem.
+    """Returns whether the weights of both ends vanish on every problem.
 
-    Args:
-        method: an exact or a rounded tableau.
-        dense: its dense output.
-        ends: the weights for dense output and a tableau.
-        change: transforms the tableau first.
+    ``ends`` returns these weights for dense output and a tableau; ``change`` transforms the tableau
+    first.
     """
     whole: Tableau | Near
     if isinstance(method, Tableau):

@@ -48,11 +48,9 @@ DIGITS = (4, 7, 10, 14)
 class Existence(Frozen):
     """A proof that a box has a method of some order.
 
-    Attributes:
-        trees: all conditions up to the order.
-        shifts: a method near the existing one, in units of the radii.
-        widths: how far each number moves, in units of the radii.
-        W: how they move together, shape (numbers, trees).
+    ``shifts`` give a method near the existing one and ``widths`` the distance of each number from
+    it, both in units of the radii. ``W``, of shape (numbers, trees), says how the numbers move
+    together.
     """
 
     trees: tuple[Tree, ...]

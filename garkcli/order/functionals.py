@@ -135,10 +135,8 @@ class Estimator(Frozen):
 class Orders(Frozen):
     """The known orders of b and b̂ before their difference is examined.
 
-    Attributes:
-        least: the smaller order; up to it the estimate vanishes.
-        differ: whether one is known to be larger: then the next order shows in the estimate.
-        limit: the largest order of trees to examine.
+    Up to ``least`` the estimate vanishes. If they ``differ``, one is known to be larger, and the
+    next order occurs in the estimate. ``limit`` is the largest order of trees to examine.
     """
 
     least: int
@@ -149,13 +147,9 @@ class Orders(Frozen):
 def estimator(
     method: AnyTableau, embedded: Weights, orders: Orders, spans: StageSpans | None = None
 ) -> Estimator:
-    """The error estimate that embedded weights give.
+    """Returns the error estimate of embedded weights, which has to exceed rounding.
 
-    Args:
-        method: an exact or a rounded tableau; the estimate has to exceed rounding.
-        embedded: the weights of each colour.
-        orders: the orders of b and b̂.
-        spans: its stage vectors, if some are known.
+    ``orders`` are those of b and b̂.
     """
     tableau = printed(method)
     rows = _differences(tableau, embedded)

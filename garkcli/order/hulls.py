@@ -24,9 +24,7 @@ from garkcli.tableau.tableau import Tableau
 class Hull(Frozen):
     """The affine space of all base + Σ v_pivot direction.
 
-    Attributes:
-        base: a point with zeros at all pivots.
-        directions: in reduced echelon form, each with its pivot.
+    ``base`` is zero at all pivots; ``directions`` are in reduced echelon form, each with its pivot.
     """
 
     base: tuple[fmpq, ...]
@@ -58,11 +56,9 @@ class Hull(Frozen):
 class Hulls(Frozen):
     """The hulls for all trees up to an order p.
 
-    Attributes:
-        trees: ``trees[k][l]`` holds ψ of the trees of order k + 1 with root colour l, k < p; None
-            if there are none.
-        branches: ``branches[j][l]`` holds A^{l,m} (j ψ(u)) for all trees u of order j, j < p; None
-            if there are none.
+    ``trees[k][l]`` holds ψ of the trees of order k + 1 with root colour l, k < p,
+    ``branches[j][l]`` holds A^{l,m} (j ψ(u)) for all trees u of order j, j < p; None if there are
+    none.
     """
 
     trees: tuple[tuple[Hull | None, ...], ...]

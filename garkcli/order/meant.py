@@ -28,12 +28,10 @@ ByRadii: TypeAlias = "Callable[[Radii], tuple[Box, Further]]"
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
-    """The tableau itself, or the rounded tableau within its tolerance, which is computed once.
+    """Returns the tableau itself, or the rounded tableau within its tolerance, which is computed
+    once.
 
-    Args:
-        tableau: the method.
-        tolerance: the rounding of its coefficients; None or 0 if they are exact.
-        further: its embedded weights and dense output, rounded too; None to ignore them.
+    ``tolerance`` is None or 0 for exact coefficients; ``further`` None ignores its further weights.
     """
     if not tolerance:
         return tableau
@@ -101,13 +99,10 @@ def remembered_digits(tableau: Tableau) -> ByRadii:
 
 
 def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
-    """Stores the method that a tableau is made of: it is as uncertain as the numbers of that
-    method.
+    """Stores the method that a conjugate or pair is made of: it is as uncertain as the numbers of
+    that method.
 
-    Args:
-        tableau: the conjugate or the pair.
-        base: the method that has it.
-        which: ``conjugate`` or ``pair``.
+    ``which`` is ``conjugate`` or ``pair``.
     """
     tableau.__dict__["made of"] = base, which
 
@@ -157,15 +152,12 @@ def as_meant(method: GarkMethod) -> AnyTableau:
 
 
 def derived(method: AnyTableau, which: str | None) -> AnyTableau:
-    """The symplectic conjugate or the symplectic pair of a method, or the method itself.
+    """Returns the symplectic conjugate or the symplectic pair of a method, or the method itself;
+    rounding carries over.
 
-    Args:
-        method: exact or rounded; the rounding carries over.
-        which: ``conjugate`` or ``pair``, or the claim about their order; for a rounded method also
-            ``embedded-order``. Anything else means the method.
-
-    Raises:
-        ZeroWeight: a weight that it divides by is 0.
+    ``which`` is ``conjugate`` or ``pair``, or the claim about their order; for a rounded method
+    also ``embedded-order``. Anything else means the method. Raises ZeroWeight if it divides by a
+    weight 0.
     """
     which = (which or "").removesuffix("-order")
     if which == "embedded" and not isinstance(method, Tableau):

@@ -33,14 +33,11 @@ NEXT_TO_NOTHING = 0.1
 
 
 class Entry(Frozen):
-    """An entry of a method, all indices from 0.
+    """An entry of a method.
 
-    Attributes:
-        letter: a, b, c; or ``embedded`` or ``dense`` for further weights.
-        l: its colour.
-        m: for a block the colour that is seen; else None.
-        i: for a block the row; for dense output the power of θ minus one; else None.
-        j: the index in its row.
+    ``letter`` is a, b, c, ``embedded`` or ``dense``. All indices count from 0: ``l`` and ``m`` are
+    the colours of a block, ``i`` and ``j`` row and column. In vectors ``m`` is None, and ``i`` the
+    power of θ minus one for dense output or else None.
     """
 
     letter: str
@@ -70,12 +67,7 @@ class Nearness(Frozen):
 
 
 def nearness(search: Recovery, order: int) -> Nearness:
-    """The distance of the method that a search has settled on from the print.
-
-    Args:
-        search: the search.
-        order: the order of the method.
-    """
+    """Returns the distance from the print to the method of a search."""
     place = search.settled
     shifts = np.array([to_float(x) for x in place.shifts])
     sizes = np.array([_two_digits(x) for x in np.abs(shifts)])

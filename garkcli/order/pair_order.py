@@ -38,9 +38,8 @@ class PairCriterion(Frozen):
     If nodes are row sums and edges are closed under reversal, the pair has at least this order;
     exactly this order if all weights are positive and no colour is linear.
 
-    Attributes:
-        order: the largest n for which its conditions hold, up to the limit.
-        missing: the further conditions of order n + 1 that do not hold; empty at the limit.
+    ``missing`` are the further conditions of order n + 1 that do not hold; it is empty at the
+    limit.
     """
 
     order: int

@@ -52,13 +52,9 @@ def arithmetic(bits: int) -> Iterator[None]:
 class Place:
     """A method of the box, and the tableaus around it.
 
-    Args:
-        search: the search, with the box and its tableaus.
-        shifts: the shifts of its numbers, in units of their radii.
-
-    Attributes:
-        slack: the part of its reach up to which a row counts as met: 0 if Newton's method
-            converged; otherwise rows are met to second order only, as where varieties cross.
+    ``shifts`` are those of its numbers in units of their radii. ``slack`` is the part of its reach
+    up to which a row counts as met: 0 if Newton's method converged; otherwise rows are met to
+    second order only, as where varieties cross.
     """
 
     def __init__(self, search: Recovery, shifts: Sequence[fmpq]) -> None:

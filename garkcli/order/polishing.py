@@ -34,14 +34,10 @@ MOST_STEPS = 60
 
 
 def polished(search: Recovery, digits: int) -> Place:
-    """The method nearest to the print that meets all rows of the settled one.
+    """Returns the method nearest to the print that meets all rows of the search, to ``digits``
+    digits after the point.
 
-    Args:
-        search: a settled search.
-        digits: correct digits after the point of each number.
-
-    Raises:
-        MethodError: rows are met to second order only, or the steps do not converge.
+    Raises MethodError if rows are met to second order only, or the steps do not converge.
     """
     place = search.settled
     system = search.wanted
@@ -80,10 +76,7 @@ def _unknown() -> MethodError:
 class _Polishing:
     """Iterates to the nearest method that meets some rows.
 
-    Args:
-        search: a search with enough bits for the slopes.
-        system: the rows.
-        bits: the precision of the shifts.
+    ``search`` has enough bits for the slopes; ``bits`` is the precision of the shifts.
     """
 
     def __init__(self, search: Recovery, system: System, bits: int) -> None:

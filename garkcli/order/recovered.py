@@ -32,10 +32,8 @@ FILE = Path(__file__).with_name("recovered.json")
 class Recovered(Frozen):
     """A method of a box.
 
-    Attributes:
-        shifts: the shifts of its numbers, in units of their radii.
-        shape: the simplifying and similar conditions that it meets.
-        system: the order conditions that determined it, by the name of the tableau.
+    ``shifts`` are those of its numbers in units of their radii, ``shape`` has the simplifying and
+    similar conditions that it meets, ``system`` the order conditions that determined it.
     """
 
     shifts: tuple[fmpq, ...]
@@ -50,11 +48,9 @@ def key_of(box: Box) -> str:
 
 
 def recovered_of(box: Box, known: Callable[[Tree], Tree]) -> Recovered | None:
-    """The stored method of a box; None if there is none.
+    """Returns the stored method of a box, or None.
 
-    Args:
-        box: the box.
-        known: a tree with the kinds of vertices of the method.
+    ``known`` is a tree with the kinds of vertices of the method.
     """
     data = _all().get(key_of(box)) if box.numbers else None
     return _read(data, known) if data and "shifts" in data else None

@@ -56,9 +56,8 @@ LOWEST_FLOOR = 1e-16
 class Failure(Frozen, eq=False):
     """Why no method of the box meets some rows.
 
-    Attributes:
-        is_proved: whether it is proved that there is none.
-        labels: the rows that exclude each other, largest weight first.
+    ``is_proved`` says that there is none; ``labels`` are the rows that exclude each other, those
+    with the largest weight first.
     """
 
     is_proved: bool
@@ -73,9 +72,7 @@ class Failure(Frozen, eq=False):
 class Recovery:
     """The search for one method of a box.
 
-    Args:
-        box: the box of the method, with colours for further weights.
-        further: the further weights as printed.
+    ``box`` has colours for the further weights, ``further`` these as printed.
     """
 
     def __init__(self, box: Box, further: Further = NOTHING) -> None:
@@ -323,9 +320,8 @@ class Recovery:
     def recover_order(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
         """Moves to a method of the largest order that the earlier results leave possible.
 
-        Returns:
-            the order, why the next one fails, and the trees that it misses; None and none at the
-            limit.
+        Returns the order, why the next one fails, and the trees that it misses; None and none at
+        the limit.
         """
         at_once, alone = self.explained(name, limit)
         if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:

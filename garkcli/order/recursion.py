@@ -29,11 +29,8 @@ Value = TypeVar("Value")
 class OrderByOrder(ABC, Generic[Value]):
     """One value for the branches and one for the forests of each order, in every stage space.
 
-    Each is computed once, on demand; after a timeout the next call continues.
-
-    Args:
-        tableau: the tableau.
-        vertices: for each stage space the value of the empty forest, which makes a single vertex.
+    Each is computed once, on demand; after a timeout the next call continues. ``vertices`` has the
+    value of the empty forest, which makes a single vertex, for each stage space.
     """
 
     def __init__(self, tableau: Tableau, vertices: Iterable[Value]) -> None:
@@ -110,11 +107,9 @@ class OrderByOrder(ABC, Generic[Value]):
 class Forest(Frozen):
     """A forest, and its contribution to the stage vector of a tree.
 
-    Attributes:
-        vector: the product of the branches' contributions, times ``scale``.
-        branches: the trees on the root.
-        scale: a common denominator; 1 if entries have inverses.
-        exact: the counterpart in the exact solution: 1, or 0 if it has no such branches.
+    ``vector`` is the product of the branches' contributions times ``scale``, a common denominator,
+    or 1 if entries have inverses. ``exact`` is the counterpart in the exact solution: 1, or 0 if it
+    has no such branches.
     """
 
     vector: Sequence[Any]
@@ -135,11 +130,7 @@ Forests: TypeAlias = Sequence[Forest]
 class Spans(OrderByOrder[Forests]):
     """Members that span the contributions of all branches and all forests.
 
-    Args:
-        tableau: the tableau.
-        vertices: the empty forest of each stage space.
-        maps: the blocks of the tableau times ``scale``.
-        scale: a common denominator of the blocks.
+    ``maps`` are the blocks of the tableau times ``scale``, a common denominator.
     """
 
     def __init__(
@@ -154,12 +145,10 @@ class Spans(OrderByOrder[Forests]):
         self._scale = scale
 
     def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, Forest]]:
-        """Forests that span those of all trees with conditions of an order, with their root
+        """Returns forests that span those of all trees with conditions of an order, with their root
         colours.
 
-        Args:
-            order: the order.
-            roots: as in ``Tableau.roots``.
+        ``roots`` are those of ``Tableau.roots``.
         """
         for l, late in roots.items():
             for forest in self.of_trees(l, order - late):

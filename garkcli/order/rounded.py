@@ -38,9 +38,8 @@ from garkcli.upward import Shown
 class Near(Frozen, eq=False):
     """A method that is known to many bits.
 
-    Attributes:
-        near: its tableau to that precision, on point stages.
-        grain: numbers computed from its own count as zero below this size.
+    ``near`` is its tableau to that precision on point stages; numbers computed from it count as
+    zero below ``grain``.
     """
 
     near: Tableau
@@ -80,12 +79,10 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
-        """A rounded tableau with every coefficient off by the unit of its last digit.
+        """Returns a rounded tableau with every coefficient off by the unit of its last digit.
 
-        Args:
-            tableau: a tableau of point stages.
-            units: the radius of each printed value; other values are made of printed ones and get
-                the largest.
+        ``units`` has the radius of each printed value; other values are made of printed ones and
+        get the largest.
         """
         largest = max(units.values(), default=fmpq(0))
         return _around(tableau, NOTHING, largest, lambda x: units.get(x, largest))

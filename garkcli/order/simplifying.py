@@ -113,10 +113,7 @@ class Defects:
 class BoxDefects(Defects):
     """The defects of many methods at once: balls, which contain 0 if one of them has none.
 
-    Args:
-        tableau: one of them.
-        balls: all of them, on point stages.
-        bits: the precision.
+    ``tableau`` is one of the methods, ``balls`` encloses all of them on point stages.
     """
 
     def __init__(self, tableau: Tableau, balls: Tableau, bits: int) -> None:
@@ -269,14 +266,9 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """B, C and D of a tableau, up to ``limit``.
+    """Returns B, C and D of a tableau, up to ``limit``, or only those in ``letters``.
 
     A rounded tableau meets a condition if rounding explains every entry of its defect.
-
-    Args:
-        method: the tableau.
-        limit: the limit of the searches.
-        letters: the conditions to compute; the others are empty.
     """
     defects = defects_of(method)
     tableau = defects.tableau

@@ -93,11 +93,8 @@ def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) ->
 class _Candidate(Frozen):
     """A number whose change lets all conditions be met to first order.
 
-    Attributes:
-        number: its index.
-        shift: its error, in units of its radius.
-        doubt: the uncertainty of the error.
-        is_sure: whether all conditions are met together; else each alone.
+    ``shift`` is its error in units of its radius, ``doubt`` the uncertainty of that. ``is_sure``
+    says that all conditions are met together, not each alone.
     """
 
     number: int

@@ -22,11 +22,8 @@ if TYPE_CHECKING:
 
 
 class Sizes(Frozen, eq=False):
-    """The size of the residuals of one order.
-
-    Attributes:
-        bound: an upper bound of |residual|.
-        reached: the largest |residual| of a tree.
+    """The size of the residuals of one order: an upper bound of |residual|, and the largest one
+    reached by a tree.
     """
 
     bound: arb

@@ -16,10 +16,8 @@ _CURE = "gark conditions FILE lists the trees of a method"
 
 
 class TreeVectors:
-    """Stage vectors of single trees; images of branches are cached.
-
-    Args:
-        tableau: of numbers, polynomials or balls.
+    """Stage vectors of single trees of a tableau of numbers, polynomials or balls; images of
+    branches are cached.
     """
 
     def __init__(self, tableau: Tableau) -> None:

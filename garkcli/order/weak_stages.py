@@ -58,10 +58,8 @@ def _functionals(defects: Defects, colours: Sequence[int]) -> Iterator[tuple[int
 
 
 class Echelon:
-    """A linear span of vectors, grown by elimination.
-
-    Args:
-        defects: decides whether a number is zero.
+    """A linear span of vectors, grown by elimination; ``defects`` decides whether a number is
+    zero.
     """
 
     def __init__(self, defects: Defects) -> None:

@@ -77,16 +77,10 @@ def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker
 
 
 def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
-    """The problem called ``name``, of either kind, split into ``terms`` terms.
+    """Returns the problem called ``name``, of either kind, split into ``terms`` terms.
 
-    Args:
-        name: a key of ``PROBLEMS``.
-        terms: the number of terms.
-        seed: for random coefficients.
-        stiffness: if the problem has one; 1 by default.
-
-    Raises:
-        UsageProblem: there is no such problem, or it has no stiffness.
+    The stiffness is 1 by default. Raises UsageProblem if there is no such problem, or it has no
+    stiffness.
 
     >>> problem("van-der-pol", 2, stiffness=fmpq(1000)).terms[0]
     (z, 0)

@@ -28,13 +28,8 @@ _record: ContextVar[Record | None] = ContextVar("record", default=None)
 class Deferred(Sequence[Expr]):
     """Several sympy expressions, made on first use.
 
-    Args:
-        name: identifies them; equal names mean equal expressions. It begins with the name of the
-            built-in problem and a blank.
-        make: makes them.
-        names: the names of the expressions, if any.
-        count: their number, if known.
-        total: their sum, if it has a name of its own.
+    ``name`` identifies them; equal names mean equal expressions. It begins with the name of the
+    built-in problem and a blank. ``total`` is their sum, if it has a name of its own.
     """
 
     def __init__(

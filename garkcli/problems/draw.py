@@ -15,8 +15,7 @@ _SECOND_FACTOR = 0x94D049BB133111EB
 class Draw:
     """A sequence of integers determined by ``seed``: SplitMix64.
 
-    Args:
-        seed: any integer, taken modulo 2^64.
+    The seed is taken modulo 2^64.
 
     >>> draw = Draw(1234567)
     >>> draw.word(), draw.word()

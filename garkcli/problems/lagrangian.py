@@ -43,12 +43,8 @@ class Solved(Frozen):
 class Equations(Frozen):
     """p = ∂L/∂v for velocities that only depend on each other.
 
-    Attributes:
-        v: the velocities.
-        p: their momenta.
-        gradient: ∂L/∂v.
-        M: ∂²L/∂v².
-        start: the known values at the start.
+    ``v`` are the velocities, ``gradient`` is ∂L/∂v, ``M`` ∂²L/∂v², ``start`` has the known values
+    at the start.
     """
 
     v: Vector
@@ -104,13 +100,8 @@ def _times(matrix: ExprMatrix, vector: Vector) -> list[Expr]:
 class _Form(Frozen):
     """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
 
-    Attributes:
-        a: the form, as it occurs in L.
-        symbol: its symbol in φ.
-        G: the matrix.
-        slope: φ'(a).
-        b: the coefficients of the linear part.
-        at_rest: a_0.
+    ``a`` is the form as it occurs in L, ``symbol`` its symbol in φ, ``slope`` φ'(a), ``at_rest``
+    a_0.
     """
 
     a: Expr
@@ -314,7 +305,7 @@ def _are_one(x: arb, y: arb) -> bool:
 
 @doing("Legendre transform")
 def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Expr:
-    """The Hamiltonian of a Lagrangian, sympy expressions both.
+    """Returns the Hamiltonian of a Lagrangian, sympy expressions both.
 
     Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
     + c, H = ½ (p − b)·M⁻¹(p − b) − c, where M, b and c may depend on the positions. Other equations
@@ -322,14 +313,9 @@ def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Exp
     in √(1 − v·v); such solutions are tested at the start and at random places near it, with 90
     digits.
 
-    Args:
-        L: in the symbols of the positions and of the ``velocities``.
-        variables: d names.
-        start: q(0), and the known velocities or momenta at the start, which select one of several
-            solutions.
-
-    Raises:
-        NoLegendreTransform: the mass matrix is singular, or no solution was found.
+    ``start`` has q(0), and the known velocities or momenta at the start, which select one of
+    several solutions. Raises NoLegendreTransform if the mass matrix is singular, or no solution was
+    found.
 
     >>> from flint import arb
     >>> from sympy import cos
@@ -380,19 +366,11 @@ def _of_quadratic(lagrangian: Lagrangian) -> Expr:
 def initial_momenta(
     lagrangians: Vector, hamiltonians: Vector, variables: tuple[str, ...], start: Place
 ) -> list[arb]:
-    """The p(0) for which q̇(0) is the given velocity, shape (d,).
+    """Returns the p(0) for which q̇(0) is the given velocity, shape (d,).
 
     If one term has velocities, p = ∂L/∂q̇. If several have, each with its own, q̇ = Σ_l ∂H^{l}/∂p
-    is solved for p.
-
-    Args:
-        lagrangians: L^{l}.
-        hamiltonians: H^{l}, their transforms.
-        variables: d names.
-        start: q(0) and q̇(0).
-
-    Raises:
-        NoLegendreTransform: several terms have velocities, and not all are quadratic in them.
+    is solved for p. ``hamiltonians`` are the transforms of ``lagrangians``. Raises
+    NoLegendreTransform if several terms have velocities, and not all are quadratic in them.
     """
     v, p = velocities(variables), symbols(variables, "p")
     moving = [L for L in lagrangians if L.free_symbols & set(v)]

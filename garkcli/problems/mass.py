@@ -31,14 +31,10 @@ def velocities(variables: tuple[str, ...]) -> Exprs:
 
 
 class Lagrangian(Frozen):
-    """A Lagrangian L of d velocities v with its derivatives, as sympy expressions.
+    """A Lagrangian L of d velocities v with ``gradient`` ∂L/∂v, shape (d,), and ``M`` = ∂²L/∂v²,
+    shape (d, d), as sympy expressions.
 
-    Attributes:
-        L: the Lagrangian.
-        gradient: ∂L/∂v, shape (d,).
-        M: ∂²L/∂v², shape (d, d).
-        variables: d names.
-        start: the known values at the start.
+    ``start`` has the known values at the start.
     """
 
     L: Expr

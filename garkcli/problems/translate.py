@@ -35,9 +35,8 @@ MAX_SIZE = 100_000
 class Translator(Frozen):
     """Makes sympy expressions of formulas.
 
-    Attributes:
-        symbols: the value of each name: the symbol of a variable, or the expression of a parameter.
-        values: the values of the parameters, for exponents.
+    ``symbols`` has the value of each name: the symbol of a variable, or the expression of a
+    parameter; ``values`` those of the parameters, for exponents.
     """
 
     symbols: Mapping[str, Any]
@@ -196,13 +195,8 @@ def size_of_derivatives(expression: Expr) -> int:
 
 
 class _Sizes(Frozen):
-    """The lengths of an expression and its derivatives.
-
-    Attributes:
-        own: operations of the expression.
-        symbols: the number of its symbols.
-        first: operations of its first derivatives in all.
-        second: of its second derivatives in all.
+    """The lengths of an expression and its derivatives: its operations and symbols, and the
+    operations of all first and all second derivatives.
     """
 
     own: int

@@ -27,11 +27,9 @@ TIME: Final = "t"
 
 
 class Layout(Frozen):
-    """The numbers of a state, group by group.
+    """The numbers of a state, group by group, time last.
 
-    Attributes:
-        groups: the groups in order, time last.
-        dimension: d, the size of every group except time, which has size 1.
+    ``dimension`` d is the size of every group except time, which has size 1.
     """
 
     groups: tuple[Group, ...]
@@ -74,10 +72,8 @@ def _names(variables: tuple[str, ...], group: Group) -> tuple[str, ...]:
 class VectorField(Frozen):
     """V^{l}, F^{l} or f^{l}, with its Jacobians.
 
-    Attributes:
-        components: d sympy expressions; one for time.
-        variables: the variables of the problem.
-        depends: the groups that occur in it, in order, which are the arguments of its functions.
+    ``components`` are d sympy expressions, one for time; ``depends`` are the groups that occur in
+    it, in order, which are the arguments of its functions.
     """
 
     components: Vector

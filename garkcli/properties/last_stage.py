@@ -15,11 +15,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class FirstSameAsLast(Frozen):
-    """The first reason why a method is not FSAL, if any.
-
-    Attributes:
-        not_first: a stage space whose first stage is not the old value, or None.
-        not_last: a stage space whose last stage is not the new value, or None.
+    """The first reason why a method is not FSAL, if any: a stage space whose first stage is not the
+    old value, or one whose last stage is not the new value.
     """
 
     not_first: int | None = None
@@ -31,14 +28,11 @@ class FirstSameAsLast(Frozen):
 
 
 def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage i.
+    """Returns whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage
+    i.
 
     For a GARK method globally (A. Sandu, M. Günther 2015): one stage of one method sees all vector
     fields with their weights.
-
-    Args:
-        tableau: the method.
-        tolerance: the rounding of its coefficients.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark

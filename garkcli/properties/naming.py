@@ -38,13 +38,9 @@ def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
 
 
 def place(letter: str, tableau: Tableau, colours: Sequence[int], *indices: int) -> Place:
-    """An entry of a block or row, with its colours if there are several.
+    """Returns an entry of a block or row, with its colours if there are several.
 
-    Args:
-        letter: a, b, c or A.
-        tableau: the method.
-        colours: the colours of the block or row, from 0.
-        indices: the indices of the entry, from 0; none for the whole.
+    Colours and indices count from 0; without indices the whole block or row is meant.
     """
     names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
     return Place(letter, tuple(names), indices)

@@ -75,14 +75,9 @@ def spaces_that_matter(tableau: Tableau) -> set[int]:
 def stage_graph(
     tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
-    """The graph of all stages, or of some colours only.
+    """Returns the graph of all stages, or of some colours only.
 
     Stage spaces that no step depends on are left out, unless all are such.
-
-    Args:
-        tableau: the method.
-        colours: the vector fields to keep; None for all.
-        tolerance: the rounding of its nonzero coefficients.
     """
     chosen = list(range(tableau.size) if colours is None else colours)
     matters = spaces_that_matter(tableau) or set(range(len(tableau.spaces)))

@@ -29,11 +29,7 @@ _LONG = 60
 
 
 class Size(Frozen):
-    """A real number that may be infinite.
-
-    Attributes:
-        root: the number; None for ∞.
-    """
+    """A real number that may be infinite; ``root`` is None for ∞."""
 
     root: RealRoot | None
 
@@ -122,12 +118,7 @@ class Verdict(Frozen):
 
 
 class NoProperties(Frozen):
-    """A method for which no property is defined.
-
-    Attributes:
-        rounding: the rounding of its printed coefficients.
-        why: why they are not defined.
-    """
+    """A method for which no property is defined, and the reason."""
 
     rounding: fmpq
     why: Reason

@@ -24,14 +24,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
-    """The smallest method with the same step; the same object if nothing can be left out.
+    """Returns the smallest method with the same step; the same object if nothing can be left out.
 
     None if the nodes have no simple radicals. An empty stage space keeps one stage, with zero row
-    and weight.
-
-    Args:
-        tableau: the method.
-        tolerance: the size up to which its numbers count as zero; 0 for exact ones.
+    and weight. Numbers up to ``tolerance`` count as zero.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -92,14 +88,10 @@ def sizes(tableau: Tableau) -> list[int]:
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Whether every stage has a weight, and all stages of a space have different row sums.
+    """Returns whether every stage has a weight, and all stages of a space have different row sums.
 
     Then every stage is used and no two are equal. The stages of a family have different row sums if
-    A𝟙 = c.
-
-    Args:
-        tableau: the method.
-        tolerance: the rounding of its coefficients; True has to hold for all of it.
+    A𝟙 = c. True has to hold for all of the rounding.
     """
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
@@ -199,11 +191,11 @@ def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
 
 @doing("smallest method")
 def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
-    """The smallest method with further weights: a stage that any row of weights needs stays.
+    """Returns the smallest method with further weights: a stage that any row of weights needs
+    stays.
 
-    Returns:
-        the same tableau object if nothing can be left out; None if stages at irrational nodes would
-        have to be compared.
+    The same tableau object if nothing can be left out; None if stages at irrational nodes would
+    have to be compared.
 
     >>> from garkcli.methodfile.load import loads
     >>> method = loads("{A: [[0, 0], [1, 0]], b: [1, 0], embedded: [1/2, 1/2]}")

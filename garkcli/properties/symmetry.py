@@ -51,12 +51,9 @@ class Symmetry(Frozen):
 
 
 def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
-    """Whether a method is its own adjoint, with the renumbering of the stages.
+    """Returns whether a method is its own adjoint, with the renumbering of the stages.
 
-    Args:
-        tableau: the method.
-        tolerance: the rounding of its coefficients; an equation between three of them has three
-            times that.
+    An equation between three coefficients has three times their ``tolerance``.
 
     >>> from garkcli.methodfile.load import loads
     >>> symmetry(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau)
@@ -217,10 +214,7 @@ class _Search:
     """Searches the involution of stages that turns a method into its adjoint, most constrained
     stages first.
 
-    Args:
-        tableau: the method.
-        reflections: x → 1 − x in each stage algebra.
-        tolerance: the rounding of its coefficients.
+    ``reflections`` are x → 1 − x in each stage algebra.
     """
 
     def __init__(

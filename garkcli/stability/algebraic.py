@@ -25,11 +25,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class AlgebraicStability(Frozen):
-    """The two conditions of algebraic stability.
-
-    Attributes:
-        weights_are_positive: whether no weight is negative.
-        form_is_positive: whether M is positive semidefinite.
+    """The two conditions of algebraic stability: no weight is negative, and M is positive
+    semidefinite.
     """
 
     weights_are_positive: bool
@@ -78,12 +75,8 @@ def is_positive_semidefinite(form: Matrix) -> bool:
 
 
 def negative_pivot(form: Matrix) -> Number | None:
-    """The diagonal entry at which symmetric elimination shows a matrix to be indefinite, or None.
-
-    A zero pivot needs a zero row; a positive pivot is eliminated.
-
-    Returns:
-        a negative diagonal entry, or 0 with a nonzero row.
+    """Returns the diagonal entry at which symmetric elimination shows a matrix to be indefinite:
+    negative, or 0 with a nonzero row; otherwise None.
     """
     rows: list[list[Number]] = [list(row) for row in form]
     remaining = list(range(len(rows)))
@@ -120,14 +113,10 @@ def snapped(ball: arb) -> arb:
 
 
 def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
-    """Whether a method known to many bits is algebraically stable; None if undecided.
+    """Returns whether a method known to many bits is algebraically stable; None if undecided.
 
     Symmetric elimination in balls, where a ball with 0 counts as 0. Positive pivots are eliminated;
-    a negative diagonal entry or 2×2 minor decides.
-
-    Args:
-        tableau: the method on point stages, with all blocks.
-        tolerance: the size up to which numbers count as zero.
+    a negative diagonal entry or 2×2 minor decides. The method is on point stages, with all blocks.
     """
     with ctx.workprec(bits_for(tolerance)):
         weights = [x for colour in tableau.colours for x in rounded_balls(colour.b, tolerance)]

@@ -121,11 +121,9 @@ MOST_TRIES = 60
 
 
 class Bounds(Frozen):
-    """A number between bounds.
+    """A number between bounds for all methods within the tolerance.
 
-    Attributes:
-        low: a lower bound for all methods within the tolerance; None for ∞.
-        high: an upper bound; None for ∞ or if none is known.
+    None stands for ∞; an upper bound may also be unknown.
     """
 
     low: fmpq | None
@@ -140,9 +138,8 @@ OPEN = Bounds(ZERO, None)
 def first_failure(coefficients: Sequence[arb], upto: fmpq | None = None) -> Bounds:
     """Brackets the x ≥ 0 from which on a polynomial is negative.
 
-    Args:
-        coefficients: lowest first; exact zeros stay zero.
-        upto: a polynomial that is positive up to here counts as unlimited.
+    ``coefficients`` begin with the lowest; exact zeros stay zero. A polynomial that is positive up
+    to ``upto`` counts as unlimited.
 
     >>> found = first_failure([arb(4), arb(0), arb(-1)])
     >>> bool(found.low <= 2 <= found.high and found.high - found.low < fmpq(1, 10**9))

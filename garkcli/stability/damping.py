@@ -82,20 +82,15 @@ BITS = 192
 class Ray(Frozen):
     """The z_E on half of an axis, from 0 on, for which all z_I are damped.
 
-    Attributes:
-        end: the end, in −z_E or in |Im z_E|; None for ∞.
+    ``end`` is in −z_E or in |Im z_E|; None for ∞.
     """
 
     end: RealRoot | None
 
 
 class ImexPair(Frozen):
-    """A method of one explicit and one implicit colour.
-
-    Attributes:
-        explicit: the index of the explicit colour.
-        implicit: the index of the implicit colour.
-        R: R(z_1, z_2).
+    """A method of one explicit and one implicit colour, given by their indices, with R(z_1,
+    z_2).
     """
 
     explicit: int
@@ -169,12 +164,10 @@ class ImexPair(Frozen):
         return self._ray(by_y, is_in_squares=False)
 
     def _ray(self, E: Sequence[Polynomial], is_in_squares: bool) -> Ray | None:
-        """The largest x such that all numbers from 0 to x are damped; None if undecided.
+        """Returns the largest x such that all numbers from 0 to x are damped; None if undecided.
 
-        Args:
-            E: the coefficients of E by powers of y, or of y², as polynomials in x.
-            is_in_squares: whether powers are of y² and x is −z_E; else x is |z_E| on the imaginary
-                axis.
+        ``E`` has the coefficients of E by powers of y as polynomials in x = |z_E| on the imaginary
+        axis, or, if ``is_in_squares``, by powers of y² in x = −z_E.
         """
         zero = RealRoot.rational(ZERO)
         if not self.has_fixed_poles:
@@ -199,11 +192,9 @@ class ImexPair(Frozen):
 
 
 def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
-    """The explicit and the implicit colour of a method with two; None for other methods.
+    """Returns the explicit and the implicit colour of a method with two; None for other methods.
 
-    Args:
-        tableau: the method.
-        R: its stability function; None if it is too large.
+    ``R`` is its stability function; None if it is too large.
     """
     if tableau.size != 2 or R is None:
         return None

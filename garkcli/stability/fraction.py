@@ -36,10 +36,7 @@ OFFSETS = (1, 3, 7, 13, 29)
 class Fraction(Frozen):
     """R = P/Q with Q(0) = 1.
 
-    Attributes:
-        numerator: P.
-        denominator: Q.
-        is_reduced: whether P and Q are proved to have no common factor.
+    ``is_reduced`` says that P and Q are proved to have no common factor.
     """
 
     numerator: Multivariate

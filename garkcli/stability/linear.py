@@ -32,11 +32,8 @@ Complex: TypeAlias = tuple[Number, Number]
 
 
 class StepFunction(Frozen):
-    """M(z) as one denominator and a numerator for each entry, without a common factor.
-
-    Attributes:
-        denominator: D, with D(0) = 1.
-        numerators: shape (d, d); the entries of D · M.
+    """M(z) with a common denominator D, D(0) = 1, and the entries of D · M as numerators, without a
+    common factor.
     """
 
     denominator: Polynomial

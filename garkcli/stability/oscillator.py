@@ -30,12 +30,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Ratio(Frozen):
-    """A rational function in lowest terms; the denominator is 1 at 0.
-
-    Attributes:
-        numerator: a polynomial.
-        denominator: a polynomial ≠ 0.
-    """
+    """A rational function in lowest terms; the denominator is 1 at 0."""
 
     numerator: Polynomial
     denominator: Polynomial
@@ -126,14 +121,10 @@ class OscillatorStability(Frozen):
 
 
 def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
-    """The stability of a method on q̈ = −ω²q for every step size.
+    """Returns the stability of a method on q̈ = −ω²q for every step size.
 
-    Args:
-        tableau: the method.
-        problem: the split of the oscillator; its frequency is ignored.
-
-    Raises:
-        UsageProblem: the split does not suit the structure of the tableau.
+    ``problem`` is the split of the oscillator; its frequency is ignored. Raises UsageProblem if the
+    split does not suit the structure of the tableau.
     """
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
@@ -181,16 +172,12 @@ def _even(p: Polynomial) -> Polynomial:
 def stable_set(
     trace: Ratio, determinant: Ratio, off_diagonal: Sequence[Polynomial], poles: Polynomial
 ) -> tuple[Interval, ...]:
-    """The x ≥ 0 for which all powers of M are bounded.
+    """Returns the x ≥ 0 for which all powers of M are bounded.
 
-    Args:
-        trace: tr M.
-        determinant: det M.
-        off_diagonal: two polynomials with the roots of the entries off the diagonal. With a double
-            eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc: M = ±I if
-            both are zero.
-        poles: the denominator of M in lowest terms. An entry off the diagonal can have a pole where
-            trace and determinant have none; there is no step there.
+    ``off_diagonal`` are two polynomials with the roots of the entries off the diagonal: with a
+    double eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc, so M = ±I if
+    both are zero. ``poles`` is the denominator of M in lowest terms: an entry off the diagonal can
+    have a pole where trace and determinant have none; there is no step there.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator

@@ -72,8 +72,7 @@ def roots_between(
 class Sector(Frozen):
     """The largest sector |arg(−z)| ≤ α in which |R| ≤ 1.
 
-    Attributes:
-        cosine: cos α; None if |R| > 1 somewhere on the negative real axis.
+    ``cosine`` is cos α; None if |R| > 1 somewhere on the negative real axis.
     """
 
     cosine: RealRoot | None

@@ -25,12 +25,8 @@ if TYPE_CHECKING:
 
 
 class SpringsPlane(Frozen):
-    """|tr M|/2 over both frequencies.
-
-    Attributes:
-        fast: hω of the fast spring, ascending.
-        slow: hω of the slow spring, ascending.
-        half_trace: shape (slow, fast).
+    """|tr M|/2 over both frequencies hω, each ascending; ``half_trace`` has the shape (slow,
+    fast).
     """
 
     fast: Floats
@@ -41,16 +37,10 @@ class SpringsPlane(Frozen):
 def springs_plane(
     tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
 ) -> SpringsPlane:
-    """The half trace on a grid.
+    """Returns the half trace on a grid with ``points`` points on a side.
 
-    W = W_0 + a W_a + x W_x, with the three parts from three evaluations.
-
-    Args:
-        tableau: the method.
-        split: the springs of the terms.
-        slow_end: the largest hω of the slow spring.
-        fast_end: the largest hω of the fast spring.
-        points: points on a side of the grid.
+    W = W_0 + a W_a + x W_x, with the three parts from three evaluations. ``slow_end`` and
+    ``fast_end`` are the largest hω.
     """
     zero, one = fmpq(0), fmpq(1)
     W, B, E = _floats(tableau, split, zero, zero)
@@ -80,13 +70,10 @@ def springs_plane(
 def plane_with_ends_of(
     tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
-    """The plane around the intervals that were decided.
+    """Returns the plane around the intervals that were decided.
 
-    Args:
-        tableau: the method.
-        split: the springs of the terms.
-        stable: the stable (hω)² of the fast spring.
-        slow: the largest (hω)² of the slow one that was decided.
+    ``stable`` are the stable (hω)² of the fast spring, ``slow`` is the largest decided (hω)² of the
+    slow one.
     """
     ends = []
     for interval in stable:

@@ -26,11 +26,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class SspCoefficient(Frozen):
-    """The radius of absolute monotonicity.
-
-    Attributes:
-        value: the radius; None if infinite.
-    """
+    """The radius of absolute monotonicity; None if infinite."""
 
     value: RealRoot | None
 
@@ -38,9 +34,8 @@ class SspCoefficient(Frozen):
 class AdditiveRadius(Frozen):
     """The end of the region of absolute monotonicity on a line through the origin.
 
-    Attributes:
-        ratios: the direction (q_1, …, q_N), q_l ≥ 0.
-        radius: the largest r with (r q_1, …, r q_N) in the region; None if undecided.
+    ``ratios`` is the direction (q_1, …, q_N), q_l ≥ 0, ``radius`` the largest r with (r q_1, …, r
+    q_N) in the region; None if undecided.
     """
 
     ratios: tuple[Number, ...]
@@ -50,12 +45,10 @@ class AdditiveRadius(Frozen):
 def ssp_coefficient(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
-    """The SSP coefficient; None if the stages have no simple nodes or a block is missing.
+    """Returns the SSP coefficient; None if the stages have no simple nodes or a block is missing.
 
-    Args:
-        tableau: the method.
-        shares: r_l / r for each colour; None for 1 each. Colours with 0 have a zero vector field:
-            they and their own stages are ignored.
+    ``shares`` are r_l / r for each colour, by default 1. Colours with 0 have a zero vector field:
+    they and their own stages are ignored.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -68,12 +61,9 @@ def ssp_coefficient(
 
 
 def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
-    """The end of the region of absolute monotonicity in one direction.
+    """Returns the end of the region of absolute monotonicity in the direction ``ratios``.
 
-    Args:
-        tableau: the method.
-        ratios: the direction, one number per colour; a colour with 0 keeps its vector field,
-            without a step size of its own.
+    A colour with 0 keeps its vector field, without a step size of its own.
     """
     return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 

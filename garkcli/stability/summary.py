@@ -75,11 +75,9 @@ class Colours(Frozen):
 
 
 def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
-    """The joint stability of colours that all see one another.
+    """Returns the joint stability of at least two colours that all see one another.
 
-    Args:
-        tableau: the method, of at least two colours.
-        ratios: further r_2/r_1 for the additive radius.
+    ``ratios`` are further r_2/r_1 for the additive radius.
     """
     late: set[str] = set()
     size = tableau.size
@@ -128,12 +126,7 @@ def _word(word: str, is_so: bool | None) -> str:
 
 
 class AtPoint(Frozen):
-    """The value of R at a point.
-
-    Attributes:
-        z: the point.
-        value: R(z), exact; None at a pole.
-    """
+    """The value of R at a point z; None at a pole."""
 
     z: Complex
     value: Complex | None
@@ -258,16 +251,11 @@ def stability(
     seconds: float | None = SECONDS,
     embedded: Tableau | None = None,
 ) -> Stability:
-    """All results of ``gark stability``.
+    """Returns all results of ``gark stability`` for an exact method.
 
-    Args:
-        tableau: the exact method.
-        ratios: r_2/r_1 of further additive SSP radii of methods of two colours.
-        seconds: processor seconds, after which the rest stays undecided; None for no limit.
-        embedded: the method with its embedded weights as b, or None.
-
-    Raises:
-        NotDecided: R exceeds the time limit.
+    ``ratios`` are r_2/r_1 of further additive SSP radii; after ``seconds`` of processor time the
+    rest stays undecided; ``embedded`` is the method with its embedded weights as b, or None. Raises
+    NotDecided if R exceeds the time limit.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -306,12 +294,9 @@ def _embedded(tableau: Tableau) -> LinearStability:
 def stability_of_rounded(
     tableau: Tableau, tolerance: fmpq, embedded: AnyTableau | None = None
 ) -> Stability:
-    """The stability of the method that a rounded one is taken to mean, as far as decided.
+    """Returns the stability of the method that a rounded one is taken to mean, as far as decided.
 
-    Args:
-        tableau: the method.
-        tolerance: the rounding of its coefficients.
-        embedded: the method with its embedded weights as b, possibly exact, or None.
+    ``embedded`` is the method with its embedded weights as b, or None.
     """
     method = meant(tableau, tolerance)
     assert not isinstance(method, Tableau)

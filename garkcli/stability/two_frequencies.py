@@ -29,12 +29,8 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 
 class SplitSprings(Frozen):
-    """The split of the two springs over the terms.
-
-    Attributes:
-        kinetic: the share of the kinetic energy of each term.
-        slow: the share of the slow spring.
-        fast: the share of the fast spring.
+    """The split of the two springs over the terms: the shares of the kinetic energy, of the slow
+    and of the fast spring in each term.
     """
 
     kinetic: tuple[fmpq, ...]

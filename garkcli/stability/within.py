@@ -40,9 +40,8 @@ from garkcli.tableau.tableau import Tableau
 class BallFraction(Frozen):
     """R = P/Q of a rounded method, coefficients from the lowest.
 
-    Attributes:
-        P: the numerator, with one coefficient more than unknown stage values.
-        Q: the denominator det(I − zW); no longer than P.
+    ``P`` has one coefficient more than there are unknown stage values; ``Q`` is det(I − zW) and no
+    longer than P.
     """
 
     P: list[arb]
@@ -50,12 +49,9 @@ class BallFraction(Frozen):
 
 
 def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> BallFraction:
-    """P and Q of a method with rounded coefficients.
+    """Returns P and Q of a method with rounded coefficients on point stages.
 
-    Args:
-        tableau: the method on point stages.
-        shares: w_l with λ_l = w_l λ, one per colour.
-        tolerance: the rounding of nonzero coefficients.
+    ``shares`` are w_l with λ_l = w_l λ.
     """
     system = stage_system(tableau, [((w,),) for w in shares])
     # how many coefficients each entry of the system is the sum of, each counted |w_l| times
@@ -120,11 +116,7 @@ def _series(W: list[list[arb]], b: list[arb], initial: list[arb]) -> list[arb]:
 def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> Bounds:
     """Brackets the first failure of any condition of ``garkcli.stability.ssp``.
 
-    Args:
-        tableau: the method on point stages.
-        shares: r_l / r for each colour; those with 0 have the vector field 0, as for
-            ``ssp_coefficient``.
-        tolerance: the rounding of nonzero coefficients.
+    ``shares`` are as for ``ssp_coefficient``.
     """
     pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
@@ -179,12 +171,9 @@ class StabilityWithin(Frozen):
 def stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> StabilityWithin:
-    """The decided results on R and the SSP coefficient of a rounded method.
+    """Returns the decided results on R and the SSP coefficient of a rounded method on point stages.
 
-    Args:
-        tableau: the method on point stages.
-        shares: w_l with λ_l = w_l λ, one per colour.
-        tolerance: the rounding of nonzero coefficients.
+    ``shares`` are w_l with λ_l = w_l λ.
     """
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)

@@ -21,12 +21,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Stepped(Frozen, eq=False):
-    """The additive method that takes the steps.
+    """The additive method that takes the steps, with one colour for each derivative and one for
+    time.
 
-    Attributes:
-        tableau: one colour for each derivative, and one for time.
-        fields: the fields of these colours.
-        powers: the power of h in the coefficients of each colour.
+    ``powers`` has the power of h in the coefficients of each colour.
     """
 
     tableau: Tableau

@@ -189,12 +189,8 @@ class Binding(Frozen, eq=False):
 def bind(tableau: Tableau, problem: Problem) -> Binding:
     """Binds ``tableau`` to ``problem``, to step with any number of digits.
 
-    Args:
-        tableau: a method of any structure.
-        problem: in as many terms as the tableau has, or in one with a natural split.
-
-    Raises:
-        UsageProblem: the problem does not suit the structure.
+    The problem is in as many terms as the tableau has, or in one with a natural split. Raises
+    UsageProblem if it does not suit the structure.
 
     >>> from garkcli import hamiltonian, integrate, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau
@@ -320,11 +316,8 @@ def integrate(
 class Stepper(Mutable):
     """A trajectory that can be advanced.
 
-    Attributes:
-        integrator: the method on the problem.
-        h: the step size.
-        initial: (q, p) at the start, shape (2d,), or None for the problem's.
-        done: the number of steps so far.
+    ``initial`` is (q, p) at the start, shape (2d,), or None for that of the problem, ``done`` the
+    number of steps so far.
     """
 
     integrator: Integrator

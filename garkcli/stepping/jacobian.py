@@ -29,16 +29,9 @@ class _Layer(Frozen):
 class ChainRule:
     """The derivative of the image of the unknowns of a block.
 
-    Args:
-        block: the block.
-        graph: the graph with the block.
-        dimension: d; there are n = d · (unknown stage values) unknowns.
-        weights: the index of the number w = h a of a stage and an evaluation.
-
-    Attributes:
-        evaluations: the evaluations of the block, in order.
-        arguments: the pairs of evaluation and stage value whose derivatives it needs, in this
-            order.
+    There are n = ``dimension`` · (unknown stage values) unknowns; ``weights`` has the index of the
+    number w = h a of a stage and an evaluation, ``arguments`` the pairs of evaluation and stage
+    value whose derivatives are needed, in this order.
     """
 
     def __init__(
@@ -79,12 +72,10 @@ class ChainRule:
         return found
 
     def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
-        """(I − J)⁻¹, shape (n, n).
+        """Returns (I − J)⁻¹, shape (n, n).
 
-        Args:
-            derivatives: the derivatives of the fields by their ``arguments``, a matrix (d, d) each,
-                row by row.
-            weights: all numbers w.
+        ``derivatives`` are those of the fields by their ``arguments``, a matrix (d, d) each, row by
+        row; ``weights`` are all numbers w.
         """
         import numpy as np
 
@@ -141,12 +132,8 @@ _Slopes: TypeAlias = dict[tuple[Stage | FieldEvaluation, int], Slope]
 class JacobianWriter:
     """Writes the lines of derivatives.
 
-    Args:
-        stages: the writer of the stages.
-
-    Attributes:
-        chains: the Jacobians with too many unknowns to be written out, by the indices of their
-            blocks.
+    ``chains`` has the Jacobians with too many unknowns to be written out, by the indices of their
+    blocks.
     """
 
     def __init__(self, stages: StageWriter) -> None:

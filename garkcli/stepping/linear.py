@@ -35,12 +35,9 @@ _Rows: TypeAlias = list[list[Number]]
 
 
 class StageSystem(Frozen):
-    """W, E and B of the module's docstring, over the domain K of the coefficients.
+    """W, E and B of the module's docstring, over the domain of the coefficients.
 
-    Attributes:
-        W: shape (n, n), n the number of unknown stage values in use.
-        E: shape (n, d).
-        B: shape (d, n).
+    The shapes are (n, n), (n, d) and (d, n), with n the number of unknown stage values in use.
     """
 
     W: Matrix
@@ -62,16 +59,11 @@ class _Term(Frozen):
 def stage_system(
     tableau: Tableau, fields: Sequence[Matrix], pattern: Sequence[Matrix] | None = None
 ) -> StageSystem:
-    """The linear system of the stages.
+    """Returns the linear system of the stages.
 
-    Args:
-        tableau: the method.
-        fields: L^m for each colour m, all of one shape (d, d).
-        pattern: matrices that are nonzero where some parameters of the problem make L^m nonzero, so
-            that the unknowns agree for all; None for the L^m themselves.
-
-    Raises:
-        MethodError: the tableau is no GARK method.
+    ``fields`` has L^m for each colour m, all of one shape (d, d); ``pattern`` matrices that are
+    nonzero where some parameters of the problem make L^m nonzero, so that the unknowns agree for
+    all, or None for the L^m themselves. Raises MethodError if the tableau is no GARK method.
     """
     tableau.demand_fields("a step on a linear problem")
     d = len(fields[0])
@@ -143,12 +135,8 @@ MAX_STEPS = 10**15
 class LinearStep(Frozen):
     """A tableau on an oscillator, with the stage system W, E, B over ℚ.
 
-    Attributes:
-        problem: the oscillator and its split.
-        field: K; None for ℚ. With d its degree and n the number of unknown stage values:
-        W: shape (dn, dn).
-        E: shape (dn, 2).
-        B: shape (2d, dn).
+    ``field`` is the domain K of the coefficients, None for ℚ. With d its degree and n the number of
+    unknown stage values, W has the shape (dn, dn), E (dn, 2) and B (2d, dn).
     """
 
     problem: Oscillator
@@ -279,15 +267,13 @@ def deviations(step: LinearStep) -> Iterator[arb]:
 
 
 def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
-    """The largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees, exactly.
+    """Returns the largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees,
+    exactly.
 
     A linear problem sees only unbranched trees along which the split is nonzero. The search ends
-    because R is rational in h and cos ωh is not.
-
-    Args:
-        step: the method on the problem.
-        tolerance: the largest of the ``deviations`` that counts as rounding; 0 by default. The
-            search ends when the coefficients 1/r! of exp(hL) are as small.
+    because R is rational in h and cos ωh is not. ``tolerance`` is the largest of the ``deviations``
+    that counts as rounding; then the search ends when the coefficients 1/r! of exp(hL) are as
+    small.
     """
     limit = fmpq(0) if tolerance is None else tolerance
     coefficient = ONE

@@ -41,13 +41,8 @@ _TAKEN: dict[tuple[Kind, ...], Taken] = {
 class LinearlyImplicit(Frozen):
     """A Rosenbrock method of one colour whose stages are computed one after the other.
 
-    Attributes:
-        alpha: shape (s, s), zero on and above the diagonal.
-        gamma: shape (s, s), zero above the diagonal.
-        b: the weights.
-        c: the nodes of f.
-        d: the weights of ∂f/∂t.
-        taken: the matrix used for the Jacobian.
+    ``alpha`` is zero on and above the diagonal, ``gamma`` above it; ``c`` are the nodes of f, ``d``
+    the weights of ∂f/∂t, ``taken`` is the matrix used for the Jacobian.
     """
 
     alpha: Matrix
@@ -103,10 +98,7 @@ class LinearlyImplicit(Frozen):
 class LinearProgram(Frozen):
     """The counterpart of ``Program`` for such a method.
 
-    Attributes:
-        method: the method.
-        size: the length of a state: its numbers, time last, and their compensations.
-        evaluations: evaluations of vector fields in a step.
+    A state has its numbers, time last, and their compensations, ``size`` in all.
     """
 
     method: LinearlyImplicit

@@ -48,12 +48,7 @@ _STALLED_UNITS = 1e4
 class NewtonWriter:
     """Writes the lines of Newton's method.
 
-    Args:
-        stages: the writer of the stages.
-        jacobians: the writer of derivatives.
-
-    Attributes:
-        frozen: the names of the fields at y_0.
+    ``frozen`` has the names of the fields at y_0.
     """
 
     def __init__(self, stages: StageWriter, jacobians: JacobianWriter) -> None:

@@ -14,14 +14,7 @@ from garkcli.stepping.fields import Fields
 
 
 class Lines:
-    """Lines of a program.
-
-    Args:
-        indent: the indentation of the first line.
-
-    Attributes:
-        texts: the lines written so far.
-    """
+    """Lines of a program."""
 
     def __init__(self, indent: str = "") -> None:
         self.texts: list[str] = []
@@ -50,20 +43,9 @@ class Sum(Frozen):
 class StageWriter:
     """Writes stage values and evaluations, and keeps the names of their results.
 
-    Args:
-        graph: the graph of the method on the problem.
-        fields: its vector fields.
-        layout: the layout of a state.
-        is_for_balls: whether the numbers are balls.
-        lines: receives the lines.
-
-    Attributes:
-        weights: the names of the numbers w, by the texts of their coefficients.
-        first: the first occurrence of each.
-        codes: the code of fields in the text.
-        values: the names of the results of each evaluation.
-        stages: the names of the numbers of each stage value.
-        number: the number of each vertex, for names.
+    ``weights`` has the names of the numbers w by the texts of their coefficients, ``first`` the
+    first occurrence of each; ``values`` and ``stages`` the names of the results of each evaluation
+    and each stage value, ``number`` that of each vertex.
     """
 
     def __init__(

@@ -116,13 +116,8 @@ DIGITS = 12
 
 
 class Column(Frozen):
-    """A column of a sweep.
-
-    Attributes:
-        name: in spec files and rows.
-        value: of a method.
-        text: what it is.
-        more_is_better: whether larger values come first.
+    """A column of a sweep: its name in spec files and rows, its value for a method, and its
+    description.
     """
 
     name: str
@@ -153,10 +148,9 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
 
 
 def _rounded(text: str) -> float:
-    """Returns a decimal as a float. ¶ Raises GarkError if it overflows or underflows.
+    """Returns a decimal as a float.
 
-    Raises:
-        GarkError: it is beyond them: the float would be infinite, or 0 where the number is not.
+    Raises GarkError if it overflows or underflows.
     """
     value = float(text)
     mantissa, _, _ = text.lower().partition("e")
@@ -283,11 +277,9 @@ def columns() -> Mapping[str, Column]:
 
 
 def value_of(name: str, judged: Judged) -> Value:
-    """Returns the value of a column. ¶ Raises MethodError if the column does not apply to the
-    method.
+    """Returns the value of a column.
 
-    Raises:
-        MethodError: it has no meaning for the method.
+    Raises MethodError if the column does not apply to the method.
     """
     if is_rosenbrock(judged.tableau) and name not in _OF_ROSENBROCK:
         message = f"{name} is meant of Runge–Kutta methods"

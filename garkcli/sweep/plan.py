@@ -22,13 +22,7 @@ Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
 
 
 class Condition(Frozen):
-    """A condition on the methods that are kept.
-
-    Attributes:
-        column: which criterion.
-        relation: of its value to the bound.
-        bound: the other side.
-    """
+    """A condition on the methods that are kept: a column, a relation and a bound."""
 
     column: str
     relation: Relation
@@ -62,11 +56,8 @@ def number(value: Value) -> float:
 class Point(Frozen):
     """One method of a sweep.
 
-    Attributes:
-        key: no other method of the sweep has it.
-        template: its file.
-        settings: the values of the parameters, as text.
-        seed: of the search for the other unknowns, where there is one.
+    ``key`` is unique in the sweep; ``settings`` are the values of the parameters as text; ``seed``
+    is that of the search for other unknowns, if any.
     """
 
     key: str
@@ -78,9 +69,7 @@ class Point(Frozen):
 class Criteria(Frozen):
     """The columns and conditions of a sweep.
 
-    Attributes:
-        columns: the criteria, in the order of the rows.
-        conditions: what has to hold for a method to be kept, the first to fail ends its row.
+    The first condition that fails ends the row of a method.
     """
 
     columns: tuple[str, ...]
@@ -102,13 +91,8 @@ class Criteria(Frozen):
 class Plan(Frozen):
     """The methods of a sweep and their columns.
 
-    Attributes:
-        name: of the sweep.
-        templates: the files.
-        grids: the values of each parameter.
-        criteria: what is reported.
-        best: columns by which methods are sorted, the first one first.
-        pareto: columns of the Pareto front.
+    ``grids`` has the values of each parameter; ``best`` are the columns for sorting, the first
+    counting most, ``pareto`` those of the Pareto front.
     """
 
     name: str
@@ -154,10 +138,9 @@ class Plan(Frozen):
 
 
 def load_plan(path: str) -> Plan:
-    """Reads a spec file. ¶ Raises MethodFileError with all errors and their positions.
+    """Reads a spec file.
 
-    Raises:
-        MethodFileError: every fault of it, with positions.
+    Raises MethodFileError with all errors and their positions.
     """
     said = read_sweep(path, _kinds())
     conditions = (Condition(x, cast(Relation, sign), bound) for x, sign, bound in said.conditions)

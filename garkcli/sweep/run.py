@@ -33,13 +33,8 @@ CHUNK = 25
 
 
 class Progress(Mutable):
-    """The progress of a run.
-
-    Attributes:
-        total: how many methods the sweep has.
-        before: how many of them were in the file already.
-        done: how many have been added.
-        seconds: processor time of the added ones, in whatever process.
+    """The progress of a run: the number of methods, of rows in the file before, and of added ones,
+    with their processor time.
     """
 
     total: int
@@ -49,19 +44,11 @@ class Progress(Mutable):
 
 
 def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> Iterator[Progress]:
-    """Adds the missing rows in the order in which they are computed.
+    """Adds the missing rows in the order in which they are computed, and yields the progress after
+    each task.
 
-    Args:
-        plan: the sweep.
-        store: where the rows are.
-        jobs: processes on this machine.
-        scheduler: the address of a Dask scheduler, to work there instead.
-
-    Yields:
-        How far it is, after each task.
-
-    Raises:
-        UsageProblem: the rows of the file are not those of this sweep, or there is no cluster.
+    ``scheduler`` is the address of a Dask scheduler to use instead of ``jobs`` processes. Raises
+    UsageProblem if the rows of the file belong to another sweep, or there is no cluster.
     """
     missing = []
     for point in plan.points():

@@ -22,16 +22,9 @@ _BLOCK = 1 << 16
 class RowStore:
     """A file of rows that is read once and then appended to.
 
-    Args:
-        path: of the file.
-        is_resumed: whether it may have rows.
-
-    Attributes:
-        rows: those of the file by their keys, and those added since.
-
-    Raises:
-        UsageProblem: it exists and nobody said that it may; it is no file of rows, or another
-            process writes to it.
+    ``rows`` has those of the file and the added ones by their keys. Raises UsageProblem if the file
+    exists although ``is_resumed`` is false, if it is not a file of rows, or if another process
+    writes to it.
     """
 
     def __init__(self, path: str, is_resumed: bool) -> None:

@@ -22,10 +22,8 @@ T = TypeVar("T", bound="AlongFlow")
 class AlongFlow(Frozen):
     """The coefficients of a method with derivatives along the solution.
 
-    Attributes:
-        A: a^1, a^2, …, the matrices of f, f' f, …; shape (s, s) each.
-        b: their weights.
-        c: the nodes; None for the row sums of a^1.
+    ``A`` has the matrices a^1, a^2, … of f, f' f, …, each of shape (s, s), ``b`` their weights;
+    ``c`` is None for the row sums of a^1.
     """
 
     A: tuple[Matrix, ...]

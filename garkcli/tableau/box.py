@@ -59,11 +59,8 @@ class Box(Frozen, eq=False):
 
 
 class FormTableau:
-    """A tableau whose entries are forms in the same K printed numbers.
-
-    Args:
-        made: a tableau of affine forms and exact numbers on point stages.
-        numbers: K.
+    """A tableau whose entries are affine forms in the same K printed numbers, and exact numbers, on
+    point stages; ``numbers`` is K.
     """
 
     def __init__(self, made: Tableau, numbers: int) -> None:
@@ -147,15 +144,12 @@ def _rows(matrix: arb_mat) -> Any:
 
 
 def plain_box(tableau: Tableau, radius_of: Callable[[Number], fmpq], colours: int) -> Box:
-    """The box of a method whose coefficients are the printed numbers.
+    """Returns the box of a method whose coefficients are the printed numbers.
 
     Nodes that are the row sums of a block depend on it; others are printed. Equal nodes of colours
-    that share stages count once. Families are exact.
-
-    Args:
-        tableau: the method, with colours for further weights.
-        radius_of: the radius of a nonzero coefficient; 0 if it is exact.
-        colours: the number of colours of the method itself.
+    that share stages count once. Families are exact. ``radius_of`` returns the radius of a nonzero
+    coefficient, 0 if it is exact; ``colours`` is the number of colours without those for further
+    weights.
     """
     sums = [_block_of_nodes(tableau, l) for l in range(colours)]
     nodes = [(x.space, tuple(x.c)) for x in tableau.colours[:colours]]
@@ -198,12 +192,10 @@ def _maker(
 ) -> Make:
     """Returns the function that makes the method of other numbers.
 
-    Args:
-        tableau: the printed tableau.
-        rows: its weights, the rows of its blocks, and nodes that are printed.
-        radii: the radius of each number in ``rows``; 0 for exact ones.
-        sums: for each colour l, the m with A^{l,m} 𝟙 as its nodes; None if they are printed.
-        first: for each colour, the first one with the same nodes on the same stages.
+    ``rows`` are the weights of the printed tableau, the rows of its blocks, and nodes that are
+    printed; ``radii`` are 0 for exact numbers. ``sums`` has for each colour l the m with A^{l,m} 𝟙
+    as its nodes, None if they are printed; ``first`` for each colour the first one with the same
+    nodes on the same stages.
     """
     colours = len(sums)
 

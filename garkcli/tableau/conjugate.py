@@ -28,20 +28,10 @@ from garkcli.tableau.tableau import Colour, Edge, Tableau
 def conjugate_block(
     block: Matrix, here: StageSpace, b: Vector, other: StageSpace, b_other: Vector
 ) -> Matrix:
-    """Â^{l,m} from A^{m,l}, with l ``here`` and m the ``other`` colour.
+    """Returns Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}.
 
-    Args:
-        block: A^{m,l}, shape (stages of m, stages of l).
-        here: the stage space of l.
-        b: the weights of l.
-        other: the stage space of m.
-        b_other: the weights of m.
-
-    Returns:
-        Â^{l,m}, shape (stages of l, stages of m).
-
-    Raises:
-        ZeroWeight: b^{l} has a zero weight.
+    ``here`` is the stage space of l and ``other`` that of m. Raises ZeroWeight if b^{l} has a zero
+    weight.
     """
     try:
         adjoint = other.adjoint(block, b_other, here, b)

@@ -53,11 +53,8 @@ class DenseOutput(Frozen):
 
 
 class Further(Frozen):
-    """Further weights of a method, each None if there are none.
-
-    Attributes:
-        embedded: the embedded weights of each colour.
-        dense: the weights of dense output.
+    """The further weights of a method, None without: embedded weights of each colour, and dense
+    output.
     """
 
     embedded: Weights | None = None
@@ -156,11 +153,9 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """The inverse of ``as_colours``: the tableau and its further weights.
+    """Returns the tableau and its further weights, the inverse of ``as_colours``.
 
-    Args:
-        tableau: a tableau with colours for them.
-        further: the original weights, which tell the kinds.
+    ``further`` are the original weights, which tell the kinds.
     """
     if not further:
         return tableau, further

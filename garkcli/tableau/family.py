@@ -134,11 +134,9 @@ def ring_of(tableau: Tableau) -> Parameters:
 
 
 def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
-    """The family on point stages; None if the nodes have no simple radicals.
+    """Returns the family on point stages; None if the nodes have no simple radicals.
 
-    Args:
-        tableau: the tableau of the family.
-        ring: the ring of its parameters, without roots.
+    ``ring`` is that of its parameters, without roots.
     """
     nodes = nodes_in_radicals(tableau)
     if not nodes:

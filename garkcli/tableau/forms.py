@@ -256,11 +256,9 @@ def with_time(tableau: Tableau) -> Tableau | None:
 
 
 def beside_clock(tableau: Tableau, term: int) -> Tableau:
-    """The tableau with time as its last colour, which stages see with their nodes.
+    """Returns the tableau with time as its last colour, which stages see with their nodes.
 
-    Args:
-        tableau: a tableau whose colours share nodes if they share stages.
-        term: the term of ṫ = 1.
+    Colours that share stages share nodes; ``term`` is that of ṫ = 1.
     """
     time = tableau.size
     columns = {(x.space, time): tuple((c_i,) for c_i in x.c) for x in tableau.colours}

@@ -172,14 +172,11 @@ def at_points(
     coefficient: Callable[[Any], Any],
     number: Callable[[Number], Any],
 ) -> Tableau:
-    """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes.
+    """Returns the blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of
+    the nodes.
 
-    Args:
-        tableau: a family or a single method.
-        nodes: the nodes of the polynomial stage spaces.
-        domain: the domain of these nodes.
-        coefficient: maps a coefficient.
-        number: maps a number of the domain.
+    ``nodes`` are those of the polynomial stage spaces, from ``domain``; ``coefficient`` maps
+    coefficients and ``number`` numbers of the domain.
     """
     spaces: list[PointSpace] = []
     into: list[Matrix] = []

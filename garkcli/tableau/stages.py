@@ -178,14 +178,11 @@ class PointSpace(StageSpace):
         return tuple(_value(coefficients, c) for c in self.points)
 
     def interpolation_bits(self, enough: int) -> int:
-        """An estimate of the length of the common denominator of the Lagrange polynomials.
+        """Estimates the length of the common denominator of the Lagrange polynomials in bits,
+        summed over the coordinates of irrational nodes.
 
-        Args:
-            enough: a simple bound is returned if it is at most this; else the common denominator is
-                computed.
-
-        Returns:
-            Bits, summed over the coordinates of irrational nodes.
+        A simple bound is returned if it is at most ``enough``; otherwise the common denominator is
+        computed.
         """
         bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
         if bound <= enough or bound > MAX_BITS_COMPARED:
@@ -239,10 +236,8 @@ OF_OTHERS = "gark check, show, conditions, certificate, diff and report know suc
 class Flow(PointSpace):
     """Collocation stages that represent the exact solution of problems between other stages.
 
-    Attributes:
-        order: the order of trees up to which conditions agree with the exact solution.
-        why: why such a method is no GARK method.
-        cure: a way without such stages.
+    Up to ``order`` conditions agree with those of the exact solution. ``why`` says why such a
+    method is no GARK method, ``cure`` how to do without such stages.
     """
 
     order: int

@@ -181,15 +181,10 @@ class Tableau(Frozen):
         return self.has_fields_alone and self.exact_to is None
 
     def demand_fields(self, what: str, *, with_flow: bool = False) -> None:
-        """Refuses an operation that is defined for GARK methods only.
+        """Raises MethodError for an operation that is defined for GARK methods only.
 
-        Args:
-            what: the operation, in messages.
-            with_flow: whether it is also defined if stages represent exact solutions.
-
-        Raises:
-            MethodError: the vertices of a colour are of another kind, or stages represent exact
-                solutions.
+        ``what`` names it in messages; ``with_flow`` says that it is also defined if stages
+        represent exact solutions.
         """
         flow = next((x for x in self.spaces if isinstance(x, Flow)), None)
         if flow is not None and not with_flow:
@@ -239,11 +234,8 @@ class Tableau(Frozen):
 class Method(Frozen):
     """A Runge–Kutta method over a stage space with s stages.
 
-    Attributes:
-        name: for people.
-        space: the space of its stage values, with the nodes at which transfer rules interpolate.
-        A: a map of the space into itself, shape (s, s).
-        b: the weights functional, length s.
+    ``space`` has the nodes at which transfer rules interpolate; ``A`` is a map of the space into
+    itself, shape (s, s), ``b`` the weights functional, length s.
     """
 
     name: str

@@ -137,11 +137,9 @@ def symmetric(subject: Subject) -> Verdict:
 
 
 def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
-    """The verdict on a method without a symmetric renumbering: it may be reducible.
+    """Returns the verdict on a method without a symmetric renumbering, which may be reducible.
 
-    Args:
-        subject: the method.
-        holds: the verdict on the unreduced method: False, or None if undecided.
+    ``holds`` is the verdict on the unreduced method: False, or None if undecided.
     """
     tableau = subject.tableau
     if not is_plainly_irreducible(tableau, subject.tolerance):
