@@ -18,8 +18,8 @@ def backward_analysis(
     """The backward error analysis of a method with trees of up to ``max_order`` vertices: ``gark
     modified``.
 
-    With a tolerance it is that of the exact method that the coefficients approximate, to some digits
-    more than are printed; orders that depend on exact zeros are undecided.
+    With a tolerance it is that of the exact method that the coefficients approximate, to some
+    digits more than are printed; orders that depend on exact zeros are undecided.
 
     Args:
         method: whatever ``method_of`` takes.
