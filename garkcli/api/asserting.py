@@ -32,6 +32,7 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
 Wanted: TypeAlias = "int | str | None"
+"""An order, or ``">= 4"``."""
 _AT_LEAST = re.compile(r"\s*>=\s*([0-9]{1,4})\s*")
 _MAX_ORDER = 1000
 

@@ -19,6 +19,7 @@ Point: TypeAlias = "Number | complex | tuple[Number, Number]"
 Whole: TypeAlias = "SupportsIndex"
 """An integer of Python, NumPy, SymPy or FLINT."""
 Settings: TypeAlias = "Mapping[str, Number]"
+"""Values of parameters by name."""
 
 
 def rational(given: Number, where: str) -> fmpq:

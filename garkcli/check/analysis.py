@@ -86,6 +86,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def subject(self) -> Subject:
+        """The method as its properties are decided."""
         from garkcli.properties.subject import Subject
 
         method = meant(self.tableau, self.tolerance)

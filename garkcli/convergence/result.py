@@ -211,6 +211,7 @@ class Convergence(Shown, Frozen):
 
     @property
     def agrees(self) -> bool:
+        """Whether the observed orders agree with those of the method."""
         return self.verdict == "agree"
 
     def __repr__(self) -> str:

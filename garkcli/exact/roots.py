@@ -42,6 +42,7 @@ class RealRoot(Frozen):
 
     @classmethod
     def rational(cls, value: fmpq) -> RealRoot:
+        """Returns a rational number as a root."""
         return cls(fmpz_poly([-value.p, value.q]), 0)
 
     @property
@@ -53,6 +54,7 @@ class RealRoot(Frozen):
         return fmpq(-constant, slope)
 
     def ball(self, bits: int) -> arb:
+        """Returns an enclosure with about ``bits`` correct bits."""
         value = self.exact
         if value is not None:
             with ctx.workprec(bits):

@@ -47,6 +47,7 @@ class Condition(Shown, Frozen):
 
     @property
     def residual(self) -> Number:
+        """The value minus the required one."""
         return self.value - self.required
 
     @property
@@ -56,6 +57,7 @@ class Condition(Shown, Frozen):
 
     @property
     def is_exact(self) -> bool:
+        """Whether the residual is exactly zero."""
         return not self.residual
 
     @property

@@ -282,6 +282,7 @@ class RoundedOrder(Shown, FrozenBut):
 
     @property
     def largest_residual(self) -> arb:
+        """A bound on all |residuals| up to ``order``."""
         bound = arb(0)
         for size in self.sizes:
             bound = bound.max(size)

@@ -208,10 +208,12 @@ class Simplifying(FrozenBut):
 
     @property
     def stage_order(self) -> int:
+        """The largest q with B(q) and C(q)."""
         return min(self.r, self.eta)
 
     @property
     def r(self) -> int:
+        """The least r^{l}."""
         return min(self.B)
 
     @property

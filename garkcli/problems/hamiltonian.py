@@ -56,14 +56,17 @@ class Hamiltonian(Frozen):
 
     @property
     def dimension(self) -> int:
+        """The number d of degrees of freedom."""
         return len(self.variables)
 
     @property
     def energy(self) -> Expr:
+        """H, a sympy expression."""
         return sum(self.terms)
 
     @property
     def layout(self) -> Layout:
+        """The groups q and p."""
         return Layout(GROUPS, self.dimension)
 
     @property

@@ -64,6 +64,7 @@ class RightHandSide(Frozen):
 
     @property
     def dimension(self) -> int:
+        """The number d of unknowns."""
         return len(self.variables)
 
     @property
@@ -87,9 +88,11 @@ class RightHandSide(Frozen):
 
     @property
     def total(self) -> Exprs:
+        """Σ_l f^{l}, d expressions."""
         return tuple(map(sum, zip(*self.terms, strict=True)))
 
     def unsplit(self) -> RightHandSide:
+        """Returns the problem in one term."""
         return replace(self, terms=summed(self.terms, lambda: self.total))
 
     def __repr__(self) -> str:

@@ -114,6 +114,7 @@ class Verdict(Frozen):
 
     @property
     def why(self) -> str:
+        """The reason as text."""
         return str(self.reason)
 
 

@@ -176,6 +176,7 @@ class LinearStability(Frozen):
     points: tuple[AtPoint, ...] = ()
 
     def at(self, points: Sequence[Complex]) -> LinearStability:
+        """Returns the result with R at further points."""
         return replace(self, points=tuple(AtPoint(z, self.R.at(z)) for z in points))
 
     @property
@@ -219,6 +220,7 @@ class Stability(Shown, Frozen):
     embedded: LinearStability | None = None
 
     def at(self, points: Sequence[Complex]) -> Stability:
+        """Returns the result with R at further points."""
         linear = tuple(x.at(points) for x in self.linear)
         return replace(self, linear=linear, embedded=self.embedded and self.embedded.at(points))
 

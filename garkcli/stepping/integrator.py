@@ -79,6 +79,7 @@ class Integrator(Frozen):
 
     @property
     def is_for_balls(self) -> bool:
+        """Whether its numbers are balls."""
         return self.digits > FLOAT_DIGITS
 
     def number(self, x: Any) -> Real:
@@ -153,6 +154,7 @@ class Binding(Frozen, eq=False):
 
     @cached_property
     def graph(self) -> DependencyGraph:
+        """The computations of a step."""
         along = self._along_flow
         if along is None:
             return dependency_graph(self.tableau, self.fields)

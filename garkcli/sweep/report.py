@@ -52,6 +52,7 @@ class SweepReport(Shown, Frozen):
 
     @property
     def front(self) -> list[Row]:
+        """The Pareto front."""
         return pareto_front(self.kept, self.plan.pareto)
 
     @property

@@ -227,6 +227,7 @@ class GarkMethod(Shown, Frozen, kw_only=True):
 
     @property
     def further(self) -> Further:
+        """The embedded weights and the dense output."""
         return Further(self.embedded, self.dense)
 
     def _by_colour(self, rows: Sequence[Any]) -> Any:

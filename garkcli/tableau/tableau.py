@@ -143,6 +143,7 @@ class Tableau(Frozen):
         self.__dict__.update(kept)
 
     def tree(self, l: int, branches: Iterable[Tree] = ()) -> Tree:
+        """Returns the tree with a root of colour l, from 0."""
         return Tree(l, branches, self.colours[l].kind)
 
     def known(self, tree: Tree) -> Tree:
@@ -210,6 +211,7 @@ class Tableau(Frozen):
 
     @cached_property
     def has_parameters(self) -> bool:
+        """Whether a coefficient is a rational function of free parameters."""
         return any(isinstance(x, Parametric) for x in chain.from_iterable(self.rows))
 
     @property
@@ -223,11 +225,13 @@ class Tableau(Frozen):
 
     @property
     def entries(self) -> list[Number]:
+        """The coefficients of weights and blocks."""
         rows = [colour.b for colour in self.colours]
         return list(chain(*rows, *chain.from_iterable(self.blocks.values())))
 
     @property
     def degree(self) -> int:
+        """The dimension over ℚ of the domain of the coefficients."""
         return self.field.degree if self.field else 1
 
 
