@@ -65,7 +65,7 @@ def _method_of(given: AnyMethod, tolerance: object) -> GarkMethod:
         return _of_mapping({**_rounded(tolerance), **given})
     if isinstance(given, (tuple, list)):
         if not 2 <= len(given) <= len(_ROWS):
-            message = f"{len(given)} arrays are no method"
+            message = f"{len(given)} arrays are not a method"
             cure = "give (A, b), (A, b, c) or (A, b, c, embedded)"
             raise MethodError(message, cure, code="arrays")
         return from_arrays(*given, **_rounded(tolerance))

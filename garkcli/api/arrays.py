@@ -116,7 +116,7 @@ def _in_rows(value: Any, where: str) -> Any:
         if not is_right or not all(_is_colour(x) for x in parts):
             what = "pair of colours" if is_of_blocks else "colour"
             example = "{(1, 2): [[1]]}" if is_of_blocks else "{1: [1]}"
-            message = f"{where}: {key!r} is no {what}"
+            message = f"{where}: {key!r} is not a {what}"
             raise MethodError(message, f"colours count from 1, as in {example}", code="wrong-value")
     if not is_of_blocks:
         colours = range(1, max(value, default=0) + 1)
@@ -142,10 +142,12 @@ def _listed(value: Any) -> Any:
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, Mapping):
-        raise MethodError("a mapping is no array", "give A, b and c as lists", code="list-expected")
+        raise MethodError(
+            "a mapping is not an array", "give A, b and c as lists", code="list-expected"
+        )
     if isinstance(value, Set):
-        message = "a set is no array: it has no order, and no entry twice"
-        raise MethodError(message, "give A, b and c as lists", code="unknown-word")
+        message = "a set is not an array; it has no order, and no entry twice"
+        raise MethodError(message, "give A, b and c as lists", code="list-expected")
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_listed(item) for item in value]
     return value

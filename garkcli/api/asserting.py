@@ -164,7 +164,7 @@ def _seen(which: Which) -> Callable[[GarkMethod], GarkMethod]:
 
     def of(method: GarkMethod) -> GarkMethod:
         if not _is_rosenbrock(method):
-            message = f"{_called(method)} is no Rosenbrock method"
+            message = f"{_called(method)} is not a Rosenbrock method"
             raise MethodError(message, "leave out w and index_1", code="arrays")
         return _made(method, seen(as_meant(method), which))
 
@@ -243,7 +243,7 @@ def _read(value: Any) -> int | AtLeast:
     is_whole = isinstance(value, Integral) and not isinstance(value, bool)
     if is_whole and 0 <= value <= _MAX_ORDER:
         return int(value)
-    raise MethodError(f"{value!r} is no order", 'write 4 or ">= 4"', code="wrong-value")
+    raise MethodError(f"{value!r} is not an order", 'write 4 or ">= 4"', code="wrong-value")
 
 
 def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:

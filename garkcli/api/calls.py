@@ -157,7 +157,7 @@ def find_stability(
     else:
         found = stability_of_rounded(tableau, near, embedded)
     if places and not found.linear:
-        message = "R(z) has no meaning: some stages do not see every vector field"
+        message = "R(z) is not defined: some stages do not depend on every vector field"
         raise MethodError(message, "leave the points out", code="wanted-without-meaning")
     found = found.at(places)
     return found.of_linear_problems if linear else found

@@ -87,7 +87,7 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
     size = range(1, len(methods) + 1)
     for key in blocks:
         if key not in {(l, m) for l in size for m in size if l != m}:
-            message = f"transfer: {key!r} is no block between two of the methods"
+            message = f"transfer: {key!r} is not a block between two of the methods"
             cure = f"give pairs of different colours from 1 to {len(methods)}"
             raise MethodError(message, cure, code="wrong-value")
     A = {**blocks}
@@ -105,6 +105,6 @@ def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
     if len({id(x.field) for x in tableaus if x.field is not None}) > 1:
         tableaus = [sheet.tableau for sheet in in_one_field([*map(sheet_of, methods)])]
     return [
-        forms.one_field(tableau, f"{method!r} is no diagonal method", method.name)
+        forms.one_field(tableau, f"{method!r} is not a diagonal method", method.name)
         for method, tableau in zip(methods, tableaus, strict=True)
     ]

@@ -95,7 +95,7 @@ def taking(tableau: Tableau, tolerance: fmpq | None, jacobian: Taken) -> Tableau
         cure = did_you_mean(jacobian, ["exact", *MATRICES])
         raise MethodError(f"jacobian: {jacobian!r} is not known", cure, code="unknown-word")
     if not is_rosenbrock(tableau):
-        message = f"the Jacobian {jacobian} is meant of Rosenbrock methods"
+        message = f"the Jacobian {jacobian} applies to Rosenbrock methods only"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
     made = seen(meant(tableau, tolerance), MATRICES[jacobian])
     if not isinstance(made, Tableau):

@@ -44,7 +44,7 @@ def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
     Raises MethodError with the index of the first wrong one.
     """
     if not _is_list(given):
-        raise MethodError(f"{where}: {given!r} is no list", "give a list", code="wrong-value")
+        raise MethodError(f"{where}: {given!r} is not a list", "give a list", code="wrong-value")
     return [rational_of(x, f"{where}[{i}]") for i, x in enumerate(given)]
 
 
@@ -58,7 +58,7 @@ def points(given: Iterable[Point], where: str) -> list[tuple[fmpq, fmpq]]:
     """
     if not _is_list(given):
         cure = "give a list, such as ['0.01+2i']"
-        raise MethodError(f"{where}: {given!r} is no list", cure, code="wrong-value")
+        raise MethodError(f"{where}: {given!r} is not a list", cure, code="wrong-value")
     return [_point(x, f"{where}[{i}]") for i, x in enumerate(given)]
 
 
@@ -84,7 +84,7 @@ def whole(given: Any, where: str, least: int = 0) -> int:
     """
     value = rational_of(given, where)
     if value.q != 1 or value < least:
-        message = f"{where}: {given} is no whole number from {least} on"
+        message = f"{where}: {given} is not a whole number from {least} on"
         raise MethodError(message, f"give one, such as {max(least, 1)}", code="wrong-value")
     return int(value.p)
 
@@ -115,7 +115,7 @@ def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
     """
     if not _is_list(given):
         cure = "give a list of colours, such as [1]"
-        raise MethodError(f"{where}: {given!r} is no list", cure, code="wrong-value")
+        raise MethodError(f"{where}: {given!r} is not a list", cure, code="wrong-value")
     return [colour_of(x, where, count) for x in given]
 
 
@@ -126,7 +126,7 @@ def texts(given: Settings, where: str) -> dict[str, str]:
     """
     if not _is_mapping(given):
         cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"
-        raise MethodError(f"{where}: {given!r} is no mapping", cure, code="wrong-value")
+        raise MethodError(f"{where}: {given!r} is not a mapping", cure, code="wrong-value")
     return {name: number_text(x, f"{where}[{name!r}]", False, EXACTLY) for name, x in given.items()}
 
 

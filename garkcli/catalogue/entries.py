@@ -143,7 +143,7 @@ def read_range(text: str) -> Range:
         return Range(int(span[1]), int(span[2]))
     match = _RANGE.fullmatch(text.strip())
     if match is None:
-        message = f"{text!r} is no number and no range"
+        message = f"{text!r} is neither a number nor a range"
         raise UsageProblem(message, "write 4, '>=4', '<4' or 2..4", code="option-value")
     sign, number = match[1] or "=", int(match[2])
     ranges = {

@@ -148,7 +148,7 @@ def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTablea
     """Returns the conjugate and the symplectic pair, or None for both and the reason."""
     conjugated, both, obstacle = None, None, NO_REASON
     if not printed(method).has_fields_alone or printed(method).exact_to is not None:
-        return None, None, Reason("it is no GARK method")
+        return None, None, Reason("it is not a GARK method")
     try:
         conjugated = derived(method, "conjugate")
     except ZeroWeight as error:

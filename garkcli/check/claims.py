@@ -49,9 +49,9 @@ def _why_none(key: str, analysis: AnyAnalysis) -> str:
     """Returns why a claim does not apply to a method."""
     kind = getattr(analysis, "kind", "a GARK method")
     if key in OF_ROSENBROCK and kind != "a Rosenbrock method":
-        return "it is no Rosenbrock method"
+        return "it is not a Rosenbrock method"
     if key in OF_NYSTROM and kind != "a Nyström method":
-        return "it is no Nyström method"
+        return "it is not a Nyström method"
     if key in OF_INFINITESIMAL and kind != "a multirate method with the exact fast part":
         return "it has no exact fast part"
     if key.startswith("embedded") and analysis.embedded is None:

@@ -215,7 +215,7 @@ def solved(
         p = waiting.pop(0)
         name = next((x for x in unknowns if is_linear(p, ring, x)), None)
         if name is None:
-            message = f"{p} = 0 is asked of the parameters, which is no value of one of them"
+            message = f"{p} = 0 is demanded of the parameters, which determines none of them"
             cure = "give values with --set, or ask gark design"
             raise MethodError(message, cure, code="no-value-left")
         x = ring.context.gen(ring.names.index(name))
@@ -246,8 +246,8 @@ def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly
     for p in family.nonzero:
         value = value_of(p, family.ring, values)
         if not value:
-            message = f"the file divides by {family.ring.text(p)}, which is zero by what it asks"
-            cure = "change what it asks of the parameters, such as given nodes"
+            message = f"the file divides by {family.ring.text(p)}, which is zero under its demands"
+            cure = "change its demands on the parameters, such as given nodes"
             raise MethodError(message, cure, code="division-by-zero")
         if isinstance(value, Parametric):
             found.append(value.numerator)
@@ -518,7 +518,7 @@ def every_family(family: Family) -> EveryFamily:
     fixed = solved(relations, family.ring, ranged_last(family))
     left = [x for x in family.parameters if x not in fixed]
     if not left:
-        message = "what the file asks of its parameters leaves none of them free"
+        message = "the demands of the file leave no parameter free"
         raise MethodError(message, "gark design finds their values", code="no-value-left")
     names = [*left, *(radical.name for radical in family.radicals)]
     ring = Parameters(names)

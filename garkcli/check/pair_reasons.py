@@ -158,7 +158,7 @@ def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
     """
     tableau = found.tableau
     if len(rules) > MOST_RULES:
-        yield f"whether {len(rules)} blocks keep the order is not looked at (limit {MOST_RULES})"
+        yield f"{len(rules)} blocks were not examined for the order (limit {MOST_RULES})"
         return
     if not rules or found.tolerance or tableau.is_partitioned or not _is_sharp(found)[0]:
         return

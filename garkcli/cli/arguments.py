@@ -129,7 +129,7 @@ def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[st
         return
     for folder in folders:
         if not os.path.isdir(folder):
-            message = f"--catalogue: {folder!r} is no folder"
+            message = f"--catalogue: {folder!r} is not a folder"
             raise UsageProblem(message, "name a folder with method files", code="option-value")
         if os.pathsep in folder:
             message = f"--catalogue: {folder!r} has {os.pathsep!r} in it, which is between folders"
@@ -184,7 +184,7 @@ def pairs(
 def finite(_: click.Context, __: click.Parameter, seconds: float | None) -> float | None:
     """Returns a number of seconds; fails for NaN, which no range excludes."""
     if seconds is not None and seconds != seconds:
-        raise click.BadParameter("nan is no number of seconds")
+        raise click.BadParameter("nan is not a number of seconds")
     return seconds
 
 

@@ -184,8 +184,8 @@ def _asked(family: FamilyFile, given: Given) -> Stability | None:
 def _refuse_unsettled(family: FamilyFile) -> None:
     """Raises UsageProblem if a demand of the file was not worked out in time."""
     for key in family.unsettled:
-        message = f"what {key} under design asks was not worked out in the time of --seconds"
-        raise UsageProblem(message, "give it more, or want less", code="not-found")
+        message = f"the demand {key} under design was not worked out within --seconds"
+        raise UsageProblem(message, "give it more time, or demand less", code="not-found")
 
 
 def make_folder(path: str) -> None:
@@ -211,7 +211,7 @@ def _refuse_other_wishes(family: FamilyFile, asked: Stability, is_of_springs: bo
         return
     message = f"under design the file wants {wishes[0]}, "
     if is_of_springs:
-        message += "which is not looked at on two springs"
+        message += "which is ignored on two springs"
         raise UsageProblem(message, "leave it out of the file", code="options-clash")
     message += f"and --{asked.kind} gives the values of one kind"
     cure = "add --order P: solutions of an order have all that is wanted"
@@ -438,13 +438,9 @@ def _curve(family: FamilyFile, given: Given, output: Output) -> int:
 
 
 def _order(given: Given) -> int:
-    """The order of a search.
-
-    Raises:
-        UsageProblem: none is given.
-    """
+    """Returns the order of a search; raises UsageProblem if there is none."""
     if given.order is None:
-        cure = "say which by --order P, or in the file by design: {order: P}"
+        cure = "give --order P, or design: {order: P} in the file"
         raise UsageProblem("a search is for an order", cure, code="option-alone")
     order: int = given.order
     return order

@@ -177,7 +177,7 @@ def _other(table: FoundTable) -> tuple[str, str]:
     cure = f"--from {table.format} takes them for one"
     if table.c[0] is None:
         return f"{place}: A and b without nodes may be no method", cure
-    return f"{place}: A, b and c are no method, by their sums", cure
+    return f"{place}: A, b and c are not a method, by their sums", cure
 
 
 def _nothing(
@@ -193,7 +193,7 @@ def _nothing(
             message = f"{result.table.source} {result.trouble}"
             return UsageProblem(message, "give the part with the tables", code="cannot-import")
         if name:
-            message = f"{place}: {name} is no method: {result.trouble}"
+            message = f"{place}: {name} is not a method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read", code="cannot-import")
     for table in left_out:
         message, cure = _other(table)
@@ -263,7 +263,7 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
     from garkcli.bridges.patching import patches
 
     if any(map(is_stream, files)):
-        message = "standard input is no file, which a patch needs"
+        message = "standard input is not a file, which a patch needs"
         raise UsageProblem(message, "name files or folders", code="cannot-write")
     pieces, mended = [], 0
     for source, piece in patches(found, files):
@@ -271,7 +271,7 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
         mended += source.mended if piece else 0
         why = ""
         if not source.before:
-            why = "it is no UTF-8, or begins with a byte order mark"
+            why = "it is not UTF-8, or begins with a byte order mark"
         elif source.mended and not piece:
             why = "it is not below this folder, or its lines have signs that do not print"
         if why:

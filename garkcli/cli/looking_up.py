@@ -118,7 +118,7 @@ def _filters() -> list[click.Option]:
             "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
             "nonlinearly partitioned (nprk), multiderivative (mdrk), multirate (mri).",
         ),
-        "sort": (ORDERS, "By what the list is sorted; by default the order."),
+        "sort": (ORDERS, "The order of the list; by default by order."),
     }
     structures = "Which vector fields the problem has: general, separable, nystrom ..."
     judging = "Judge your own methods as gark check does, instead of taking their claims."
@@ -252,7 +252,7 @@ def report(given: Given, output: Output) -> int:
         output.check_place()
         # a page that has its name from its method is written over pages alone
         if _is_no_page(output.path):
-            message = f"{output.path} is there already, and is no page"
+            message = f"{output.path} exists already, and is not a page"
             raise UsageProblem(message, f"-o {output.path} writes over it", code="cannot-write")
     asked = given.order, given.pictures is not False, given.settings
     found = (reported(_meant(path, given), *asked) for path in paths)

@@ -97,7 +97,7 @@ _DEEP = r"(?<![\w\"'-])(?:[\w\"'-]++[ \t]*+\.[ \t]*+){100}"
 
 def _not_toml(path: str, error: Exception) -> UsageProblem:
     message = f"{printable(os.path.relpath(path))}: {error}"
-    return UsageProblem(message, "mend the file, TOML is expected", code="project-file")
+    return UsageProblem(message, "fix the file, TOML is expected", code="project-file")
 
 
 def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
@@ -121,7 +121,7 @@ def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
     table = tools.get("gark") if isinstance(tools, dict) else None
     if table is None or isinstance(table, dict):
         return table
-    message = f"{printable(os.path.relpath(path))}: tool.gark is no table"
+    message = f"{printable(os.path.relpath(path))}: tool.gark is not a table"
     raise UsageProblem(message, "write its keys below [tool.gark]", code="project-file")
 
 

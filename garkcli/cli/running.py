@@ -50,7 +50,7 @@ def note_changing(problem: Problem, output: Output) -> None:
 
     for name, change, time in changing(problem):
         output.note(
-            f"{problem.name}: {name} is no invariant: the exact solution changes it by "
+            f"{problem.name}: {name} is not an invariant: the exact solution changes it by "
             f"{change:.2g} to t = {time}"
         )
 
@@ -323,7 +323,7 @@ def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Pr
         cure = "give invariants in a problem file, or choose a Hamiltonian problem"
         raise UsageProblem(message, cure, code="other-problem")
     if given.symplecticity and not isinstance(problem, Hamiltonian):
-        message = f"--symplecticity is for Hamiltonian problems, and {problem.name} is none"
+        message = f"--symplecticity is for Hamiltonian problems, and {problem.name} is not"
         raise UsageProblem(message, "leave it out", code="other-problem")
     if is_path(given.problem):
         note_changing(problem, output)

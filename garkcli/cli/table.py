@@ -122,7 +122,7 @@ import -v --verbose | Show the method files.
 --require-claims | Fail a file without claims under `expect`.
 
 --tableau TEXT
-    | A Butcher tableau, its lines parted by ; or line ends; @FILE reads it from a file, - from
+    | A Butcher tableau, its lines separated by ; or line ends; @FILE reads it from a file, - from
       standard input.
 --family NAME-STAGES many name=families | A family with its stages, one per colour; repeatable.
 --transfer RULE default= = gark.transfer
@@ -197,8 +197,8 @@ design --seed N 0.. default= = search_methods.seed
 --against words=h,evaluations,seconds default= = plot.against
     | The horizontal axis of plots: h, or evaluations with --work; seconds depend on the machine.
 --jacobian words=exact,old,diagonal default= = converge.jacobian
-    | What a Rosenbrock method takes for the Jacobian: exact; old, of the step before; or diagonal,
-      that of any matrix.
+    | The Jacobian of a Rosenbrock method: exact; old, of the step before; or diagonal, that of any
+      matrix.
 --step H positive = long_run.step
 energy --digits N 1..200 default= = long_run.digits | Step with N digits instead of floats.
 --points N 10..1000000 = long_run.points
@@ -259,7 +259,7 @@ export --digits N 1..1000 = export.digits
 --recognise = import_methods.is_recognising
     | Replace decimals by exact numbers if the order does not fall.
 --as-found = import_methods.is_as_found
-    | Claim what is true, not what SOURCE declares.
+    | Claim the true orders, not those that SOURCE declares.
 audit -j --jobs N 0..60 jobs = audit.jobs
     | The number of processes; 0 is one per processor.
 audit --strict | Fail if gark could not read a possible table.
@@ -362,7 +362,7 @@ exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
 exchange: audit PATH... | the tables in a source tree: are their declared orders true?
     = audit audit_patch
     --strict --fix --claim --jobs
-claims: claims FILE... | what is true of a method, as claims for its file
+claims: claims FILE... | the true claims of a method, for its file
     = claims_of with_claims
     --write --all --key
 looking_up: certificate FILE | a proof of the orders, which a separate short script checks
@@ -373,7 +373,7 @@ looking_up: schema | JSON Schemas of method files, problem files and reports
     --problem --sweep --project --report
     only --format --output --help
 [hidden]
-tableaux: reduce FILE | the smallest method that does the same: convert --to reduced
+tableaux: reduce FILE | the smallest equivalent method: convert --to reduced
     = reduced
     --set
 """

@@ -242,7 +242,7 @@ def reduce(given: Given, output: Output) -> None:
     file = called(given.file)
     made = reduced(method)
     if made is None:
-        message = f"{file}: the nodes have no simple radicals, so equal stages are not looked for"
+        message = f"{file}: the nodes have no simple radicals, so equal stages are not sought"
         raise UsageProblem(message, "spell the method out", code="no-radicals")
     if made is method:
         output.note(f"{file}: nothing to reduce")

@@ -139,4 +139,4 @@ def _cure_of_choice(word: str, words: list[str]) -> str:
 
 def _number(found: re.Match[str]) -> str:
     kind = "whole number" if found[1] == "integer" else "number"
-    return f"is no {kind}"
+    return f"is not a {kind}"

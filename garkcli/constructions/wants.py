@@ -20,7 +20,7 @@ from garkcli.tableau.tableau import Tableau
 
 _SUMMARIES = {
     "w-order": "with any matrix in place of the Jacobian",
-    "old-jacobian-order": "with a matrix that is off by O(h)",
+    "old-jacobian-order": "with a matrix that differs by O(h)",
     "nonautonomous-order": "on f(t, y), with the c and d of the file",
     "index-1-order": "on DAEs of index 1",
     "index-1-y-order": "in y on DAEs of index 1",
@@ -94,12 +94,12 @@ def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
     """
     is_own = is_rosenbrock(tableau)
     if want.key in OF_ROSENBROCK and not is_own:
-        message = f"design: {want.key} is meant of Rosenbrock methods"
+        message = f"design: {want.key} applies to Rosenbrock methods only"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
     if not is_own:
         return want, tableau
     if want.key not in _MEANT:
-        message = f"design: {want.key} is not meant of Rosenbrock methods"
+        message = f"design: {want.key} does not apply to Rosenbrock methods"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
     if want.key == "stiffly-accurate":
         want = Want(want.key, want.kind, want.summary, _stiffly_accurate)

@@ -195,7 +195,7 @@ def _block(
     if blind:
         name = tableau.colours[m].name
         raise CannotConvert(
-            f"some stages do not see colour {name}, and would see it where all share their stages",
+            f"some stages do not depend on colour {name}, and would if all shared their stages",
             "a null block is kept by --to gark",
         )
     made: list[Vector] = []
@@ -225,5 +225,5 @@ def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> She
     """
     changed = change(as_colours(sheet.tableau, sheet.further))
     if changed is None:
-        raise CannotConvert("equal stages are not looked for", "spell it out", code="no-radicals")
+        raise CannotConvert("equal stages are not sought", "spell it out", code="no-radicals")
     return Sheet(*from_colours(changed, sheet.further))

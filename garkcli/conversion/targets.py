@@ -72,7 +72,7 @@ def as_ark(method: GarkMethod) -> Sheet:
     sheet = without_parts(sheet_of(method))
     linear = [x.name for x in sheet.tableau.colours if x.is_linear]
     if linear:
-        message = f"colour {linear[0]} is linear, which an additive method does not say"
+        message = f"colour {linear[0]} is linear, which an additive method cannot express"
         raise CannotConvert(message, "--to gark keeps it")
     together = shared(sheet)
     if together is None:

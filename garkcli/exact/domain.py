@@ -280,7 +280,7 @@ class Domain:
             if tower.degree > 1 and bits * degree**2 > MAX_EFFORT:
                 most = MAX_EFFORT // degree**2
                 message = f"radicals of degree {degree} from numbers of {bits} bits (limit {most})"
-                cure = "write the coefficients in fewer radicals, or in those of shorter numbers"
+                cure = "use fewer radicals, or radicals of shorter numbers"
                 raise LimitExceeded(message, cure, root.start, root.end)
             kept.append(root)
             tower = tower.adjoin(relation, lambda: [*map(enclose, kept)])

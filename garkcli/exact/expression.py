@@ -106,7 +106,7 @@ class Parser:
                 offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
-                message = f"the sign {sign!r} has no place in a {self.value_noun}"
+                message = f"the sign {sign!r} is not allowed in a {self.value_noun}"
                 raise ExpressionError(message, cure, offset, offset + 1, code="not-a-number")
             kind = match.lastgroup or "end"
             start, end = match.span(kind)
@@ -245,7 +245,7 @@ class Parser:
             self.depth -= 1
             return Root(radicand, 2, start=start, end=self.last_end)
         if self.kind == "end":
-            self._fail(f"the text ends where a {self.value_noun} is due")
+            self._fail(f"the text ends where a {self.value_noun} is expected")
         return self._fail(f"a {self.value_noun} is expected here")
 
     def _function(self, name: str, start: int) -> Expression:

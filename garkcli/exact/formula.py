@@ -167,7 +167,7 @@ def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
     value = value_of(expression, names)
     start, end = expression.start, expression.end
     if isinstance(value, arb):
-        message = f"the exponent {format_expression(expression)} is no rational number"
+        message = f"the exponent {format_expression(expression)} is not a rational number"
         cure = "write a fraction or a decimal, such as 3/2"
         raise UndefinedValue(message, cure, start, end, code="not-real")
     if abs(value) > MAX_EXPONENT or value.q > MAX_DENOMINATOR:
@@ -254,8 +254,8 @@ def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value
         what = _cut(format_expression(of))
         if what != str(x):
             what = f"{what} = {shown(x)}"
-        message = f"{function} of {what} is no real number"
-        cure = "take it where it is real"
+        message = f"{function} of {what} is not a real number"
+        cure = "choose an argument with a real value"
         raise UndefinedValue(message, cure, at.start, at.end, code="not-real")
     return _bounded(result, at)
 

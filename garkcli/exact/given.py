@@ -43,7 +43,7 @@ def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) ->
         return x
     kind = type(x)
     if isinstance(x, bool) or kind.__name__ == "bool_":
-        raise MethodError(f"{where}: {x} is no number", "write 0 or 1", code="not-a-number")
+        raise MethodError(f"{where}: {x} is not a number", "write 0 or 1", code="not-a-number")
     if isinstance(x, (fmpz, fmpq)):
         return str(x)
     if isinstance(x, Algebraic):
@@ -61,7 +61,7 @@ def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) ->
         return _float_text(x, where, is_rounded, cure)
     if kind.__module__.partition(".")[0] == "sympy":
         return _sympy_text(x, where)
-    message = f"{where}: {_shown(x)} is no exact real number"
+    message = f"{where}: {_shown(x)} is not an exact real number"
     raise MethodError(message, _CURE, code="not-a-number")
 
 
@@ -93,7 +93,7 @@ def _is_float(x: Any) -> bool:
 def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
     value = float(x)
     if not isfinite(value):
-        message = f"{where}: {value} is no number"
+        message = f"{where}: {value} is not a number"
         raise MethodError(message, "coefficients are finite", code="not-a-number")
     if value != x:
         message = f"{where}: {x} has more digits than a float"

@@ -37,9 +37,9 @@ def field_text(path: Sequence[str]) -> str:
     ``path`` holds the report, the parent fields and the name.
 
     >>> field_text(("diff", "first"))
-    'The first of both methods.'
+    'The first method.'
     >>> field_text(("diff", "orders", "first"))
-    'What the first of both methods has.'
+    'The result for the first method.'
     """
     entries = field_entries()
     return entries.get(".".join(path[-2:])) or entries.get(path[-1], "")

@@ -49,7 +49,7 @@ _REFERENCE = mapping(
     Key(
         "authors: [J. R. Dormand, P. J. Prince]",
         _NAMES,
-        "Who wrote it: one text, or a list with a name each.",
+        "The authors: one text, or a list with one name each.",
     ),
     Key(
         "title: A family of embedded Runge-Kutta formulae",
@@ -65,7 +65,7 @@ _REFERENCE = mapping(
     Key(
         "type: thesis",
         word(lambda: WORKS),
-        "What kind of work it is, where the other fields do not tell.",
+        "The kind of work, if the other fields do not determine it.",
     ),
     Key("journal: J. Comput. Appl. Math.", _ONE, "The journal of an article."),
     Key("volume: 6", _ONE, "The volume of the journal or of the book."),
@@ -79,7 +79,7 @@ _REFERENCE = mapping(
     Key(
         "editors: [D. F. Griffiths, G. A. Watson]",
         _NAMES,
-        "Who edited the book: one text, or a list with a name each.",
+        "The editors of the book: one text, or a list with one name each.",
     ),
     Key("edition: second", _ONE, "The edition of the book."),
     Key("publisher: Springer", _ONE, "The publisher of the book."),
@@ -99,7 +99,7 @@ _REFERENCE = mapping(
         _ONE,
         "An address where the publication or the code is found.",
     ),
-    Key("note: in Russian", _ONE, "Anything else that a reader of the reference has to know."),
+    Key("note: in Russian", _ONE, "Further information about the reference."),
     Key(
         "coefficients: as printed",
         _ONE,

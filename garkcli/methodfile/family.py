@@ -153,8 +153,7 @@ def refuse_rounded(family: FamilyFile) -> None:
         return
     names = ", ".join(family.parameters)
     message = (
-        f"the coefficients are rounded and {names} free: what holds for every value is decided for"
-        " exact ones alone"
+        f"the coefficients are rounded and {names} free: statements for all values need exact ones"
     )
     cure = f"gark design finds values within the tolerance; --set {family.parameters[0]}=1/2"
     raise MethodError(message, f"{cure} chooses one", code="rounded")

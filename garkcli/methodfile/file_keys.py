@@ -50,23 +50,23 @@ KEYS = {
         g.Key(
             "name: Heun's method",
             g.TEXT,
-            "What people call the method. Without it reports call it by its file.",
+            "The name of the method; by default that of its file.",
             also=("title",),
         ),
         g.Key(
             "aliases: [DOPRI5, RK45]",
             ALIASES,
-            "What else the method is called: a list of texts, or one; without a / in them.",
+            "Other names of the method: a list of texts, or one text, without a /.",
         ),
         g.Key(
             "description: for separable Hamiltonians",
             g.TEXT,
-            "What the method is for, or where it is from, in words.",
+            "The purpose or the origin of the method, in words.",
         ),
         g.Key(
             "reference: {authors: M. Kutta, title: Beitrag zur Integration, year: 1901}",
             REFERENCE,
-            "Where the method was published: a text, or the fields of a publication.",
+            "The publication of the method: a text, or the fields of a publication.",
             page=f"{_PAGE}reference-where-it-was-published",
         ),
         g.Key(
@@ -81,7 +81,7 @@ KEYS = {
         g.Key(
             "transfer: collocation",
             g.later("transfers", "TRANSFER"),
-            "How the off-diagonal blocks between the methods are made: one rule for all of them, "
+            "The rules for the off-diagonal blocks between the methods: one rule for all of them, "
             "weights of several rules with the sum 1, or a default with exceptions.",
             page=_PAPER,
         ),
@@ -181,7 +181,7 @@ KEYS = {
         g.Key(
             "structure: separable",
             g.word(lambda: STRUCTURES),
-            "Which vector fields the problem has: general ones, or Hamiltonians whose terms have "
+            "The vector fields of the problem: general ones, or Hamiltonians whose terms have "
             "velocities or forces alone, so that fewer trees have conditions. Write it beside "
             "methods, prk or splitting.",
             "general",
@@ -208,7 +208,7 @@ KEYS = {
         g.Key(
             "design: {order: 3, l-stable: true}",
             g.later("wishes", "DESIGN"),
-            "What gark design looks for, for all colours or for those that are named.",
+            "The demands on methods that gark design seeks, for all colours or for some of them.",
             page="docs/design.md",
         ),
         g.Key(
@@ -221,7 +221,7 @@ KEYS = {
         g.Key(
             "tolerance: 1e-13",
             g.later("tolerance", "KIND"),
-            "How far each rounded coefficient may be off; zeros, short fractions and roots are "
+            "The largest error of each rounded coefficient; zeros, short fractions and roots are "
             "exact. Write one number for all, a number for each place, or digits: then every "
             "decimal is off by one unit of its last digit at most.",
             page=f"{_PAGE}rounded-coefficients",

@@ -74,7 +74,7 @@ class Formulas(Mutable):
         found = [x for x in names_in(expression) if x.name not in allowed]
         strangers = {x.name: x for x in reversed(found)}
         for name, place in strangers.items():
-            message = f"{where}: {shortened(name)} is no {noun}"
+            message = f"{where}: {shortened(name)} is not a {noun}"
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
             self.source.fault(node, message, cure, place.start, code="wrong-value")
         return None if strangers else expression
@@ -134,7 +134,7 @@ def bad_name(name: str) -> str:
     if name in RESERVED:
         return "has a meaning already"
     if not (name.isidentifier() and name.isascii()):
-        return "is no name: letters, digits and _ make one"
+        return "is not a name: names have letters, digits and _"
     return "is longer than 30 characters" if len(name) > 30 else ""
 
 

@@ -78,14 +78,10 @@ _FREE = mapping(
     Key(
         "free: true",
         Kind(lambda: {"const": True}, _true),
-        "That the parameter has no value of its own.",
+        "States that the parameter has no value.",
         is_needed=True,
     ),
-    Key(
-        "range: [1/4, 1]",
-        RANGE,
-        "Between which numbers a free parameter is, such as 0 and sqrt(2)/2.",
-    ),
+    Key("range: [1/4, 1]", RANGE, "The range of a free parameter, such as from 0 to sqrt(2)/2."),
     form=_FREE_FORM,
 )
 
@@ -146,7 +142,7 @@ def _free(at: Any, node: Node, where: str) -> Free:
         return Free(node=node)
     found: Found = _FREE.read(at, node, where)
     if "free" in found.nodes and "free" not in found:
-        message = f"{where} is a mapping that does not say free: true"
+        message = f"{where} is a mapping without free: true"
         at.source.fault(node, message, _FREE_FORM, code="mapping-expected")
     return Free(node=node).within(found.get("range", Between()))
 

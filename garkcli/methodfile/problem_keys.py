@@ -82,18 +82,12 @@ KEYS = {
         g.Key(
             "gark: 1", g.VERSION, "The version of the format that a problem file is written in.", 1
         ),
-        g.Key(
-            "name: Kepler",
-            g.TEXT,
-            "What people call the problem. Without it the problem is called like its file.",
-        ),
-        g.Key(
-            "description: an orbit of eccentricity 3/5", g.TEXT, "What the problem is, in words."
-        ),
+        g.Key("name: Kepler", g.TEXT, "The name of the problem; by default that of its file."),
+        g.Key("description: an orbit of eccentricity 3/5", g.TEXT, "A description of the problem."),
         g.Key(
             "reference: E. Hairer, S. Nørsett, G. Wanner, section II.10",
             g.TEXT,
-            "Where the problem is from, in words.",
+            "The origin of the problem, in words.",
         ),
         g.Key(
             "variables: [x, y]",

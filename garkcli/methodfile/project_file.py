@@ -48,8 +48,8 @@ def _path(at: Any, node: Node, where: str) -> str | None:
     text: str | None = g.TEXT.read(at, node, where)
     if text is None or "\0" not in text:
         return text
-    message = f"{where}: {shortened(text)} is the name of no file"
-    at.source.fault(node, message, "leave out what is no text", code="wrong-value")
+    message = f"{where}: {shortened(text)} is not the name of a file"
+    at.source.fault(node, message, "remove the NUL characters", code="wrong-value")
     return None
 
 

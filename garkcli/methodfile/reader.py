@@ -243,7 +243,7 @@ class Reader(Reading):
         """Reports parameters that are neither unknowns of the shape nor used."""
         for name, node in self.numbers.places.items():
             if name not in self.numbers.used:
-                message = f"parameters: {name} is no unknown of the shape, and nothing uses it"
+                message = f"parameters: {name} is not an unknown of the shape, and not used"
                 cure = did_you_mean(name, unknowns)
                 self.source.fault(node, message, cure, code="unknown-word")
 

@@ -354,7 +354,7 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     name: str | None = at.source.scalar(node, where)
     if name is None or name in SHAPES:
         return name
-    message = f"{where}: {shortened(name)} is no shape"
+    message = f"{where}: {shortened(name)} is not a shape"
     at.source.fault(node, message, did_you_mean(name, SHAPES), code="unknown-word")
     return None
 
@@ -364,7 +364,7 @@ UNKNOWN = mapping(
     Key(
         "stages: 3",
         Kind(count(1, MAX_STAGES).schema, count(1).read),
-        "How many stages the tableau of unknowns has.",
+        "The number of stages of the tableau of unknowns.",
         is_needed=True,
     ),
     Key(

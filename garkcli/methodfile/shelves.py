@@ -249,7 +249,7 @@ def others() -> list[Shelf]:
         except Exception as error:  # whatever the import of their package does
             what = f"{type(error).__name__}: {error}".splitlines()[0]
             message = f"{point.value} cannot be imported: {what}"
-            cure = f"it has an entry point of the group {GROUP}: mend it, or remove it"
+            cure = f"fix or remove its entry point of the group {GROUP}"
             fault = Remark(message, cure, code="missing-package")
             raise MethodFileError(point.name, [fault]) from None
         shelves.append(OtherPackage(point.name, root))

@@ -175,7 +175,7 @@ class SidesMaker(Maker):
                     self.source.fault(term.node, message, cure, code="no-formula")
                     return
                 if not has.overlaps(needs):
-                    message = f"{term.where} is no solution: at t = {time} its derivative is "
+                    message = f"{term.where} is not a solution: at t = {time} its derivative is "
                     message += f"{_decimal(has)}, the right-hand sides give {_decimal(needs)}"
                     cure = "correct it, or leave exact out"
                     self.source.fault(term.node, message, cure, code="no-solution")

@@ -229,7 +229,7 @@ class Source:
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
-            rest = Remark(more, "mend these first", last.line, last.column, code="more-faults")
+            rest = Remark(more, "fix these first", last.line, last.column, code="more-faults")
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
 
@@ -366,7 +366,7 @@ class Source:
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
             message = f"{where}: and {count} more unknown keys"
-            self.fault(unknown[MAX_FAULTS], message, "mend these first", code="more-faults")
+            self.fault(unknown[MAX_FAULTS], message, "fix these first", code="more-faults")
 
     def check_version(self, node: Node | None) -> None:
         """Reports a version of the format that is not supported."""
@@ -390,7 +390,7 @@ class Source:
             return None
         tag = str(node.tag)
         if not tag.startswith("tag:yaml.org,2002:") or tag.startswith(_PYTHON):
-            message = f"the tag {shortened(tag)} has no place here"
+            message = f"the tag {shortened(tag)} is not allowed here"
             self.fault(node, message, "leave it out", where=where, code="tag")
             return None
         return str(node.value)

@@ -127,7 +127,7 @@ TABLEAU = with_coefficients(
 )
 """The form ``tableau``."""
 BUTCHER_KEYS = (
-    g.Key("name: my method", g.TEXT, "What people call this diagonal method."),
+    g.Key("name: my method", g.TEXT, "The name of this diagonal method."),
     g.Key(
         "A: [[0, 0], [1/2, 1/2]]",
         g.defined("matrix"),
@@ -260,7 +260,7 @@ def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row
 
 def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
     """Returns whether there is one node for each stage, and reports if not."""
-    cure = "give a node a stage, or leave c out"
+    cure = "give one node for each stage, or leave c out"
     return one_each(at, node, name, c, "entry", "stage", stages, cure)
 
 
@@ -501,7 +501,7 @@ def refuse_partial(
         if any(given) and not all(given):
             having, lacking = names[given.index(True)], names[given.index(False)]
             message = f"{key}: {having} has it and {lacking} does not"
-            cure = "give it in each, the weights b again where they are meant"
+            cure = "give it for each colour; repeat the weights b if they are meant"
             at.source.fault(node, message, cure, code="missing-key")
 
 

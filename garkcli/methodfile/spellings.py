@@ -159,7 +159,7 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
     message, cure, code = "", "", "not-a-number"
     if kind in _WORDS:
         word = repr(text or "nothing")
-        message = f"{word} is no number: YAML reads it as {kind}"
+        message = f"{word} is not a number: YAML reads it as {kind}"
         cure, code = "write a number, such as 1/2", "yaml-word"
     elif re.fullmatch(_READ_DIFFERENTLY, text, re.IGNORECASE):
         readers = "different readers of YAML"

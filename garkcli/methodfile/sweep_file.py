@@ -137,7 +137,7 @@ def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
         return None
     parts = _CONDITION.fullmatch(text)
     if parts is None:
-        message = f"{where}: {shortened(text)} is no condition"
+        message = f"{where}: {shortened(text)} is not a condition"
         at.source.fault(node, message, 'write 4 or ">= 4"', code="wrong-value")
         return None
     value = _value(at, node, parts[2], where)
@@ -199,7 +199,7 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
         g.Key(
             "name: Gauss and Lobatto",
             g.Kind(lambda: {"type": "string"}, g.TEXT.read),
-            "What people call the sweep.",
+            "The name of the sweep.",
         ),
         g.Key(
             "methods: [{family: [gauss, radau-iia], stages: 1..3}]",

@@ -72,7 +72,9 @@ def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Kind:
         first, last = map(int, found.groups())
         if least <= first <= last and (most is None or last <= most or first == last):
             return range(first, last + 1)
-        at.source.fault(node, f"{where}: {shortened(text)} is no range", cure, code="wrong-value")
+        at.source.fault(
+            node, f"{where}: {shortened(text)} is not a range", cure, code="wrong-value"
+        )
         return None
 
     some = rf"[0-9]{{1,{digits}}}"

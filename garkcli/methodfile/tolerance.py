@@ -166,7 +166,7 @@ class Rounding:
         known = [OTHERS, *d.BESIDE, *(name for names in self.names for name in names)]
         for key, node in self.tolerance.places.items():
             if key not in known:
-                message = f"tolerance: nothing of the method is called {shortened(key)}"
+                message = f"tolerance: the method has no part {shortened(key)}"
                 yield node, message, did_you_mean(key, known), "unknown-key"
             elif l := self._named_like(key):
                 message = f"tolerance: {key} may mean colour {l}, whose method has this name"

@@ -174,7 +174,7 @@ def _block(at: Reading, node: Node, where: str, shape: tuple[int, int]) -> d.Blo
 
 def _rule(at: Reading, node: Node, where: str) -> d.RuleText | None:
     if _is_unknown(node):
-        message = f'{where}: "?" is no rule, it stands for all blocks or for one'
+        message = f'{where}: "?" is not a rule; it stands for all blocks or for one'
         cure = 'write transfer: "?", or blocks: {"1,2": "?"}'
         at.source.fault(node, message, cure, code="unknown-word")
         return None

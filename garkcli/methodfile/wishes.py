@@ -75,7 +75,7 @@ def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]
             yield name, value, place
         elif name not in numbers.settings:
             cure = did_you_mean(name, list(numbers.free)) or "the file has no unknowns"
-            message = f"{place} is no unknown of the file"
+            message = f"{place} is not an unknown of the file"
             numbers.source.fault(value, message, cure, code="unknown-word")
 
 
@@ -155,7 +155,7 @@ def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
     wishes = []
     for name, item in at.source.mapping(node, where, ()).items():
         if not name.isdigit() or int(name) < 1:
-            message = f"{where}: {name} is no colour"
+            message = f"{where}: {name} is not a colour"
             at.source.fault(item, message, "colours count from 1: {2: true}", code="wrong-value")
             continue
         value = kind.read(at, item, where)

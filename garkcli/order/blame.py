@@ -192,7 +192,7 @@ class Blame(Frozen):
     restored: int | None = None
 
 
-@doing("what is to blame")
+@doing("the likely cause")
 def blame_of(
     method: AnyTableau, missed: Missed, known: tuple[Repair, ...] | None = None
 ) -> Blame | None:

@@ -62,7 +62,7 @@ class Oscillator(Frozen):
     def __post_init__(self) -> None:
         omega = rational_of(self.omega, "omega")
         if not all(_is_pair(share) for share in self.shares):
-            message = f"the shares {self.shares!r} are no pairs"
+            message = f"the shares {self.shares!r} are not pairs"
             cure = "give (kinetic, potential) for each term, such as [(1, 0), (0, 1)]"
             raise UsageProblem(message, cure, code="split")
         shares = tuple(
@@ -132,7 +132,7 @@ def parse_shares(text: str, terms: int) -> Shares:
     for part in parts:
         texts = part.split(":")
         if len(texts) != 2:
-            raise UsageProblem(f"{part.strip()!r} is no pair of shares", cure, code="split")
+            raise UsageProblem(f"{part.strip()!r} is not a pair of shares", cure, code="split")
         kinetic, potential = map(_share, texts)
         shares.append((kinetic, potential))
     return Oscillator(ONE, tuple(shares)).shares  # checks the sums
@@ -195,8 +195,8 @@ def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
     other = tableau.colours[m].name
     example = example_shares(terms_of(tableau))
     return UsageProblem(
-        f"with this split the field of colour {one} depends on what colour {other} "
-        f"drives, which its stages do not see",
+        f"with this split the field of colour {one} depends on variables driven "
+        f"by colour {other}, on which its stages do not depend",
         f"give the shares that the structure is for with --split, such as {example}",
         code="split",
     )

@@ -81,7 +81,10 @@ class Translator(Frozen):
         made = self._node(expression)
         start, end = expression.start, expression.end
         if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
-            message, cure = "this is no real number", "use roots and logarithms of positive numbers"
+            message, cure = (
+                "this is not a real number",
+                "use roots and logarithms of positive numbers",
+            )
             raise UndefinedValue(message, cure, start, end, code="not-real")
         if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
             number = f"a number above 2^{FLOAT_BITS}"

@@ -194,8 +194,8 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
             if driver in field.depends and tableau.block(l, m) is None:
                 other = tableau.colours[m].name
                 raise UsageProblem(
-                    f"the field of colour {name} depends on what colour {other} drives, "
-                    f"which its stages do not see",
+                    f"the field of colour {name} depends on variables driven by colour {other}, "
+                    f"on which its stages do not depend",
                     "choose a problem of the form that the structure is for",
                     code="other-problem",
                 )
@@ -229,7 +229,7 @@ def visible_trees(fields: Fields) -> str:
     if all(field.is_linear for field in fields.values()):
         return "a linear problem sees only the unbranched trees"
     if _is_linear_but_for_time(fields):
-        return "linear but for t: of the branches at a vertex all but one are time"
+        return "linear except in t: at most one branch at a vertex is not time"
     # velocities depend on momenta alone, and forces on positions
     if all(group not in field.depends for (_, group), field in fields.items()):
         velocities = [x for (_, group), x in fields.items() if group == "q"]
@@ -244,7 +244,7 @@ def visible_trees(fields: Fields) -> str:
     alone = (("positions", ("q",), "velocities"), ("momenta", ("p",), "forces"))
     for x, groups, branch in alone:
         if groups in dependences:
-            parts.append(f"what depends on {x} alone has only {branch} as branches")
+            parts.append(f"parts that depend on {x} alone have only {branch} as branches")
     return "; ".join(parts)
 
 
@@ -266,4 +266,4 @@ def _branching(fields: Fields) -> str:
         if degree is None:
             return ""
         degrees.append(degree)
-    return f", with at most {max(degrees)} branches at a vertex"
+    return f", up to degree {max(degrees)}"

@@ -282,7 +282,7 @@ def value_of(name: str, judged: Judged) -> Value:
     Raises MethodError if the column does not apply to the method.
     """
     if is_rosenbrock(judged.tableau) and name not in _OF_ROSENBROCK:
-        message = f"{name} is meant of Runge–Kutta methods"
+        message = f"{name} applies to Runge–Kutta methods only"
         raise MethodError(message, "leave the column out", code="wanted-without-meaning")
     return columns()[name].value(judged)
 

@@ -91,7 +91,7 @@ class RowStore:
             data += block
         if data and not is_resumed:
             message = f"{self.path} exists"
-            cure = "--resume does what is missing in it; or choose another --rows"
+            cure = "--resume adds the missing rows; or choose another --rows"
             raise UsageProblem(message, cure, code="cannot-write")
         whole = data.rfind(b"\n") + 1
         for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
@@ -108,7 +108,7 @@ class RowStore:
             row = None
         if is_row(row):
             return row
-        message = f"{self.path}, line {number}: this is no row of a sweep"
+        message = f"{self.path}, line {number}: this is not a row of a sweep"
         raise UsageProblem(message, "choose another --rows, or remove the line", code="other-file")
 
     def add(self, row: Row) -> None:

@@ -54,7 +54,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
         except (KeyError, TypeError):
             *_, last = self._parts
             what = "pair of colours" if isinstance(last, tuple) else "colour"
-            message = f"{key!r} is no {what} of the method"
+            message = f"{key!r} is not a {what} of the method"
             cure = f"they count from 1, the last is {last!r}"
             raise NoSuchColour(message, cure, code="arrays") from None
 

@@ -63,12 +63,13 @@ def claims_text(outcome: Outcome) -> str:
         return "Its file claims nothing."
     claims = counted(len(outcome.claims), "claim")
     failed, left_open = len(outcome.failed_claims), len(outcome.undecided_claims)
+    if len(outcome.claims) == 1:
+        verdict = "fails" if failed else "is undecided" if left_open else "holds"
+        return f"The claim of its file {verdict}."
     told = [f"{failed} fail{'s' if failed == 1 else ''}"] if failed else []
     told += [f"{left_open} {'is' if left_open == 1 else 'are'} undecided"] if left_open else []
     if told:
         return f"Of {claims}, {' and '.join(told)}."
-    if len(outcome.claims) == 1:
-        return "The one claim of its file holds."
     return f"All {claims} of its file hold."
 
 

@@ -127,7 +127,7 @@ def _region(method: GarkMethod) -> tuple[Panel, str]:
             raise NotDrawn("")
         raise NotDrawn(
             "There is no stability function: colours drive positions or momenta only, or do not "
-            "see one another."
+            "depend on each other."
         )
     named = [(name, stability_function(tableau, shares)) for name, shares in found[:MOST]]
     panel = region_panel(of_directions(named))
@@ -158,7 +158,7 @@ def _oscillator(method: GarkMethod) -> tuple[Panel, str]:
     rounded = method.tolerance is not None
     found = None if rounded else usual_oscillator(tableau)
     if found is None or not found.determinant.is_one:
-        why = "The steps on the oscillator do not keep areas: the trace alone does not decide."
+        why = "The steps on the oscillator do not preserve area: the trace alone does not decide."
         if rounded:
             why = "With rounded coefficients nothing is decided about the oscillator."
         elif found is None:
@@ -189,7 +189,7 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
 
 def _energy(method: GarkMethod) -> tuple[Panel, str]:
     """Returns the energy error over a long time, on a Kepler orbit."""
-    _refuse_large(method, "gark energy", "be put to work")
+    _refuse_large(method, "gark energy", "be run")
     problem = hamiltonian("kepler", terms_of(with_joined_terms(method.tableau)))
     step, _ = usual(problem)
     try:

@@ -104,8 +104,8 @@ def test_a_fraction_and_its_text_are_one_number(x: Fraction) -> None:
         ("1/0", "h: division by zero, character 3 of '1/0'"),
         ("1/4 + x", "character 7 of '1/4 + x'"),
         ("sqrt(2)", "h: sqrt(2) is irrational"),
-        (True, "h: True is no number"),
-        (1j, "h: 1j of type complex is no exact real number"),
+        (True, "h: True is not a number"),
+        (1j, "h: 1j of type complex is not an exact real number"),
         (None, "h: None of type NoneType"),
     ],
 )

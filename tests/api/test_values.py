@@ -120,9 +120,9 @@ def test_colours_count_from_one() -> None:
         garkcli.elementary_weight("rk4", "[[]_2]_1")
     with pytest.raises(MethodError, match="forces: there is no colour 0"):
         garkcli.symplectic_pair("rk4", [1], [0])
-    with pytest.raises(MethodError, match="A: 0 is no pair of colours"):
+    with pytest.raises(MethodError, match="A: 0 is not a pair of colours"):
         garkcli.from_arrays({0: [[1]]}, {1: [1]})
-    with pytest.raises(MethodError, match="b: 'x' is no colour"):
+    with pytest.raises(MethodError, match="b: 'x' is not a colour"):
         garkcli.from_arrays({(1, 1): [[1]]}, {"x": [1]})
     assert garkcli.count_trees(3, 2, linear=[1, 2]) == 8
 
@@ -159,7 +159,7 @@ def test_what_names_nothing_is_refused() -> None:
         garkcli.minimise(garkcli.loads_family(FAMILY), "eror")
     with pytest.raises(GarkError, match="did you mean 'text'"):
         garkcli.cite("rk4", format="txt")
-    with pytest.raises(MethodError, match="steps: '1/4' is no list"):
+    with pytest.raises(MethodError, match="steps: '1/4' is not a list"):
         garkcli.converge("rk4", steps="1/4")
     with pytest.raises(MethodError, match="steps: there is none"):
         garkcli.converge("rk4", "pendulum", steps=[])
@@ -173,7 +173,7 @@ def test_what_names_nothing_is_refused() -> None:
         garkcli.symplectic_pair("rk4", [], [])
     with pytest.raises(MethodError, match="a family is expected, not int"):
         garkcli.find_parameters(3)  # type: ignore[arg-type]
-    with pytest.raises(MethodError, match="settings: 3 is no mapping"):
+    with pytest.raises(MethodError, match="settings: 3 is not a mapping"):
         load("rk4", settings=3)  # type: ignore[arg-type]
 
 
@@ -274,7 +274,7 @@ def test_errors_reach_another_process(call: Callable[[], object]) -> None:
         (lambda: loads(b"A: [[0]]"), "a text is expected, not bytes"),  # type: ignore[arg-type]
         (lambda: garkcli.found_methods(None), "not NoneType"),  # type: ignore[arg-type]
         (lambda: garkcli.from_arrays([[0]], None), "b is missing"),
-        (lambda: garkcli.from_arrays([{0, 1}, {1, 0}], [0, 1]), "a set is no array"),
+        (lambda: garkcli.from_arrays([{0, 1}, {1, 0}], [0, 1]), "a set is not an array"),
         (lambda: garkcli.from_arrays({(3, 3): [[0]]}, {1: [1], 3: [1]}), "b: nothing for colour 2"),
         (lambda: garkcli.from_arrays([[10**5000]], [1]), "more than 1000 digits"),
     ],

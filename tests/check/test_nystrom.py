@@ -152,7 +152,7 @@ def test_claims_of_other_kinds(tmp_path: Path) -> None:
     text = "A: [[0]]\nb: [1]\ndense: {degree: 1, weights: [[1]]}\n"
     found = check_file(_written(tmp_path, text + "expect: {dense-position-order: 1}\n"))
     (claim,) = found.failed_claims
-    assert claim.found == "none: it is no Nyström method"
+    assert claim.found == "none: it is not a Nyström method"
 
 
 def test_rounded_numbers(tmp_path: Path) -> None:
@@ -197,9 +197,9 @@ def test_a_claim_of_another_kind_fails(tmp_path: Path) -> None:
     """
     rk = _written(tmp_path, "A: [[0]]\nb: [1]\nexpect: {position-order: 1}")
     (claim,) = check_file(rk).failed_claims
-    assert claim.found == "none: it is no Nyström method"
+    assert claim.found == "none: it is not a Nyström method"
     (claim,) = check_file(_written(tmp_path, VERLET + "expect: {w-order: 1}")).failed_claims
-    assert claim.found == "none: it is no Rosenbrock method"
+    assert claim.found == "none: it is not a Rosenbrock method"
 
 
 def test_the_report_and_the_arrays(tmp_path: Path) -> None:

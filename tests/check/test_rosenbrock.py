@@ -153,7 +153,7 @@ def test_sweeps_know_them(tmp_path: Path) -> None:
     spec = tmp_path / "sweep.yaml"
     for columns, expected in (
         ("order, stages, colours", "1 3 4 1 method.gark.yaml"),
-        ("order, phase-order", "failed 1 method: phase-order is meant of Runge–Kutta methods"),
+        ("order, phase-order", "failed 1 method: phase-order applies to Runge–Kutta methods only"),
     ):
         spec.write_text(f"columns: [{columns}]\nfiles: [method.gark.yaml]\n", "utf-8")
         run = gark("sweep", str(spec), "--rows", f"{columns}.jsonl", cwd=tmp_path)

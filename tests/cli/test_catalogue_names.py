@@ -143,7 +143,7 @@ def test_a_folder_that_is_none(tmp_path: Path) -> None:
     """It is named, as it may be misspelt; one that the variable could not hold as well."""
     run = gark("check", "rk4", "--catalogue", str(tmp_path / "none"))
     assert run.code == 2
-    assert "is no folder" in run.err
+    assert "is not a folder" in run.err
     odd = tmp_path / f"a{os.pathsep}b"
     if os.name == "posix":
         odd.mkdir()

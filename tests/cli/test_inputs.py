@@ -120,7 +120,7 @@ def test_a_pipe_is_no_page(folder: Path) -> None:
     os.mkfifo(folder / "rk4.html")
     held = os.open(folder / "rk4.html", os.O_RDWR | os.O_NONBLOCK)
     try:
-        refused(gark("report", "rk4", cwd=folder), "rk4.html is there already, and is no page")
+        refused(gark("report", "rk4", cwd=folder), "rk4.html exists already, and is not a page")
     finally:
         os.close(held)
 

@@ -131,7 +131,7 @@ def test_faults_have_carets(tmp_path: Path) -> None:
     lines = run.err.splitlines()
     caret = next(i for i, line in enumerate(lines) if "hamiltonian: px" in line) + 1
     assert lines[caret].index("^") == lines[caret - 1].index("z")
-    assert "x: log of -1 is no real number" in run.err
+    assert "x: log of -1 is not a real number" in run.err
     assert "Traceback" not in run.err
 
 
@@ -223,6 +223,6 @@ def test_an_invariant_that_is_none_is_told(command: tuple[str, ...]) -> None:
     assert {right.code, wrong.code} <= {0, 3}
     assert right.err == ""
     assert (
-        "angular momentum is no invariant: the exact solution changes it by -0.024 to t = 1/32"
+        "angular momentum is not an invariant: the exact solution changes it by -0.024 to t = 1/32"
         in wrong.err
     )

@@ -56,7 +56,7 @@ def test_paths_and_format(project: Path, name: str, head: str) -> None:
     [
         (".gark.toml", "format = ['json']", "format: a single value is expected here"),
         (".gark.toml", "require-claims = [['a']]", "a single value is expected here"),
-        ("pyproject.toml", "tool = {gark = 1}", "tool.gark is no table"),
+        ("pyproject.toml", "tool = {gark = 1}", "tool.gark is not a table"),
         ("pyproject.toml", "[tool]\ngark.jobs = 'x'", "[tool.gark], jobs: a whole number"),
         ("pyproject.toml", "[a]\njobs = 1\n[tool]\ngark.jobs = -1", "pyproject.toml:4:1"),
         ("pyproject.toml", "[a]\njobs = 1\n[tool]\ngark = {jobs = -1}", "pyproject.toml:1:1"),
@@ -237,7 +237,7 @@ def test_a_path_is_no_name(project: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ('paths = ["a\\u0000b"]', "paths: 'a\\x00b' is the name of no file"),
+        ('paths = ["a\\u0000b"]', "paths: 'a\\x00b' is not the name of a file"),
         ("paths = [" + '"x", ' * 1001 + "]", "1001 paths (limit 1000)"),
         ("a = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
         ("a = " + "{a = " * 5000 + "1" + "}" * 5000, "nested too deeply"),

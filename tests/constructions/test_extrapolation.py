@@ -102,7 +102,7 @@ def test_free_parameters() -> None:
     ("text", "message"),
     [
         ("{order: 4}", "of missing"),
-        ("{of: heun}", "how far is missing"),
+        ("{of: heun}", "neither order nor sequence is given"),
         ("{of: heun, order: 2}", "has order 2 already"),
         ("{of: heun, sequence: [2, 2]}", "2 appears twice"),
         ("{of: heun, sequence: [2]}", "two numbers are needed"),

@@ -212,6 +212,6 @@ def test_other_matrices_on_the_command_line() -> None:
     assert "Jacobian" not in gark("converge", "rodas3").out
     several = gark("converge", "rodas3", "ros3p", "--jacobian", "old", "--steps", "1/2,1/4")
     assert re.search(r"^ *Jacobian +old$", several.out, re.M)
-    assert "is meant of Rosenbrock methods" in gark("converge", "rk4", "--jacobian", "old").err
+    assert "applies to Rosenbrock methods only" in gark("converge", "rk4", "--jacobian", "old").err
     run = gark("converge", "rodas3", "--jacobian", "old", "--problem", "oscillator")
     assert "the oscillator takes" in run.err

@@ -444,7 +444,7 @@ def test_a_key_that_belongs_elsewhere_is_shown_there() -> None:
     for key, home in found.items():
         (fault,) = faults(f'A: [[0]]\nb: [1]\n"{key}": 1')
         assert fault.code == "unknown-key"
-        lines = home.line, f"{key}: 1"  # with the value of the file where it is no list
+        lines = home.line, f"{key}: 1"  # with the value of the file where it is not a list
         assert fault.help in {f"write {home.key}: {{{line}}}" for line in lines}
 
 

@@ -87,7 +87,7 @@ REFUSED = {
         "nested more than 12 deep",
     ),
     "alias": (one("&a [x, *a]"), "nested more than 12 deep"),
-    "tag": (one("!!python/object/apply:os.system ['true']"), "H{1}: 'true' is no variable"),
+    "tag": (one("!!python/object/apply:os.system ['true']"), "H{1}: 'true' is not a variable"),
     "tagged text": (one("!!python/name:os.system x"), "the tag"),
     "code": (one("__import__('os').system('true')"), "'__import__' is not a function of formulas"),
     "long coefficient": (

@@ -171,11 +171,11 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE + "t_end: pi", [(4, 8, "t_end: a positive rational number")]),
         (ONE + "t_end: 1/0", [(4, 10, "t_end: division by zero")]),
         (ONE + "t_end: 010", [(4, 8, "t_end: 010 means different numbers")]),
-        (ONE + "t_end: x", [(4, 8, "t_end: 'x' is no parameter")]),
+        (ONE + "t_end: x", [(4, 8, "t_end: 'x' is not a parameter")]),
         (ONE + "invariants: {energy: x}", [(4, 22, "invariants: energy is reported always")]),
         (
             ONE + "invariants: {J: vx}",
-            [(4, 17, "invariants: J: 'vx' is no variable, momentum or parameter")],
+            [(4, 17, "invariants: J: 'vx' is not a variable, momentum or parameter")],
         ),
         (
             ONE + "invariants: {J: log(px)}",
@@ -185,13 +185,13 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE + "parameters: {px: 1}", [(4, 14, "parameters: px is the momentum of x already")]),
         (ONE + "parameters: {pi: 3}", [(4, 18, "parameters: pi has a meaning already")]),
         (ONE + "parameters: {sin: 3}", [(4, 19, "parameters: sin has a meaning already")]),
-        (ONE + "parameters: {a: b, b: 1}", [(4, 17, "parameters: a: 'b' is no parameter")]),
-        (ONE + "parameters: {a: log(-1)}", [(4, 17, "parameters: a: log of -1 is no real number")]),
-        (ONE + "parameters: {a: x}", [(4, 17, "parameters: a: 'x' is no parameter")]),
+        (ONE + "parameters: {a: b, b: 1}", [(4, 17, "parameters: a: 'b' is not a parameter")]),
+        (ONE + "parameters: {a: log(-1)}", [(4, 17, "parameters: a: log of -1 is not a real number")]),
+        (ONE + "parameters: {a: x}", [(4, 17, "parameters: a: 'x' is not a parameter")]),
         (ONE + "parameters: {'a b': 1}", [(4, 21, "parameters: 'a b' is no name")]),
         (
             ONE + "parameters: {a: yes}",
-            [(4, 17, "parameters: a: 'yes' is no number: YAML reads it as bool")],
+            [(4, 17, "parameters: a: 'yes' is not a number: YAML reads it as bool")],
         ),
         (ONE.replace("[x]", "[pi]"), [(1, 13, "variables: 'pi' has a meaning already")]),
         (
@@ -219,9 +219,9 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE.replace("[x]", f"[{'x' * 31}]"), [(1, 13, "is longer than 30 characters")]),
         (
             ONE.replace("cos(x)", "cos(z)"),
-            [(2, 28, "hamiltonian: 'z' is no variable, momentum or parameter")],
+            [(2, 28, "hamiltonian: 'z' is not a variable, momentum or parameter")],
         ),
-        (ONE.replace("px**2", "vx**2"), [(2, 14, "hamiltonian: 'vx' is no variable, momentum")]),
+        (ONE.replace("px**2", "vx**2"), [(2, 14, "hamiltonian: 'vx' is not a variable, momentum")]),
         (ONE.replace("cos(x)", "cos(x"), [(2, 29, "hamiltonian: ')' expected, the end found")]),
         (
             ONE.replace("cos(x)", "log(x - 1)"),
@@ -288,7 +288,7 @@ def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -
         (
             "vx**2 - x*py",
             "{x: 1, y: 1, vx: 0, vy: 0}",
-            "lagrangian: 'py' is no variable, velocity or parameter",
+            "lagrangian: 'py' is not a variable, velocity or parameter",
         ),
         (
             "vx**2 - x",
@@ -310,7 +310,7 @@ def test_faults_of_hamiltonians(text: str, wanted: list[tuple[int, int, str]]) -
         (
             "vx**2*log(x - 1) + vy**2",
             "{x: 1, y: 1, vx: 1, vy: 0}",
-            "log of x-1 = 0 is no real number",
+            "log of x-1 = 0 is not a real number",
         ),
         (
             "vx**2*log(x - 1) + vy**2",

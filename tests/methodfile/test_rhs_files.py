@@ -86,7 +86,7 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
         (HEAD + "rhs: []\n" + TAIL, [(2, 6, "rhs is empty")]),
         (
             HEAD + "rhs: [{x: q}, {z: x}]\n" + TAIL,
-            [(2, 11, "'q' is no variable"), (2, 16, "unknown key 'z'")],
+            [(2, 11, "'q' is not a variable"), (2, 16, "unknown key 'z'")],
         ),
         (HEAD + "rhs: {x: y, y: -x}\n", [(1, 1, "initial missing")]),
         (HEAD + "rhs: {x: y}\ninitial: {x: 1}\n", [(3, 10, "no value for y")]),
@@ -97,7 +97,7 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
         (HEAD + "rhs: [{x: y}, {x: -y}]\n" + TAIL, [(2, 11, "the right-hand sides sum to 0")]),
         (
             HEAD + "rhs: {x: y}\n" + TAIL + "invariants: {I: x - t}\n",
-            [(4, 21, "'t' is no variable or parameter")],
+            [(4, 21, "'t' is not a variable or parameter")],
         ),
         (HEAD + "rhs: {x: y}\n" + TAIL + "invariants: {I: 2}\n", [(4, 17, "is constant")]),
         (
@@ -109,7 +109,7 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
             [(3, 12, "starts at 1.00000, but initial has 2.00000")],
         ),
         (HEAD + "rhs: {x: y, y: -x}\nexact: {x: sin(t)}\n", [(3, 8, "no value for y")]),
-        (HEAD + "rhs: {x: y, y: -x}\nexact: {x: y, y: cos(t)}\n", [(3, 12, "'y' is no parameter")]),
+        (HEAD + "rhs: {x: y, y: -x}\nexact: {x: y, y: cos(t)}\n", [(3, 12, "'y' is not a parameter")]),
         (
             "variables: x\nhamiltonian: px**2/2\nexact: {x: t}\ninitial: {x: 0, px: 1}\n",
             [(3, 8, "exact is for rhs")],

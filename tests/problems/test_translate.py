@@ -72,7 +72,7 @@ def test_what_is_made(text: str, wanted: str) -> None:
         ("((x + y)**2)**1.5", "this has |x + y|", 0),
         ("(x**4)**(1/4)", "this has |x|", 0),
         ("y + cbrt(x)", "only square roots are taken of variables", 4),
-        ("x + log(-1)", "log of -1 is no real number", 4),
+        ("x + log(-1)", "log of -1 is not a real number", 4),
         ("x**y", "the exponent depends on y", 3),
         ("y*x**(2*px)", "the exponent depends on px", 8),
         ("sqrt(-1 - 1)*x", "an even root", 0),

@@ -127,7 +127,7 @@ FAULTS = {
     "search: {seeds: 1..2, starts: 3, order: 2}\n": ("", "leaves tau to a search"),
     ", order: 2": ("", "a search is for an order"),
     "seeds: 1..2, ": ("", "seeds missing"),
-    "1..2": ("2..1", "is no range"),
+    "1..2": ("2..1", "is not a range"),
     "starts: 3": ("starts: 0", "of at least 1"),
     "tau: free": ("tau: [1/2]", "no method has an unknown"),
 }  # fmt: skip

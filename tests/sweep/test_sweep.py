@@ -213,7 +213,7 @@ def test_numbers_that_are_too_large_are_told_as_such(spec: Path) -> None:
     with pytest.raises(MethodFileError) as caught:
         load_plan(str(spec))
     first, second = (fault.message for fault in caught.value.faults)
-    assert "'1..3000' is no range" in first
+    assert "'1..3000' is not a range" in first
     assert "a whole number of at most 6 digits" in second
 
 
@@ -562,7 +562,7 @@ def test_rosenbrock_methods(tmp_path: Path) -> None:
         spec.write_text(f"name: ROS2\n{grid}columns: [{column}]\nbest: [order]\n", "utf-8")
         plan = load_plan(str(spec))
         failures = {row_of(plan.criteria, point)["failure"] for point in plan.points()}
-        assert failures == {f"{column} is meant of Runge–Kutta methods"}
+        assert failures == {f"{column} applies to Runge–Kutta methods only"}
 
 
 def test_columns_of_rosenbrock_methods_of_others(tmp_path: Path) -> None:

@@ -22,7 +22,10 @@ from garkcli.properties.symmetry import symmetry
 from garkcli.tableau.tableau import Tableau
 
 _FORM = "write for instance {of: {family: gauss, stages: 1}, order: 6}"
-_HOW_FAR, _GIVE_ORDER = "how far is missing", "give order: 6, or sequence: [1, 2, 3]"
+_HOW_FAR, _GIVE_ORDER = (
+    "neither order nor sequence is given",
+    "give order: 6, or sequence: [1, 2, 3]",
+)
 MAX_ORDER = 40
 """The largest order of an extrapolation."""
 MAX_PARTS = 200
@@ -90,7 +93,7 @@ _KEYS = g.mapping(
         g.Ways("", ("order", "sequence"), _HOW_FAR, _GIVE_ORDER, is_one=False),
         g.Beside(
             "sequence",
-            "the numbers of sequence say the order",
+            "the numbers of sequence determine the order",
             "keep one of them",
             bars=("order",),
             code="given-twice",
@@ -146,9 +149,11 @@ class _Plan(Frozen):
         """
         order, is_symmetric = self.base, self.is_symmetric
         if base.has_parameters and (order is None or is_symmetric is None):
-            message = "the order of a method with free parameters is not looked for"
+            message = "the order of a method with free parameters is not determined"
             raise MethodError(
-                message, "say from: its order, and symmetric: true or false", code="free-parameters"
+                message,
+                "give from: its order, and symmetric: true or false",
+                code="free-parameters",
             )
         if is_symmetric is None:
             is_symmetric = numbers.once(

@@ -78,15 +78,15 @@ _COUPLING = g.mapping(
     g.Key(
         "fast-slow: [[(lambda - 1)/M]]",
         _SMALL_STEPS,
-        "How the fast stages of small step lambda see the slow slopes; entries may use lambda "
-        "and M.",
+        "The coefficients of the slow slopes in the fast stages of small step lambda; entries may "
+        "use lambda and M.",
         is_needed=True,
     ),
     g.Key(
         "slow-fast: [[0]]",
         _SMALL_STEPS,
-        "How the slow stages see the fast slopes of small step lambda; entries may use lambda "
-        "and M.",
+        "The coefficients of the fast slopes of small step lambda in the slow stages; entries may "
+        "use lambda and M.",
         is_needed=True,
     ),
     form=_FORM_OF_COUPLING,
@@ -197,7 +197,7 @@ _KEYS = g.mapping(
         "The method of the fast part, of one colour; or exact: its exact solution.",
         is_needed=True,
     ),
-    g.Key("steps: 4", g.count(1, MAX_STEPS), "How many small steps the fast part takes."),
+    g.Key("steps: 4", g.count(1, MAX_STEPS), "The number of small steps of the fast part."),
     g.Key("slow: kutta", METHOD, "The method of the slow part, of one colour."),
     g.Key(
         "coupling: slowest-first",
@@ -205,7 +205,7 @@ _KEYS = g.mapping(
             g.word(lambda: (SLOWEST_FIRST, *RULES)),
             at_mapping=_one_of(("gamma", "embedded"), _PREDICTOR, _COUPLING),
         ),
-        "How the slow and the fast part see each other: slowest-first, a transfer rule for all "
+        "The coupling of the slow and the fast part: slowest-first, a transfer rule for all "
         "small steps as one method, the matrices of each small step, or a forcing by polynomials.",
         SLOWEST_FIRST,
     ),
@@ -228,7 +228,7 @@ _KEYS = g.mapping(
         g.Beside(
             "fast",
             "steps missing",
-            "say how many small steps it takes, or write fast: exact",
+            "give the number of small steps, or write fast: exact",
             needs=("steps",),
             code="missing-key",
             values=g.Values({"not": {"const": EXACT}}, lambda node: not _is_exact(node)),
@@ -297,7 +297,7 @@ class Predictor(Frozen):
 def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
     tableau = tableau_of(part)
     message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
-    return one_field(tableau, message + "where one of one vector field is expected")
+    return one_field(tableau, message + "where a method of one vector field is expected")
 
 
 def _refuse_parameters(rows: Iterable[Vector]) -> None:

@@ -53,10 +53,7 @@ _KEYS = g.mapping(
         "The flows by the name of a published scheme, as gark list shows them.",
     ),
     g.Key(
-        "terms: 3",
-        g.count(2, MAX_TERMS),
-        "How many parts there are, where nothing else says it.",
-        2,
+        "terms: 3", g.count(2, MAX_TERMS), "The number of parts, if nothing else determines it.", 2
     ),
     form=_FORM,
     rules=[_WAYS],
@@ -114,7 +111,7 @@ def _terms(at: PartReader, found: g.Found, where: str) -> int:
         return terms
     terms = terms or _largest(found.nodes.get("flows"))
     if of is None and terms > 2:
-        message = f"{where}: exact flows of {terms} parts are no Runge-Kutta method"
+        message = f"{where}: exact flows of {terms} parts are not a Runge-Kutta method"
         cure = "give of: METHOD, which takes the steps of the parts"
         at.source.fault(found.node, message, cure, code="wrong-size")
     return terms

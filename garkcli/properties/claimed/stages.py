@@ -153,7 +153,7 @@ def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
         return Verdict.undecided(f"more than {MOST_TRIALS} images of stages were tried")
     if holds:
         return Verdict(True, Reason("once it is reduced"))
-    return Verdict(False, Reason("no renumbering of the stages gives the adjoint method"))
+    return Verdict(False, Reason("not self-adjoint"))
 
 
 def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
