@@ -30,7 +30,7 @@ class Ended(BaseException):
         self.exit_code = 128 + number
 
 
-class _Run(Mutable, eq=False):
+class _RunningWork(Mutable, eq=False):
     """A run of the command line.
 
     Attributes:
@@ -42,7 +42,7 @@ class _Run(Mutable, eq=False):
     undoing: int = 0
 
 
-_run: ContextVar[_Run | None] = ContextVar("run", default=None)
+_run: ContextVar[_RunningWork | None] = ContextVar("run", default=None)
 """The run whose signals are handled; None in other programs, which handle their own."""
 
 
@@ -60,7 +60,7 @@ def at_once() -> Iterator[None]:
         known = [getattr(signal, name) for name in (ENDING if by_system else ENDING[:1])]
         usual = (signal.SIG_DFL, signal.default_int_handler, leave)
         before = {x: handler for x in known if (handler := signal.getsignal(x)) in usual}
-    token = _run.set(_Run([*before] if by_system else []))
+    token = _run.set(_RunningWork([*before] if by_system else []))
     for number in before:
         signal.signal(number, inside)
     try:

@@ -53,7 +53,7 @@ def from_arrays(
     """
     if b is None:
         raise MethodError("b is missing", "give the weights: from_arrays(A, b)", code="missing-key")
-    writer = _Writer(is_rounded=tolerance is not None)
+    writer = _ArrayWriter(is_rounded=tolerance is not None)
     A = _triangle(_listed(_in_rows(A, "A")))
     entries: dict[str, str] = {}
     if name:
@@ -74,7 +74,7 @@ _PLAIN = re.compile(r"-?(0|[1-9][0-9]*)([./][0-9]+)?(e-?[0-9]+)?", re.ASCII)
 """Numbers that every YAML reader takes for the same."""
 
 
-class _Writer:
+class _ArrayWriter:
     def __init__(self, is_rounded: bool) -> None:
         self.is_rounded = is_rounded
 

@@ -125,7 +125,7 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
     return orders
 
 
-class _Part(Frozen):
+class _OrderPart(Frozen):
     """Part of a method with an order of its own.
 
     ``words`` follow the name of the method in messages; ``of`` returns the method with this order;
@@ -181,14 +181,14 @@ def _is_plain(method: GarkMethod) -> bool:
 
 
 _PARTS = {
-    "order": _Part("", lambda method: method, lambda _: True),
-    "embedded": _Part(
+    "order": _OrderPart("", lambda method: method, lambda _: True),
+    "embedded": _OrderPart(
         " with its embedded weights", _embedded, lambda method: method.embedded is not None
     ),
-    "conjugate": _Part(", conjugated,", conjugate, _is_plain, "conjugate"),
-    "pair": _Part(" as a symplectic pair", pair, _is_plain, "pair"),
-    "w": _Part(" with any matrix", _seen("with_any_matrix"), _is_rosenbrock),
-    "index_1": _Part(" on DAEs of index 1", _seen("on_dae"), _is_rosenbrock),
+    "conjugate": _OrderPart(", conjugated,", conjugate, _is_plain, "conjugate"),
+    "pair": _OrderPart(" as a symplectic pair", pair, _is_plain, "pair"),
+    "w": _OrderPart(" with any matrix", _seen("with_any_matrix"), _is_rosenbrock),
+    "index_1": _OrderPart(" on DAEs of index 1", _seen("on_dae"), _is_rosenbrock),
 }
 
 
@@ -198,7 +198,7 @@ def _called(method: GarkMethod) -> str:
     return method.name
 
 
-def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Iterator[str]:
+def _failure(method: GarkMethod, part: _OrderPart, value: Any, tolerance: Any) -> Iterator[str]:
     """Yields the lines of the failure if an order is not as wanted."""
     wanted = _read(value)
     least = wanted.least if isinstance(wanted, AtLeast) else wanted
@@ -246,7 +246,7 @@ def _read(value: Any) -> int | AtLeast:
     raise MethodError(f"{value!r} is not an order", 'write 4 or ">= 4"', code="wrong-value")
 
 
-def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:
+def _blamed(tableau: Tableau, part: _OrderPart, found: AnyOrder, claimed: int) -> Iterator[str]:
     """Yields the entries whose change would restore the order."""
     missed = Missed(found.order + 1, claimed, part.which or "order")
     method = tableau if isinstance(found, Order) else meant(tableau, found.tolerance)

@@ -296,7 +296,7 @@ def found_methods(
     return [loads(file.text, read.source) for file in found_files(found, read)]
 
 
-class Found(Frozen):
+class FoundFile(Frozen):
     """A method that was found, and the text of its file: how it was found, and the claim about
     it.
     """
@@ -321,7 +321,7 @@ class Found(Frozen):
 
 def found_files(
     found: Design | DesignWithin | Minimum | Result, family: FamilyFile
-) -> Iterator[Found]:
+) -> Iterator[FoundFile]:
     source = f"found by gark design {family.source}"
     if isinstance(found, DesignWithin):
         yield from _files_within(found, family, source)
@@ -330,7 +330,7 @@ def found_files(
         further = _wanted(found.family, found.whose)
         for method in accepted_methods(found):
             claim = f"{_orders(method, found.whose)}{further}"
-            yield Found(family, method, f"{source}: {claim}", claim)
+            yield FoundFile(family, method, f"{source}: {claim}", claim)
     elif isinstance(found, Minimum):
         whose, order = found.design.whose, found.step.order
         options = "" if whose == "method" else f" --{whose}"
@@ -342,7 +342,7 @@ def found_files(
             known = order if own is None else own.order
             best = chosen(candidate.found, candidate.index, family.parameters, known)
             claim = _orders(best, whose)
-            yield Found(family, best, f"{source}{options}: {claim}", claim + further)
+            yield FoundFile(family, best, f"{source}{options}: {claim}", claim + further)
     else:
         for find in found.methods:
             beside = "" if find.embedded is None else f", embedded-order: {find.embedded}"
@@ -356,10 +356,10 @@ def found_files(
             head += f"{HEADS[find.proof]}: {claim}"
             if not find.is_exact:
                 head += f", residuals below {find.residual} before rounding"
-            yield Found(family, find, head, claim, find.is_exact)
+            yield FoundFile(family, find, head, claim, find.is_exact)
 
 
-def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Iterator[Found]:
+def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Iterator[FoundFile]:
     """Yields the files for values within a tolerance."""
     step = found.best
     for values in () if step is None else (x for x in step.found if x.is_admitted):
@@ -369,7 +369,7 @@ def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Itera
             claim += f", embedded-order: {values.embedded}"
         head = f"{source}: {claim} within {decimal(found.tolerance)}, numerical"
         member = Method(1, "numerical", values.order, texts, "0")
-        yield Found(family, member, head, claim, is_exact=False)
+        yield FoundFile(family, member, head, claim, is_exact=False)
 
 
 def _orders(method: Chosen, whose: Whose) -> str:

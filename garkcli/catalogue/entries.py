@@ -119,7 +119,7 @@ _SEARCHED = ("name", "title", "reference")
 """The fields that are searched for words, besides the aliases."""
 
 
-class Range(Frozen):
+class NumberRange(Frozen):
     """The integers from ``least`` to ``most``."""
 
     least: int
@@ -130,7 +130,7 @@ class Range(Frozen):
         return isinstance(value, int) and self.least <= value <= self.most
 
 
-def read_range(text: str) -> Range:
+def read_range(text: str) -> NumberRange:
     """Reads a range of integers: ``4``, ``>=4``, ``<4`` or ``2..4``.
 
     Raises UsageProblem for any other text.
@@ -140,23 +140,23 @@ def read_range(text: str) -> Range:
     """
     span = _SPAN.fullmatch(text.strip())
     if span:
-        return Range(int(span[1]), int(span[2]))
+        return NumberRange(int(span[1]), int(span[2]))
     match = _RANGE.fullmatch(text.strip())
     if match is None:
         message = f"{text!r} is neither a number nor a range"
         raise UsageProblem(message, "write 4, '>=4', '<4' or 2..4", code="option-value")
     sign, number = match[1] or "=", int(match[2])
     ranges = {
-        "=": Range(number, number),
-        ">=": Range(number, _MOST),
-        ">": Range(number + 1, _MOST),
-        "<=": Range(0, number),
-        "<": Range(0, number - 1),
+        "=": NumberRange(number, number),
+        ">=": NumberRange(number, _MOST),
+        ">": NumberRange(number + 1, _MOST),
+        "<=": NumberRange(0, number),
+        "<": NumberRange(0, number - 1),
     }
     return ranges[sign]
 
 
-class Wanted(Frozen):
+class MethodFilter(Frozen):
     """Conditions on methods, all of which have to hold.
 
     ``values`` are ranges of numbers, truth values or texts by the keys of entries; unknown values
@@ -164,7 +164,7 @@ class Wanted(Frozen):
     an alias, the title or the reference, or is a name or an alias in another spelling.
     """
 
-    values: Mapping[str, Range | bool | str]
+    values: Mapping[str, NumberRange | bool | str]
     folder: str = ""
     words: Sequence[str] = ()
 
@@ -172,7 +172,7 @@ class Wanted(Frozen):
         for key, x in self.values.items():
             value = entry[key]
             is_so = type(x) is type(value) and x == value
-            if not (x.has(value) if isinstance(x, Range) else is_so):
+            if not (x.has(value) if isinstance(x, NumberRange) else is_so):
                 return False
         return self.folder in {"", entry["folder"]} and self._says_it(entry)
 

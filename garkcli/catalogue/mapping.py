@@ -94,10 +94,16 @@ class Catalogue(ModuleType):
         Raises:
             UsageProblem: nothing is known by a name, or a text is no range.
         """
-        from garkcli.catalogue.entries import Range, Wanted, all_entries, read_range, sorted_by
+        from garkcli.catalogue.entries import (
+            MethodFilter,
+            NumberRange,
+            all_entries,
+            read_range,
+            sorted_by,
+        )
 
         entries = list(all_entries())
-        values: dict[str, Range | bool | str] = {}
+        values: dict[str, NumberRange | bool | str] = {}
         for key, value in wanted.items():
             if key not in entries[0]:
                 message = f"nothing is known by the name {key!r}"
@@ -106,7 +112,7 @@ class Catalogue(ModuleType):
                 values[key] = value
             else:
                 values[key] = str(value) if key in _WORDS else read_range(str(value))
-        chosen = Wanted(values, folder, words)
+        chosen = MethodFilter(values, folder, words)
         taken = [entry for entry in entries if chosen.takes(entry)]
         return [entry["name"] for entry in sorted_by(taken, "order")]
 

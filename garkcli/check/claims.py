@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.expectations import AtLeast, Measure
+from garkcli.methodfile.expectations import AtLeast, ClaimedNumber
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
@@ -137,7 +137,7 @@ def _holds(claim: ClaimText, verdict: Verdict, subject: AnySubject) -> bool | No
     if verdict.is_undecided:
         return None
     if isinstance(value, Size):
-        return isinstance(wanted, Measure) and wanted.agrees(value.root, subject.rounding)
+        return isinstance(wanted, ClaimedNumber) and wanted.agrees(value.root, subject.rounding)
     if verdict.is_at_least and isinstance(value, int):
         return agrees(wanted, AtLeast(value))
     return agrees(wanted, value)

@@ -280,7 +280,7 @@ def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
 
 
 def findings(outcome: Outcome) -> Iterator[Finding]:
-    """All findings of one file, kind by kind in file order."""
+    """Yields the findings of a file, kind by kind in the order of the file."""
     file = PurePath(outcome.file).as_posix()
     for rule, remark, key in _remarks(outcome):
         placed = replace(remark, line=remark.line or 1, column=remark.column or 1)

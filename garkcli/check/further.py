@@ -9,7 +9,7 @@ from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
-from garkcli.order.functionals import Estimator, Orders, estimator
+from garkcli.order.functionals import Estimator, KnownOrders, estimator
 from garkcli.order.meant import AnyTableau, as_dense, as_embedded, printed, with_further
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.tableau import Tableau
@@ -86,7 +86,7 @@ def estimate(
     order, other = orders
     smaller = other if other.order < order.order else order
     differ = other.order != order.order and not smaller.is_lower_bound
-    sought = Orders(smaller.order, differ, limit)
+    sought = KnownOrders(smaller.order, differ, limit)
     return estimator(with_further(method) or method, weights, sought, spans)
 
 

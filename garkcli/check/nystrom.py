@@ -93,7 +93,7 @@ def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> Ends:
     return (zeros, first, (ZERO,)), (zeros, off, (ZERO,))
 
 
-class EmbeddedOrders(Frozen):
+class EmbeddedNystrom(Frozen):
     """The orders of embedded weights in place of b̄ and b, and their error estimate."""
 
     orders: NystromOrders
@@ -117,7 +117,7 @@ class NystromAnalysis(Shown, Frozen):
     orders: NystromOrders
     limit: int
     tolerance: fmpq | None = None
-    embedded: EmbeddedOrders | None = None
+    embedded: EmbeddedNystrom | None = None
     dense: NystromDense | None = None
     further: Further = NOTHING
 
@@ -161,7 +161,7 @@ def analyse_nystrom(
     if further.embedded is not None:
         other = NystromOrders.of(as_embedded(method, further.embedded), limit, spans)
         found = estimate(method, further.embedded, (orders.order, other.order), limit, spans)
-        embedded = EmbeddedOrders(other, found)
+        embedded = EmbeddedNystrom(other, found)
     dense = None
     if further.dense is not None:
         dense = NystromDense.of(method, further.dense, limit, spans)

@@ -12,7 +12,7 @@ from flint import fmpq
 from garkcli.exact.matrix import Matrix, apply, dot, is_singular, multiply
 from garkcli.frozen import Frozen
 from garkcli.order.meant import derived, meant
-from garkcli.order.pair_order import Condition, added, missing_of_block, pair_criterion
+from garkcli.order.pair_order import SimplifyingCondition, added, missing_of_block, pair_criterion
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau
@@ -110,7 +110,7 @@ def _held(order: int, has_blocks: bool) -> str:
 _MOST_BLOCKS = 4
 
 
-def _missing(missing: Sequence[Condition], names: Sequence[str], blocks: int) -> str:
+def _missing(missing: Sequence[SimplifyingCondition], names: Sequence[str], blocks: int) -> str:
     """Returns the conditions that fail, and the blocks on which they do."""
     parts = []
     for letter, number in added(_order_of(missing[0])):
@@ -132,7 +132,7 @@ def _missing(missing: Sequence[Condition], names: Sequence[str], blocks: int) ->
     return ", ".join(parts)
 
 
-def _order_of(condition: Condition) -> int:
+def _order_of(condition: SimplifyingCondition) -> int:
     """Returns the order for which a condition is needed."""
     if condition.letter == "B":
         return condition.number
@@ -199,7 +199,7 @@ class Fit(Frozen):
     numbers: str
 
 
-def _by_block(by_numbers: Fit, missing: Sequence[Condition]) -> Fit:
+def _by_block(by_numbers: Fit, missing: Sequence[SimplifyingCondition]) -> Fit:
     """Returns the decision by the conditions of the block."""
     names = [
         "the even condition" if x.letter == "even" else f"{x.letter}({x.number})" for x in missing

@@ -14,7 +14,7 @@ from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.functionals import Estimator, Orders, estimator
+from garkcli.order.functionals import Estimator, KnownOrders, estimator
 from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, with_further
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
@@ -100,7 +100,7 @@ class RosenbrockOrders(Frozen):
         return found, tableau
 
 
-class EmbeddedOrders(Frozen):
+class EmbeddedRosenbrock(Frozen):
     """The orders of embedded weights in place of b, and their error estimate."""
 
     orders: RosenbrockOrders
@@ -129,7 +129,7 @@ class RosenbrockAnalysis(Shown, Frozen):
     orders: RosenbrockOrders
     limit: int
     tolerance: fmpq | None = None
-    embedded: EmbeddedOrders | None = None
+    embedded: EmbeddedRosenbrock | None = None
     dense: DenseFacts | None = None
     further: Further = NOTHING
 
@@ -211,9 +211,9 @@ def analyse_rosenbrock(
         other = RosenbrockOrders.of(as_embedded(method, further.embedded), limit, spans)
         smaller = min((orders.order, other.order), key=lambda x: x.order)
         differ = other.order.order != orders.order.order and not smaller.is_lower_bound
-        sought = Orders(smaller.order, differ, limit)
+        sought = KnownOrders(smaller.order, differ, limit)
         found = estimator(with_further(method) or method, further.embedded, sought, spans)
-        embedded = EmbeddedOrders(other, found)
+        embedded = EmbeddedRosenbrock(other, found)
     if further.dense is not None:
         dense = dense_facts(method, further.dense, limit, spans)
     return RosenbrockAnalysis(tableau, orders, limit, tolerance, embedded, dense, further)

@@ -23,7 +23,7 @@ from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
-    from garkcli.api.design import Found
+    from garkcli.api.design import FoundFile
     from garkcli.crew.work import Workers
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
@@ -525,7 +525,7 @@ def _written(
     return files
 
 
-def _proof(found: Found) -> int:
+def _proof(found: FoundFile) -> int:
     """Returns a sort key, larger for weaker proofs."""
     member: Any = found.member
     return PROOFS.index(member.proof)

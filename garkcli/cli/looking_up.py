@@ -171,11 +171,11 @@ def list_(given: Given, output: Output) -> None:
 
 def _listed(given: Mapping[str, Any]) -> list[Entry]:
     """Returns the methods that match, sorted."""
-    from garkcli.catalogue.entries import Wanted, all_entries, sorted_by
+    from garkcli.catalogue.entries import MethodFilter, all_entries, sorted_by
 
     others = ("judge", "sort", "folder", "words")
     values = {key: x for key, x in given.items() if key not in others and x not in (None, "")}
-    wanted = Wanted(values, given["folder"] or "", given["words"])
+    wanted = MethodFilter(values, given["folder"] or "", given["words"])
     entries = list(all_entries(bool(given["judge"])))
     for key in ("folder", "structure"):
         known = sorted({x[key] for x in entries if x[key]})

@@ -19,7 +19,7 @@ from garkcli.cli import arguments
 from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
 from garkcli.cli.endings import AUTO, settled
 from garkcli.cli.streams import complain, put, put_exactly, safe_pieces, say, wants_colour
-from garkcli.cli.table import COMMANDS, HIDDEN, Option, Rule, option_of, options_of, rules_of
+from garkcli.cli.table import COMMANDS, HIDDEN, Option, OptionRule, option_of, options_of, rules_of
 from garkcli.doing import hush
 from garkcli.errors import GarkError, MethodFileError, Remark, UsageProblem
 from garkcli.files import STDIN, note_input
@@ -278,7 +278,7 @@ def _help(text: str, arguments: str) -> str:
     return "\n\n".join([first, f"{meant}.", *rest])
 
 
-def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> None:
+def _check(rules: Iterable[OptionRule], command: str, values: Mapping[str, Any]) -> None:
     """Raises UsageProblem for options that exclude each other, before anything is read."""
 
     def is_given(word: str) -> bool:

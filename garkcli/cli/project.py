@@ -12,8 +12,8 @@ from garkcli.files import STDIN, is_elsewhere, is_inside, read_bytes
 from garkcli.frozen import Frozen, field, replace
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import Files, Key
-    from garkcli.methodfile.grammar import Kind
+    from garkcli.glossary.key import Files, KeyMeaning
+    from garkcli.methodfile.grammar import ValueKind
 
 OWN = ".gark.toml"
 SHARED = "pyproject.toml"
@@ -169,7 +169,7 @@ def _from_here(path: str) -> str:
     return here if is_there or os.path.dirname(here) else os.path.join(os.curdir, here)
 
 
-def _kind() -> Kind:
+def _kind() -> ValueKind:
     from garkcli.methodfile.project_file import file_of
     from garkcli.report.check_formats import FORMATS
 
@@ -187,7 +187,7 @@ def project_schema() -> dict[str, Any]:
     return file_schema("gark project file", "What gark check does in a project.", _kind())
 
 
-def told(files: Files) -> Iterator[Key]:
+def told(files: Files) -> Iterator[KeyMeaning]:
     from garkcli.methodfile.grammar import told
 
     for key in told(_kind().inside(), files.page):

@@ -60,7 +60,7 @@ class Command(Frozen):
     common: str
 
 
-class Rule(Frozen):
+class OptionRule(Frozen):
     """Options that require or exclude others.
 
     One of ``options`` is given; if ``needs``, one of ``others`` is required, otherwise they are
@@ -501,7 +501,7 @@ def options_of(command: str) -> Iterator[Option]:
             yield option_of(command, flag)
 
 
-def rules_of(command: str) -> list[Rule]:
+def rules_of(command: str) -> list[OptionRule]:
     """Returns the rules about the options of a command."""
     found = []
     for row in _paragraphs(RULES):
@@ -512,5 +512,5 @@ def rules_of(command: str) -> list[Rule]:
             sign = next(x for x in ("with", "without") if x in words)
             place = words.index(sign)
             given, others = tuple(words[:place]), tuple(words[place + 1 :])
-            found.append(Rule(given, sign == "without", others, message, cure))
+            found.append(OptionRule(given, sign == "without", others, message, cure))
     return found

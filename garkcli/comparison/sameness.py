@@ -50,7 +50,7 @@ def find_matching(one: Grid, other: Grid, likeness: Likeness) -> Images | None:
             own = _own(one, l, i)
             images = (j for j in range(stages) if likeness.rows(own, _own(other, l, j)))
             candidates[l, i] = list(images)
-    chosen = next(_Search(one, other, likeness).completions(candidates, {}), None)
+    chosen = next(_SamenessSearch(one, other, likeness).completions(candidates, {}), None)
     if chosen is None:
         return None
     return tuple(tuple(chosen[l, i] for i in range(stages)) for l, stages in enumerate(one.stages))
@@ -61,7 +61,7 @@ def _own(grid: Grid, l: int, i: int) -> Row:
     return grid.c[l][i], grid.b[l][i], *[weights[l][i] for weights in grid.further]
 
 
-class _Search:
+class _SamenessSearch:
     """A depth-first search; the stage with the fewest candidates is next."""
 
     def __init__(self, one: Grid, other: Grid, likeness: Likeness) -> None:
@@ -148,7 +148,7 @@ class Sameness(Frozen):
         return self.keeps_colours and self.keeps_stages and not self.is_reduced
 
 
-class Answer(Frozen):
+class SamenessResult(Frozen):
     """The result of a search for a correspondence; None if there is none, or if it is unknown
     because of ``obstacle``.
     """
@@ -175,24 +175,26 @@ def views_of(one: GarkMethod, other: GarkMethod) -> Views:
     return Views(grid_of(sheets[0]), grid_of(sheets[1]), sheets)
 
 
-def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq) -> Answer:
+def find_sameness(
+    one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq
+) -> SamenessResult:
     """Returns how two methods correspond: with equal entries, with stages or colours renumbered, or
     after reduction.
 
     ``allowed`` is the largest distance by which rounding may have moved equal entries apart.
     """
     if views.sheets is None and _same_algebra(one.tableau, other.tableau):
-        return Answer(_plainly(views.one))
+        return SamenessResult(_plainly(views.one))
     try:
         same = _as_they_are(views.one, views.other, ZERO) or _once_reduced(views)
         if same is None and allowed:
             same = _as_they_are(views.one, views.other, allowed)
     except LimitExceeded as error:
-        return Answer(None, error.message)
+        return SamenessResult(None, error.message)
     if same is not None and views.sheets is None and not same.allowed:
         # enclosures that overlap prove nothing
-        return Answer(None, "the nodes have no simple radicals")
-    return Answer(same)
+        return SamenessResult(None, "the nodes have no simple radicals")
+    return SamenessResult(same)
 
 
 def _plainly(grid: Grid) -> Sameness:

@@ -32,7 +32,7 @@ from garkcli.constructions.multirate import (
     SLOW,
     SMALLER,
     START,
-    Program,
+    SmallSteps,
     Value,
     add_slow_stages,
     of_slopes,
@@ -54,7 +54,7 @@ Powers = tuple[Vector, ...]
 """Rows over the slow stages, one for each of τ⁰, τ¹, …"""
 
 
-class Interval(Frozen):
+class FastInterval(Frozen):
     """One fast problem, with τ from 0 to 1.
 
     Attributes:
@@ -94,8 +94,8 @@ class Coupling(Frozen):
     """
 
     nodes: Vector
-    intervals: tuple[Interval, ...]
-    embedded: Interval | None = None
+    intervals: tuple[FastInterval, ...]
+    embedded: FastInterval | None = None
     matrices: tuple[tuple[Matrix, ...], ...] | None = None
     restart: str = ""
     has_own_nodes: bool = False
@@ -112,7 +112,7 @@ class Coupling(Frozen):
         return len(self.intervals[0].forcing)
 
     @cached_property
-    def every(self) -> tuple[Interval, ...]:
+    def every(self) -> tuple[FastInterval, ...]:
         """All intervals, the embedded one last."""
         return self.intervals if self.embedded is None else (*self.intervals, self.embedded)
 
@@ -131,7 +131,7 @@ def following(
     """
     columns = len(nodes)
     intervals = [
-        Interval(_unit(columns, i), _zeros(columns), end - begin, _rows(matrices, i))
+        FastInterval(_unit(columns, i), _zeros(columns), end - begin, _rows(matrices, i))
         for i, (begin, end) in enumerate(pairwise(nodes))
     ]
     last = None if embedded is None else replace(intervals[-1], forcing=embedded)
@@ -165,8 +165,8 @@ def restarted(
     zeros = _zeros(len(nodes))
     before = ((),) * (len(forcing) - 1)
 
-    def interval(c: Number, powers: tuple[Powers, ...], row: Vector | None) -> Interval:
-        return Interval(zeros, zeros, c, powers, () if row is None else (*before, row))
+    def interval(c: Number, powers: tuple[Powers, ...], row: Vector | None) -> FastInterval:
+        return FastInterval(zeros, zeros, c, powers, () if row is None else (*before, row))
 
     rows = after or [None] * (len(nodes) - 1)
     intervals = [
@@ -204,7 +204,7 @@ def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
         width = sum(row, ZERO)
         known = [*nodes, *_zeros(len(row) - len(nodes))]
         nodes.append(dot(begin, known) + dot(drift, known) + width)
-        intervals.append(Interval(begin, drift, width, ((row,),)))
+        intervals.append(FastInterval(begin, drift, width, ((row,),)))
     return Coupling(tuple(nodes), tuple(intervals), has_own_nodes=True)
 
 
@@ -237,7 +237,7 @@ def _rows(matrices: tuple[tuple[Matrix, ...], ...], i: int) -> tuple[Powers, ...
     return tuple(tuple(matrix[i] for matrix in powers) for powers in matrices)
 
 
-class Plan(Frozen):
+class CollocationPlan(Frozen):
     """The collocation and the slow stages of a method, chosen once by its printed numbers.
 
     Attributes:
@@ -252,12 +252,12 @@ class Plan(Frozen):
     order: int | None = None
 
 
-def plan_for_method(coupling: Coupling) -> Plan:
+def plan_for_method(coupling: Coupling) -> CollocationPlan:
     """The plan with small steps of a method between the slow stages."""
     last = len(coupling.nodes) - 1
     is_seen = any(row[-1] for interval in coupling.every for _, row in interval.rows)
     stages = range(last + 1 if is_seen else last)
-    return Plan(_solved(coupling, [1] * len(coupling.every)), tuple(stages))
+    return CollocationPlan(_solved(coupling, [1] * len(coupling.every)), tuple(stages))
 
 
 def _solved(coupling: Coupling, counts: Sequence[int]) -> tuple[int, ...]:
@@ -269,7 +269,7 @@ def _solved(coupling: Coupling, counts: Sequence[int]) -> tuple[int, ...]:
     return tuple(n if x else 0 for n, x in zip(counts, moves, strict=True))
 
 
-def plan_for_flow(coupling: Coupling) -> Plan:
+def plan_for_flow(coupling: Coupling) -> CollocationPlan:
     """The plan with the exact solution of each fast problem.
 
     The order is at most ``highest``, and at most ``apparent_order`` unless rounding explains large
@@ -283,7 +283,7 @@ def plan_for_flow(coupling: Coupling) -> Plan:
     order = max(1, min(wanted, room // (sum(degrees) or 1)))
     refuse_large(sum(degrees) + len(degrees), SMALLER)
     counts = tuple(d * order + 1 if d else 0 for d in degrees)
-    return Plan(counts, tuple(sorted(seen or {0})), order + 1)
+    return CollocationPlan(counts, tuple(sorted(seen or {0})), order + 1)
 
 
 def _support(row: Vector) -> list[int]:
@@ -323,7 +323,7 @@ def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
     slow parts, up to residuals that rounding may explain; the larger one with b or the embedded
     weights.
     """
-    still = Plan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
+    still = CollocationPlan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
     made, further = _Infinitesimal(coupling, still, None, 1).made()
     slow = [m for m, colour in enumerate(made.colours) if colour.space == SLOW]
     A = _as_one(zip(*(made.blocks[SLOW, m] for m in slow), strict=True))
@@ -381,7 +381,7 @@ def collocation_at(nodes: Vector) -> Method:
 
 
 def infinitesimal(
-    coupling: Coupling, plan: Plan, fast: Method | None = None, steps: int = 1
+    coupling: Coupling, plan: CollocationPlan, fast: Method | None = None, steps: int = 1
 ) -> tuple[Tableau, Further]:
     """Returns the method with its embedded weights.
 
@@ -394,7 +394,7 @@ def infinitesimal(
     return _finished(_Infinitesimal(coupling, plan, fast, steps), plan)
 
 
-def _finished(program: _Infinitesimal, plan: Plan) -> tuple[Tableau, Further]:
+def _finished(program: _Infinitesimal, plan: CollocationPlan) -> tuple[Tableau, Further]:
     """The method with equal stages merged, or with its stages on a flow."""
     made, further = program.made()
     if plan.order is None:
@@ -413,7 +413,9 @@ def interpolation(slow: Method) -> Powers:
     return tuple(tuple(p[k] for p in polynomials) for k in range(slow.stages))
 
 
-def plan_for_predictor(slow: Method, forcing: Iterable[Powers], fast: Method | None) -> Plan:
+def plan_for_predictor(
+    slow: Method, forcing: Iterable[Powers], fast: Method | None
+) -> CollocationPlan:
     """Returns the plan for a slow method that takes the step for both parts before the fast
     problem.
 
@@ -424,19 +426,19 @@ def plan_for_predictor(slow: Method, forcing: Iterable[Powers], fast: Method | N
     stages = tuple(range(s))
     degrees = [max(len(powers), 1) for powers in forcing]
     if fast is not None:
-        return Plan((1,) * len(degrees), stages)
+        return CollocationPlan((1,) * len(degrees), stages)
     is_explicit = not any(x for i, row in enumerate(slow.A) for x in row[i:])
     is_lower = not any(x for i, row in enumerate(slow.A) for x in row[i + 1 :])
     order = s if is_explicit else s + 1 if is_lower else 2 * s
     room = MAX_STAGES - 2 * s - len(degrees)
     order = max(1, min(order, room // sum(degrees)))
-    return Plan(tuple(d * order + 1 for d in degrees), stages, order + 1)
+    return CollocationPlan(tuple(d * order + 1 for d in degrees), stages, order + 1)
 
 
 def predicted(
     slow: Method,
     forcing: tuple[Powers, ...],
-    plan: Plan,
+    plan: CollocationPlan,
     fast: Method | None = None,
     steps: int = 1,
 ) -> tuple[Tableau, Further]:
@@ -450,7 +452,8 @@ def predicted(
     refuse_large(2 * slow.stages + of_fast, SMALLER)
     zeros = _zeros(slow.stages + 1)
     ways = [
-        Interval(zeros, zeros, ONE, (tuple((*row, ZERO) for row in powers),)) for powers in forcing
+        FastInterval(zeros, zeros, ONE, (tuple((*row, ZERO) for row in powers),))
+        for powers in forcing
     ]
     coupling = Coupling((*slow.c, ONE), tuple(ways[:1]), ways[1] if len(ways) > 1 else None)
     return _finished(_Predicted(coupling, plan, fast, steps, slow), plan)
@@ -473,12 +476,14 @@ def _slow_part(tableau: Tableau) -> Tableau:
 class _Infinitesimal:
     """One infinitesimal method, made stage by stage."""
 
-    def __init__(self, coupling: Coupling, plan: Plan, fast: Method | None, steps: int) -> None:
+    def __init__(
+        self, coupling: Coupling, plan: CollocationPlan, fast: Method | None, steps: int
+    ) -> None:
         self.coupling = coupling
         self.plan = plan
         self.fast = fast
         self.steps = steps
-        self.program = Program([FAST, *[SLOW] * coupling.parts])
+        self.program = SmallSteps([FAST, *[SLOW] * coupling.parts])
         self.values: list[Value] = []
         self.places = {j: n for n, j in enumerate(plan.stages)}
 
@@ -506,7 +511,7 @@ class _Infinitesimal:
             self.program.add(SLOW, value, self.coupling.nodes[i])
         self.values.append(value)
 
-    def _after(self, i: int, interval: Interval) -> Value:
+    def _after(self, i: int, interval: FastInterval) -> Value:
         """The value at the end of a fast problem."""
         value = self._mixed(interval.begin)
         drift = self._mixed(interval.drift)
@@ -534,14 +539,14 @@ class _Infinitesimal:
         """A combination of the slopes of one slow part, possibly of later stages."""
         return {(SLOW + part, self.places[j]): x for j, x in enumerate(row) if j in self.places}
 
-    def _node(self, interval: Interval, tau: Number) -> Number:
+    def _node(self, interval: FastInterval, tau: Number) -> Number:
         """The time of the fast part."""
         nodes = self.coupling.nodes
         return dot(interval.begin, nodes) + tau * (dot(interval.drift, nodes) + interval.width)
 
     def _small_step(
         self,
-        interval: Interval,
+        interval: FastInterval,
         value: Value,
         drift: Value,
         fast: Method,
@@ -559,7 +564,7 @@ class _Infinitesimal:
 
     def _moved(
         self,
-        interval: Interval,
+        interval: FastInterval,
         drift: Value,
         weights: Vector,
         times: Sequence[Number],
@@ -581,7 +586,7 @@ class _Infinitesimal:
         ]
         return summed(moved, along, *parts)
 
-    def _forced(self, interval: Interval) -> Value:
+    def _forced(self, interval: FastInterval) -> Value:
         """The slow slopes with the integrals of their polynomials from 0 to 1."""
         return summed(
             *(
@@ -596,7 +601,12 @@ class _Predicted(_Infinitesimal):
     """A step-predictor: its slow stages are those of a method for both parts."""
 
     def __init__(
-        self, coupling: Coupling, plan: Plan, fast: Method | None, steps: int, slow: Method
+        self,
+        coupling: Coupling,
+        plan: CollocationPlan,
+        fast: Method | None,
+        steps: int,
+        slow: Method,
     ) -> None:
         super().__init__(coupling, plan, fast, steps)
         self.slow = slow

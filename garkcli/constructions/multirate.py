@@ -45,7 +45,7 @@ def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> 
     return {(colour, i): weight for i, weight in zip(stages, weights, strict=True)}
 
 
-class Program:
+class SmallSteps:
     """The stages of a method, space by space; ``spaces`` has the stage space of each colour."""
 
     def __init__(self, spaces: Sequence[int]) -> None:
@@ -108,7 +108,7 @@ def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
 
-def add_slow_stages(program: Program, slow: Method) -> None:
+def add_slow_stages(program: SmallSteps, slow: Method) -> None:
     """Adds the stages of a slow method that takes the step for both parts."""
     every = range(slow.stages)
     for row, node in zip(slow.A, slow.c, strict=True):
@@ -125,7 +125,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     many stages.
     """
     refuse_large(2 * slow.stages + steps * fast.stages, SMALLER)
-    program = Program([FAST, SLOW])
+    program = SmallSteps([FAST, SLOW])
     every = range(slow.stages)
     add_slow_stages(program, slow)
     whole = small_steps(fast, steps)

@@ -57,7 +57,7 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
     return state
 
 
-class Reference(Mutable):
+class ReferenceSolution(Mutable):
     """The solution of a problem at one time, with the most digits requested so far.
 
     The problem is in one term. The error is below 10^(−``digits``) times the ``magnitude`` of the
@@ -105,14 +105,14 @@ def _exact(problem: Problem, t_end: fmpq, digits: int) -> tuple[arb, ...]:
         return tuple(x.mid() for x in solution(problem, arb(t_end)))
 
 
-def reference(problem: Problem, t_end: fmpq) -> Reference:
+def reference(problem: Problem, t_end: fmpq) -> ReferenceSolution:
     """The solution of ``problem`` at ``t_end``, shared by all its splits."""
     return _kept(replace(problem.unsplit(), name="", invariants=()), t_end)
 
 
 @cache
-def _kept(problem: Problem, t_end: fmpq) -> Reference:
-    return Reference(problem, t_end)
+def _kept(problem: Problem, t_end: fmpq) -> ReferenceSolution:
+    return ReferenceSolution(problem, t_end)
 
 
 def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tuple[arb, ...], int]:

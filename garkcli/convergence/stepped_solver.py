@@ -14,7 +14,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from garkcli.convergence.ladder import ROWS
-from garkcli.convergence.reference import Reference, magnitude, reference, run
+from garkcli.convergence.reference import ReferenceSolution, magnitude, reference, run
 from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
 from garkcli.convergence.solver import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
@@ -56,7 +56,7 @@ class SteppedSolver(Mutable):
     integrators: dict[int, Integrator] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.reference: Reference = reference(self.problem, self.t_end)
+        self.reference: ReferenceSolution = reference(self.problem, self.t_end)
 
     @property
     def problem(self) -> Problem:

@@ -8,7 +8,7 @@ from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse_any
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.conversion.printed import InForm
-from garkcli.conversion.recovered import Recovered, is_as_good, orders_of, recovered
+from garkcli.conversion.recovered import RecoveredMethod, is_as_good, orders_of, recovered
 from garkcli.conversion.rosenbrock import FORMS, text_in_form
 from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
 from garkcli.conversion.targets import RECOVERED, TARGETS, Target
@@ -176,7 +176,7 @@ def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name:
     raise CannotConvert(message, "--to spelled-out has every method")
 
 
-def _written(found: Recovered, name: str) -> str:
+def _written(found: RecoveredMethod, name: str) -> str:
     """The file of a recovered method, with as many exact numbers as keep all orders."""
     proposals = {**found.proposals}
     while True:
@@ -192,7 +192,7 @@ def _written(found: Recovered, name: str) -> str:
         proposals.popitem()  # the longest says least
 
 
-def _is_as_good(text: str, found: Recovered) -> bool:
+def _is_as_good(text: str, found: RecoveredMethod) -> bool:
     try:
         return is_as_good(loads(text), found)
     except MethodFileError:

@@ -37,7 +37,7 @@ FEWEST_TO_RECOGNISE = 40
 """With fewer digits no exact number is proposed."""
 
 
-class Recovered(Frozen, eq=False):
+class RecoveredMethod(Frozen, eq=False):
     """The method that a rounded one is taken to mean.
 
     Attributes:
@@ -82,7 +82,7 @@ class Recovered(Frozen, eq=False):
 
 def recovered(
     method: GarkMethod, digits: int | None = None, is_recognising: bool = False
-) -> Recovered:
+) -> RecoveredMethod:
     """Returns the method that a rounded one is taken to mean, with ``digits`` digits after the
     point, by default 50 or those of the tolerance if more.
 
@@ -126,7 +126,7 @@ def recovered(
     sheet = Sheet(*from_colours(whole, search.printed_further))
     is_exact = method.tolerance is None
     shortest = dict(sorted(found.items(), key=lambda x: len(x[1])))
-    return Recovered(sheet, unit, exact, shortest, tuple(_orders(analysis)), is_exact)
+    return RecoveredMethod(sheet, unit, exact, shortest, tuple(_orders(analysis)), is_exact)
 
 
 def nearest(x: fmpq, unit: fmpq) -> fmpq:
@@ -176,7 +176,7 @@ def _numbers(sheet: Sheet) -> Iterator[Number]:
             yield from row
 
 
-def is_as_good(made: GarkMethod, found: Recovered) -> bool:
+def is_as_good(made: GarkMethod, found: RecoveredMethod) -> bool:
     """Whether a method has at least the orders of the recovered one."""
     return all(map(ge, orders_of(made), found.orders))
 

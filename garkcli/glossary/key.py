@@ -25,7 +25,7 @@ KINDS = {
 }
 
 
-class Key(Frozen):
+class KeyMeaning(Frozen):
     """The meaning of a key.
 
     ``path`` includes the parent keys, as ``compose.steps``; ``example`` is a line of a file;
@@ -41,7 +41,7 @@ class Key(Frozen):
 
 
 @lru_cache(maxsize=len(KINDS))
-def keys_of(kind: str) -> Mapping[str, Key]:
+def keys_of(kind: str) -> Mapping[str, KeyMeaning]:
     """Returns the keys of a kind of files by their paths, in the order of the documentation.
 
     >>> keys_of("method")["compose.from"].default

@@ -45,14 +45,14 @@ ROUNDING = 2.0**-42
 _CHUNK = 65536  # steps that a fit looks at at a time
 
 
-class Line(Frozen):
+class FittedLine(Frozen):
     """A fitted drift of energy errors, per step, with its uncertainty."""
 
     slope: float
     uncertainty: float
 
 
-def drift_of(errors: Floats, angle: float | None) -> Line:
+def drift_of(errors: Floats, angle: float | None) -> FittedLine:
     """Returns the slope of the errors in the whole run, and its distance from those in the halves.
 
     ``angle`` is 2θ, the angle of the oscillation per step; None without one.
@@ -65,7 +65,7 @@ def drift_of(errors: Floats, angle: float | None) -> Line:
     first = _slope(errors[: half + 1], angle)
     second = _slope(errors[half:], angle)
     apart = max(abs(first - slope), abs(second - slope))
-    return Line(slope, apart + rounding)
+    return FittedLine(slope, apart + rounding)
 
 
 def _slope(errors: Floats, angle: float | None) -> float:
@@ -143,7 +143,7 @@ def oscillator_run(
 
     line = drift_of(errors.values, _angle(R, problem.omega))
     if errors.is_exact or fate.fate == "elliptic":
-        line = Line(0.0, 0.0)
+        line = FittedLine(0.0, 0.0)
     rate = energy_rate(tableau, tolerance, h, _powers(problem.omega, energy, done * h))
     excused = rate * done * h
     kept = np.union1d(extremes(errors.values, points - 2), [0, done])
@@ -156,7 +156,7 @@ def _history(
     errors: _Errors,
     energy: float,
     fate: Stability,
-    line: Line,
+    line: FittedLine,
     excused: float,
     kept: Integers,
     h: float,
@@ -209,7 +209,7 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
 
 
 def _verdict(
-    errors: _Errors, energy: float, fate: Stability, line: Line, excused: float
+    errors: _Errors, energy: float, fate: Stability, line: FittedLine, excused: float
 ) -> Verdict:
     """The verdict from the step map and the errors. A visible drift is undecided if without its
     uncertainty it is at most ``excused``, the error that rounded coefficients can cause.
@@ -230,7 +230,7 @@ def _verdict(
     return "undecided" if abs(line.slope) > line.uncertainty else "bounded"
 
 
-def _shape(verdict: Verdict, line: Line) -> Shape:
+def _shape(verdict: Verdict, line: FittedLine) -> Shape:
     """The shape of a drift: a line if its slope can be distinguished from 0."""
     if verdict not in ("drifts", "undecided"):
         return "none"

@@ -26,7 +26,7 @@ from garkcli.longtime.history import (
     count_steps,
 )
 from garkcli.longtime.measure import Measure
-from garkcli.longtime.record import Record
+from garkcli.longtime.record import RunRecord
 from garkcli.longtime.rounding import energy_rate, invariant_rate, power_of_ten, unit_round_off
 from garkcli.longtime.symplecticity import is_proved
 from garkcli.longtime.trend import CERTAIN, LEAST, Shape, Trend
@@ -88,7 +88,7 @@ def long_run(
     problem = bound.problem
     count = count_steps(t_end, step)
     method = bound.at(digits)
-    record = Record(Measure(problem, method.digits), count, points)
+    record = RunRecord(Measure(problem, method.digits), count, points)
     record.take(counting("steps", trajectory(method, step, count), count + 1))
     h = to_float(step)
     if isinstance(problem, Hamiltonian):
@@ -113,7 +113,7 @@ def long_run(
 
 
 @doing("round-off")
-def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
+def _noise(record: RunRecord, bound: Binding, step: fmpq, digits: int) -> Floats:
     """The uncertainty of the errors at the end, as powers of ten: each step rounds each summand of
     an invariant once, to leading order; at least that found on the first steps.
     """
@@ -145,7 +145,7 @@ class _Judge(Frozen):
     cause.
     """
 
-    record: Record
+    record: RunRecord
     step: fmpq
     tableau: Tableau
     problem: Problem

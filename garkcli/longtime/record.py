@@ -115,7 +115,7 @@ _MOVES = 2.0**-40
 _PARTS = 4  # equal parts of a run at whose ends the state is kept
 
 
-class Record:
+class RunRecord:
     """Sums and extremes of all errors, and samples of errors and states.
 
     Args:

@@ -8,17 +8,17 @@ from garkcli.errors import counted
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.grammar import Found, Key, Kind, defined, mapping
+from garkcli.methodfile.grammar import Key, ReadMapping, ValueKind, defined, mapping
 from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Reading, Rows
 
 _FORM_OF_PRK = "give q: {A, b} and p: {A, b}"
 _ROW = defined("row").schema()
-_ROWS = Kind(lambda: {"anyOf": [_ROW, {"type": "array", "items": _ROW}]})
+_ROWS = ValueKind(lambda: {"anyOf": [_ROW, {"type": "array", "items": _ROW}]})
 ARK = spelled_out.with_coefficients(
     Key(
         "A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]]",
-        Kind(lambda: spelled_out.rows_of(defined("matrix").schema())),
+        ValueKind(lambda: spelled_out.rows_of(defined("matrix").schema())),
         "One matrix per colour, all of the same size.",
     ),
     Key("b: [0, 1]", _ROWS, "The weights: one row per colour, or a single shared row."),
@@ -58,7 +58,7 @@ PRK = mapping(
 
 def ark(at: Reading, node: Node) -> d.ArkText | None:
     """Reads the form ``ark``; None if it is not a method."""
-    entries: Found | None = ARK.read(at, node, "ark")
+    entries: ReadMapping | None = ARK.read(at, node, "ark")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     matrices = _matrices(at, entries["A"])
@@ -110,7 +110,7 @@ def _matrices(at: Reading, node: Node) -> list[Rows] | None:
 
 def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
     """Reads the form ``prk``; its blocks are rectangular unless the structure is general."""
-    entries: Found | None = PRK.read(at, node, "prk")
+    entries: ReadMapping | None = PRK.read(at, node, "prk")
     if entries is None or len(entries) < 2:
         return None
     q, p = (_part(at, entries[part], part) for part in "qp")
@@ -130,7 +130,7 @@ def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
 
 def _part(at: Reading, node: Node, part: str) -> d.ButcherText | None:
     """Returns q or p of a prk, before its sizes are checked."""
-    entries: Found | None = spelled_out.BUTCHER.read(at, node, f"prk, {part}")
+    entries: ReadMapping | None = spelled_out.BUTCHER.read(at, node, f"prk, {part}")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     A = at.numbers.matrix(entries["A"], f"{part}.A")

@@ -10,7 +10,7 @@ from typing import Any
 from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import MAX_WORD
-from garkcli.methodfile.grammar import TEXT, Found, Key, Kind, Schema, mapping, word
+from garkcli.methodfile.grammar import TEXT, Key, ReadMapping, Schema, ValueKind, mapping, word
 from garkcli.methodfile.nodes import one_line, shortened
 from garkcli.methodfile.source import Source
 from garkcli.reference import WORKS, Reference
@@ -41,8 +41,8 @@ def _people(at: Any, node: Node, where: str) -> tuple[str, ...]:
     return tuple(name for name in names if name)
 
 
-_ONE = Kind(TEXT.schema, _text)
-_NAMES = Kind(
+_ONE = ValueKind(TEXT.schema, _text)
+_NAMES = ValueKind(
     lambda: {"anyOf": [TEXT.schema(), {"type": "array", "items": TEXT.schema()}]}, _people
 )
 _REFERENCE = mapping(
@@ -59,7 +59,7 @@ _REFERENCE = mapping(
     ),
     Key(
         "year: 1980",
-        Kind(lambda: {"type": ["integer", "string"], "pattern": "^[0-9]{4}[a-z]?$"}, _year),
+        ValueKind(lambda: {"type": ["integer", "string"], "pattern": "^[0-9]{4}[a-z]?$"}, _year),
         "The year of publication, perhaps with a letter after it.",
     ),
     Key(
@@ -113,12 +113,12 @@ def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
     """Returns a reference in one line, and its fields if it has any."""
     if not isinstance(node, MappingNode):
         return at.source.scalar(node, where) or "", None
-    found: Found = _REFERENCE.read(at, node, where)
+    found: ReadMapping = _REFERENCE.read(at, node, where)
     reference = Reference(**found)
     return str(reference), reference
 
 
-REFERENCE = Kind(
+REFERENCE = ValueKind(
     lambda: {"anyOf": [TEXT.schema(), _REFERENCE.schema()]}, _reference, _REFERENCE.inside
 )
 """The publication of a method: a text or its fields."""
@@ -147,7 +147,7 @@ _ALIAS: Schema = {
     "minLength": 1,
     "maxLength": MAX_WORD,
 }
-ALIASES = Kind(
+ALIASES = ValueKind(
     lambda: {"anyOf": [{"type": "array", "items": _ALIAS, "uniqueItems": True}, _ALIAS]}, _aliases
 )
 
@@ -195,7 +195,7 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
     return found or ("", None)
 
 
-def _value_of(source: Source, name: str, kind: Kind) -> Any:
+def _value_of(source: Source, name: str, kind: ValueKind) -> Any:
     root = source.compose()
     if root is None:
         raise source.error()

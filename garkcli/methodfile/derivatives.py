@@ -17,8 +17,8 @@ MOST = 9
 _ARRAY = {"type": "array", "items": {"type": "array"}}
 
 
-def _of_each(schema: g.Schema) -> g.Kind:
-    return g.Kind(lambda: {"type": "array", "minItems": 1, "maxItems": MOST, "items": schema})
+def _of_each(schema: g.Schema) -> g.ValueKind:
+    return g.ValueKind(lambda: {"type": "array", "minItems": 1, "maxItems": MOST, "items": schema})
 
 
 DERIVATIVES = g.mapping(
@@ -54,7 +54,7 @@ DERIVATIVES = g.mapping(
 
 def derivatives(at: Reading, node: Node) -> d.DerivativesText | None:
     """Reads the form ``derivatives``; None if it is not a method."""
-    found: g.Found | None = DERIVATIVES.read(at, node, "derivatives")
+    found: g.ReadMapping | None = DERIVATIVES.read(at, node, "derivatives")
     if found is None or not found.is_right:
         return None
     before = len(at.source.faults)

@@ -11,7 +11,16 @@ from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
-from garkcli.methodfile.grammar import Key, Kind, OfSchema, Schema, count, entries_in, mapping, word
+from garkcli.methodfile.grammar import (
+    Key,
+    OfSchema,
+    Schema,
+    ValueKind,
+    count,
+    entries_in,
+    mapping,
+    word,
+)
 from garkcli.methodfile.nodes import keys_of, shortened
 from garkcli.methodfile.numbers import Entry, Reading, Row
 from garkcli.methodfile.parameters import NUMBER
@@ -31,7 +40,7 @@ _TAG = "tag:yaml.org,2002:"
 _BESIDE = [key for key in BUTCHER.inside() if key.name not in {"A", "b", "c"}]
 
 
-def _kind_of(option: Option) -> Kind:
+def _kind_of(option: Option) -> ValueKind:
     if option.words:
         return word(lambda: option.words)
     if option.smallest is None:

@@ -15,7 +15,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.grammar import FLAG, Key, Kind, mapping
+from garkcli.methodfile.grammar import FLAG, Key, ValueKind, mapping
 from garkcli.methodfile.nodes import is_null, shortened
 from garkcli.methodfile.source import Source
 from garkcli.properties.definitions import ORDERS, definition, every_definition
@@ -29,7 +29,7 @@ _DECIMAL = r"[0-9]*\.(?P<places>[0-9]*)(?:[eE](?P<exponent>[+-]?[0-9]{1,3}))?"
 _LEAST = r">=\s*(.*)"
 
 
-class Measure(Frozen):
+class ClaimedNumber(Frozen):
     """A claimed real number.
 
     ``number`` is None for ∞. ``half_unit`` is half a unit of the last place of a decimal, 0 for an
@@ -67,7 +67,7 @@ def _root(number: Number) -> RealRoot:
     return root
 
 
-def read_measure(source: Source, node: Node, where: str) -> Measure | None:
+def read_measure(source: Source, node: Node, where: str) -> ClaimedNumber | None:
     """Reads a claimed real number; None after a fault."""
     text = source.scalar(node, where)
     if text is None:
@@ -75,7 +75,7 @@ def read_measure(source: Source, node: Node, where: str) -> Measure | None:
     least = re.fullmatch(_LEAST, text, re.DOTALL)
     body = (least[1] if least else text).strip()
     if body == INFINITY:
-        return Measure(text, None)
+        return ClaimedNumber(text, None)
     try:
         expression = parse(body)
         number = Domain([expression]).evaluate(expression)
@@ -83,7 +83,7 @@ def read_measure(source: Source, node: Node, where: str) -> Measure | None:
         cure = error.help or "write a number such as 2*sqrt(2) or 2.785, or infinity"
         source.fault(node, f"{where}: {error.message}", cure, code=error.code)
         return None
-    return Measure(text, number, _half_unit(body), least is not None)
+    return ClaimedNumber(text, number, _half_unit(body), least is not None)
 
 
 def _half_unit(text: str) -> fmpq:
@@ -107,7 +107,7 @@ class AtLeast(Frozen):
         return f">= {self.least}"
 
 
-Wanted: TypeAlias = "int | AtLeast | bool | Measure | list[Wanted] | None"
+Wanted: TypeAlias = "int | AtLeast | bool | ClaimedNumber | list[Wanted] | None"
 
 
 def _number(at: Any, node: Node, where: str) -> Wanted:
@@ -124,7 +124,7 @@ def _number(at: Any, node: Node, where: str) -> Wanted:
     return None
 
 
-def _table(item: Kind) -> Kind:
+def _table(item: ValueKind) -> ValueKind:
     def read(at: Any, node: Node, where: str) -> Wanted:
         if isinstance(node, SequenceNode):
             return [item.read(at, x, where) for x in node.value]
@@ -132,21 +132,21 @@ def _table(item: Kind) -> Kind:
         at.source.fault(node, f"{where}: a list is expected", cure, code="list-expected")
         return None
 
-    return Kind(lambda: {"type": "array", "items": item.schema()}, read)
+    return ValueKind(lambda: {"type": "array", "items": item.schema()}, read)
 
 
 _COUNTS = (
     {"type": "integer", "minimum": 0},
     {"type": "string", "pattern": "^(>=\\s*)?[0-9]{1,4}$"},
 )
-_COUNT = Kind(lambda: {"anyOf": [*_COUNTS]}, _number)
+_COUNT = ValueKind(lambda: {"anyOf": [*_COUNTS]}, _number)
 _ROW = _table(
-    Kind(
+    ValueKind(
         lambda: {"anyOf": [*_COUNTS, {"type": "null"}]},
         lambda at, node, where: None if is_null(node) else _number(at, node, where),
     )
 )
-_REAL = Kind(
+_REAL = ValueKind(
     lambda: {"type": ["number", "string"], "pattern": r"^(>=\s*)?[-+*/^(),.\sA-Za-z0-9_]+$"},
     lambda at, node, where: read_measure(at.source, node, where),
 )
@@ -178,7 +178,7 @@ def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
     )
 
 
-EXPECT = Kind(mapping(more=claims).schema, _read, claims)
+EXPECT = ValueKind(mapping(more=claims).schema, _read, claims)
 """The claims of a file."""
 
 

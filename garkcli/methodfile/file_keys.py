@@ -22,7 +22,7 @@ from garkcli.methodfile.spelled_out import BUTCHER, DENSE, TABLEAU, TABLEAU_KEYS
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files
-    from garkcli.glossary.key import Key as Entry
+    from garkcli.glossary.key import KeyMeaning as Entry
 
 _PAGE = "docs/method-file.md#"
 _MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
@@ -71,7 +71,7 @@ KEYS = {
         ),
         g.Key(
             "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]",
-            g.Kind(_methods, inside=_inside_methods),
+            g.ValueKind(_methods, inside=_inside_methods),
             "The diagonal methods of the paper's construction, one per colour: families with their "
             "stages, or Butcher tableaus. One method on its own needs no list.",
             page=_PAPER,
@@ -196,7 +196,7 @@ KEYS = {
         ),
         g.Key(
             "linear: [1]",
-            g.Kind(lambda: {"type": "array", "items": g.count(1).schema()}),
+            g.ValueKind(lambda: {"type": "array", "items": g.count(1).schema()}),
             "Colours whose vector field is linear: their vertices have one branch at most.",
         ),
         g.Key(
@@ -238,12 +238,14 @@ KEYS = {
 """The keys of a method file by name, in the order of the documentation."""
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
 """The keys of a method, at the top of a file or within it."""
-_TWO_COLOURS = g.Values(
+_TWO_COLOURS = g.KeyValues(
     {"type": "array", "minItems": 2},
     lambda node: isinstance(node, SequenceNode) and len(node.value) > 1,
 )
-_NOT_GENERAL = g.Values({"not": {"const": "general"}}, lambda node: bool(node.value != "general"))
-_SEMI_SEPARABLE = g.Values(
+_NOT_GENERAL = g.KeyValues(
+    {"not": {"const": "general"}}, lambda node: bool(node.value != "general")
+)
+_SEMI_SEPARABLE = g.KeyValues(
     {"const": "semi-separable"}, lambda node: bool(node.value == "semi-separable")
 )
 FORM = g.Ways(
@@ -260,8 +262,8 @@ _INSIDE: dict[str, str] = dict.fromkeys(
 _SPELL_OUT: dict[str, str] = dict.fromkeys(
     CONSTRUCTIONS, "gark tableau --format yaml spells the method out, for them"
 )
-BESIDE_FORM: tuple[g.Beside, ...] = (
-    g.Beside(
+BESIDE_FORM: tuple[g.KeyRelation, ...] = (
+    g.KeyRelation(
         "methods",
         "two colours or more need a transfer rule",
         "write transfer: collocation (or interpolation)",
@@ -269,10 +271,10 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
         code="missing-key",
         values=_TWO_COLOURS,
     ),
-    g.Beside("transfer", "transfer goes with methods, not with {way}", needs=("methods",)),
-    g.Beside("linear", "linear goes with tableau, not with {way}", needs=("tableau", "A")),
+    g.KeyRelation("transfer", "transfer goes with methods, not with {way}", needs=("methods",)),
+    g.KeyRelation("linear", "linear goes with tableau, not with {way}", needs=("tableau", "A")),
     *(
-        g.Beside(
+        g.KeyRelation(
             key,
             f"{key} belongs beside b, which is missing",
             {
@@ -288,14 +290,14 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
         )
         for key in BESIDE
     ),
-    g.Beside(
+    g.KeyRelation(
         "structure",
         "structure does not go with {way}",
         {**_INSIDE, "ark": "use methods, tableau or prk", "": "write absent blocks as null"},
         needs=("methods", "prk", "unknown", "splitting"),
         values=_NOT_GENERAL,
     ),
-    g.Beside(
+    g.KeyRelation(
         "structure",
         "a prk cannot be semi-separable: that takes two Hamiltonians",
         "use methods",

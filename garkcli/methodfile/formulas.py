@@ -29,7 +29,7 @@ PLACES = 60
 """The number of decimals of an irrational initial value."""
 
 
-class Formulas(Mutable):
+class FormulaReader(Mutable):
     """Reads the formulas of one file.
 
     ``given`` has values for parameters in place of those in the file, ``values`` the parameters
@@ -173,7 +173,7 @@ MAX_BITS = 4_000
 """The longest numerator or denominator: its cube stays below the 4300 digits that Python prints."""
 
 
-class Term(Frozen):
+class FormulaTerm(Frozen):
     """A formula of the file and its sympy expression."""
 
     node: Node
@@ -185,7 +185,7 @@ class Term(Frozen):
 class Maker:
     """Makes the problem of one file; faults are reported to its source."""
 
-    def __init__(self, formulas: Formulas, text: ProblemText, symbols: Iterable[Any]) -> None:
+    def __init__(self, formulas: FormulaReader, text: ProblemText, symbols: Iterable[Any]) -> None:
         self.source = formulas.source
         self.formulas = formulas
         self.text = text
@@ -193,7 +193,7 @@ class Maker:
 
     def terms(
         self, items: Iterable[tuple[Node, str]], names: Mapping[str, str], noun: str
-    ) -> list[Term]:
+    ) -> list[FormulaTerm]:
         """Returns the formulas without faults; none if the variables have faults.
 
         ``names`` and ``noun`` are those of ``Formulas.parsed``.
@@ -211,15 +211,15 @@ class Maker:
             except ExpressionError as error:
                 self.source.expression_fault(node, where, error)
             else:
-                found.append(Term(node, where, expression, made))
+                found.append(FormulaTerm(node, where, expression, made))
         return found
 
-    def invariants(self, names: Mapping[str, str], noun: str) -> list[Term]:
+    def invariants(self, names: Mapping[str, str], noun: str) -> list[FormulaTerm]:
         """Returns the first integrals; ``names`` and ``noun`` are those of ``terms``."""
         items = ((node, f"invariants: {name}") for name, node in self.text.invariants)
         return self.terms(items, names, noun)
 
-    def check_values(self, terms: Sequence[Term], start: Mapping[str, fmpq]) -> None:
+    def check_values(self, terms: Sequence[FormulaTerm], start: Mapping[str, fmpq]) -> None:
         """Reports formulas without a value at the start, as far as the start is known."""
         with ctx.workprec(BITS):
             values = {name: arb(x) for name, x in start.items()}
@@ -254,7 +254,7 @@ class Maker:
                 node, message, f"give each {example.format(missing[0])}", code="missing-key"
             )
 
-    def refuse_constants(self, invariants: Sequence[Term], noun: str) -> None:
+    def refuse_constants(self, invariants: Sequence[FormulaTerm], noun: str) -> None:
         """Reports first integrals that do not depend on any variable."""
         from garkcli.problems.vectorfield import is_constant
 
@@ -265,7 +265,7 @@ class Maker:
                 self.source.fault(invariant.node, message, cure, code="nothing-moves")
 
     def check_derivatives(
-        self, terms: Sequence[Term], y: Vector, start: Mapping[str, fmpq], more: Place
+        self, terms: Sequence[FormulaTerm], y: Vector, start: Mapping[str, fmpq], more: Place
     ) -> None:
         """Reports terms without a derivative at the start; ``more`` has values of further names."""
         from garkcli.problems.lagrangian import missing_derivative
@@ -279,7 +279,7 @@ class Maker:
                 message = f"{term.where} at the initial values: {what}"
                 self.source.fault(term.node, message, cure, code="no-formula")
 
-    def check_size(self, terms: Sequence[Term]) -> None:
+    def check_size(self, terms: Sequence[FormulaTerm]) -> None:
         """Reports terms whose derivatives are too long."""
         from garkcli.problems.translate import MAX_SIZE, size_of_derivatives
 
@@ -291,7 +291,7 @@ class Maker:
             cure = "write it shorter, or with fewer variables"
             self.source.fault(largest.node, message, cure, code="too-many")
 
-    def check_numbers(self, terms: Sequence[Term]) -> None:
+    def check_numbers(self, terms: Sequence[FormulaTerm]) -> None:
         """Reports terms with numbers that are too long once powers are multiplied out."""
         import sympy
 
@@ -306,5 +306,5 @@ class Maker:
                 self.source.fault(term.node, message, cure, code="number-too-large")
 
 
-def named(invariants: Sequence[Term]) -> Invariants:
+def named(invariants: Sequence[FormulaTerm]) -> Invariants:
     return tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants)

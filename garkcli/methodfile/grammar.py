@@ -18,7 +18,7 @@ from garkcli.frozen import Frozen
 from garkcli.methodfile.source import Cures, Entries, Home, Source
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import Key as Entry
+    from garkcli.glossary.key import KeyMeaning as Entry
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
@@ -35,23 +35,23 @@ def as_it_is(_: Any, node: Node, __: str) -> Node:
     return node
 
 
-class Kind(Frozen):
+class ValueKind(Frozen):
     """The kind of value of a key, with its JSON Schema and the keys within it."""
 
     schema: Callable[[], Schema]
     read: Read = as_it_is
     inside: Callable[[], Iterable[Key]] = tuple
 
-    def then(self, make: Callable[[Any, Found, str], Any]) -> Kind:
+    def then(self, make: Callable[[Any, ReadMapping, str], Any]) -> ValueKind:
         """Returns the same kind with a value made from the values of the keys; None after a
         fault.
         """
 
         def read(at: Any, node: Node, where: str) -> Any:
-            found: Found | None = self.read(at, node, where)
+            found: ReadMapping | None = self.read(at, node, where)
             return make(at, found, where) if found is not None and found.is_right else None
 
-        return Kind(self.schema, read, self.inside)
+        return ValueKind(self.schema, read, self.inside)
 
 
 class Key(Frozen):
@@ -70,7 +70,7 @@ class Key(Frozen):
     """
 
     line: str
-    kind: Kind
+    kind: ValueKind
     text: str
     default: object = None
     is_needed: bool = False
@@ -97,7 +97,9 @@ class Key(Frozen):
 
     def entries(self, above: str, page: str) -> Iterator[Entry]:
         """Yields the entries of the glossary for the key and the keys within it."""
-        from garkcli.glossary.key import Key as Entry  # only pages and explanations tell of keys
+        from garkcli.glossary.key import (
+            KeyMeaning as Entry,
+        )  # only pages and explanations tell of keys
 
         path, own = above + self.name, self.page or page
         if self.is_listed:
@@ -106,7 +108,7 @@ class Key(Frozen):
             yield from key.entries(f"{path}.", page)
 
 
-class Found(dict[str, Any]):
+class ReadMapping(dict[str, Any]):
     """The values of a mapping by key, without faulty ones.
 
     ``nodes`` has the nodes of all given keys; ``is_right`` says that there is no fault.
@@ -198,14 +200,14 @@ class Ways(Frozen):
                 way.refuse(source, where, entries)
 
 
-class Values(Frozen):
+class KeyValues(Frozen):
     """Some of the values of a key, by a schema and by a test of nodes."""
 
     schema: Schema
     has: Callable[[Node], bool]
 
 
-class Beside(Frozen):
+class KeyRelation(Frozen):
     """Keys that a key requires, or excludes.
 
     Attributes:
@@ -224,7 +226,7 @@ class Beside(Frozen):
     needs: tuple[str, ...] = ()
     bars: tuple[str, ...] = ()
     code: str = "not-together"
-    values: Values | None = None
+    values: KeyValues | None = None
 
     def schema(self) -> Schema:
         about = required(self.key)
@@ -260,7 +262,7 @@ class OfSchema(Frozen):
         """Nothing."""
 
 
-Rule: TypeAlias = Ways | Beside | OfSchema
+Rule: TypeAlias = Ways | KeyRelation | OfSchema
 """Rules about keys that require or exclude each other, for readers and schemas."""
 
 
@@ -308,7 +310,7 @@ def mapping(
     form: str = "",
     cures: Cures = dict,
     rules: Iterable[Rule] = (),
-) -> Kind:
+) -> ValueKind:
     """Returns the kind of a mapping with these keys and no others.
 
     ``more`` returns keys that are only needed for files with them, and for schemas; ``form`` is the
@@ -326,10 +328,10 @@ def mapping(
         together = {"allOf": [rule.schema() for rule in rules]} if rules else {}
         return {**closed(inside, *needed), **together}
 
-    def read(at: Any, node: Node, where: str) -> Found | None:
+    def read(at: Any, node: Node, where: str) -> ReadMapping | None:
         source: Source = at.source
         before = len(source.faults)
-        found = Found(node, entries_in(source, node, where, every(), cures, form))
+        found = ReadMapping(node, entries_in(source, node, where, every(), cures, form))
         if not isinstance(node, MappingNode):
             return None
         for name, value in found.nodes.items():
@@ -349,7 +351,7 @@ def mapping(
         found.is_right = len(source.faults) == before
         return found
 
-    return Kind(schema, read, lambda: every().values())
+    return ValueKind(schema, read, lambda: every().values())
 
 
 def closed(properties: Schema, *needed: str) -> Schema:
@@ -362,20 +364,22 @@ def closed(properties: Schema, *needed: str) -> Schema:
     }
 
 
-def by_name(kind: Kind, **rules: Any) -> Kind:
+def by_name(kind: ValueKind, **rules: Any) -> ValueKind:
     """Returns the kind of a mapping with names from the file; values are read later."""
     schema = {"type": "object", **rules}
-    return Kind(lambda: {**schema, "additionalProperties": kind.schema()}, inside=kind.inside)
+    return ValueKind(lambda: {**schema, "additionalProperties": kind.schema()}, inside=kind.inside)
 
 
-def count(least: int = 0, most: int | None = None) -> Kind:
+def count(least: int = 0, most: int | None = None) -> ValueKind:
     schema: Schema = {"type": "integer", "minimum": least}
     if most is not None:
         schema["maximum"] = most
-    return Kind(lambda: schema, lambda at, node, where: at.source.whole(node, where, least, most))
+    return ValueKind(
+        lambda: schema, lambda at, node, where: at.source.whole(node, where, least, most)
+    )
 
 
-def word(words: Callable[[], Iterable[str]]) -> Kind:
+def word(words: Callable[[], Iterable[str]]) -> ValueKind:
     """Returns the kind of one of several words; a mapping gives their descriptions in the
     schema.
     """
@@ -386,7 +390,7 @@ def word(words: Callable[[], Iterable[str]]) -> Kind:
             return {"oneOf": [{"const": x, "description": text} for x, text in known.items()]}
         return {"enum": list(known)}
 
-    return Kind(schema, lambda at, node, where: at.source.choice(node, where, words()))
+    return ValueKind(schema, lambda at, node, where: at.source.choice(node, where, words()))
 
 
 YES_AND_NO = {"yes": True, "no": False, "true": True, "false": False}
@@ -400,22 +404,22 @@ def _flag(at: Any, node: Node, where: str) -> bool | None:
     return None if found is None else found == "true"
 
 
-FLAG = Kind(lambda: {"type": "boolean"}, _flag)
-TEXT = Kind(
+FLAG = ValueKind(lambda: {"type": "boolean"}, _flag)
+TEXT = ValueKind(
     lambda: {"type": ["string", "number", "boolean", "null"]},
     lambda at, node, where: at.source.scalar(node, where),
 )
-VERSION = Kind(lambda: {"enum": [1, "1"]}, lambda at, node, _: at.source.check_version(node))
+VERSION = ValueKind(lambda: {"enum": [1, "1"]}, lambda at, node, _: at.source.check_version(node))
 
 
 def list_of(
-    item: Kind,
+    item: ValueKind,
     noun: str,
     most: int | None = None,
     each: str = "",
     form: str = "",
     rules: Mapping[str, Any] = NOTHING,
-) -> Kind:
+) -> ValueKind:
     """Returns the kind of a nonempty list.
 
     ``noun`` names its items in messages, ``each`` one of them, with ``{}`` for the number; ``most``
@@ -436,10 +440,12 @@ def list_of(
         values = [item.read(at, x, place) for x, place in zip(items, places, strict=True)]
         return [x for x in values if x is not None]
 
-    return Kind(lambda: {"type": "array", "items": item.schema(), **schema}, read, item.inside)
+    return ValueKind(lambda: {"type": "array", "items": item.schema(), **schema}, read, item.inside)
 
 
-def either(single: Kind, at_list: Kind | None = None, at_mapping: Kind | None = None) -> Kind:
+def either(
+    single: ValueKind, at_list: ValueKind | None = None, at_mapping: ValueKind | None = None
+) -> ValueKind:
     """Returns a kind that depends on whether the value is a scalar, a list or a mapping."""
     every = [x for x in (single, at_list, at_mapping) if x is not None]
 
@@ -451,7 +457,7 @@ def either(single: Kind, at_list: Kind | None = None, at_mapping: Kind | None = 
             kind = at_mapping
         return kind.read(at, node, where)
 
-    return Kind(
+    return ValueKind(
         lambda: {"anyOf": [x.schema() for x in every]},
         read,
         lambda: [key for kind in every for key in kind.inside()],
@@ -459,12 +465,12 @@ def either(single: Kind, at_list: Kind | None = None, at_mapping: Kind | None = 
 
 
 def one_or_more(
-    item: Kind,
+    item: ValueKind,
     noun: str = "",
     most: int | None = None,
     is_plain: bool = False,
     rules: Mapping[str, Any] = NOTHING,
-) -> Kind:
+) -> ValueKind:
     """Returns the kind of one value or a list, read as a list.
 
     ``is_plain`` says that one value is a scalar; the others are those of ``list_of``.
@@ -478,12 +484,12 @@ def one_or_more(
         one = item.read(at, node, where)
         return None if one is None else [one]
 
-    return Kind(lambda: {"anyOf": [item.schema(), several.schema()]}, read, item.inside)
+    return ValueKind(lambda: {"anyOf": [item.schema(), several.schema()]}, read, item.inside)
 
 
-def defined(name: str, read: Read = as_it_is) -> Kind:
+def defined(name: str, read: Read = as_it_is) -> ValueKind:
     """Returns the kind with a name in the definitions of a schema."""
-    return Kind(lambda: {"$ref": f"#/definitions/{name}"}, read)
+    return ValueKind(lambda: {"$ref": f"#/definitions/{name}"}, read)
 
 
 def declared(room: str, name: str) -> Any:
@@ -491,21 +497,21 @@ def declared(room: str, name: str) -> Any:
     return getattr(import_module(f"garkcli.methodfile.{room}"), name)
 
 
-def later(room: str, name: str) -> Kind:
+def later(room: str, name: str) -> ValueKind:
     """Returns the kind declared in a module that is imported when it is needed."""
 
-    def kind() -> Kind:
-        found: Kind = declared(room, name)
+    def kind() -> ValueKind:
+        found: ValueKind = declared(room, name)
         return found
 
-    return Kind(
+    return ValueKind(
         lambda: kind().schema(),
         lambda at, node, where: kind().read(at, node, where),
         lambda: kind().inside(),
     )
 
 
-def file_schema(title: str, text: str, kind: Kind, **more: Any) -> Schema:
+def file_schema(title: str, text: str, kind: ValueKind, **more: Any) -> Schema:
     """Returns the JSON Schema (draft-07) of files, as plain data.
 
     ``more`` is added to it, such as definitions.

@@ -10,11 +10,11 @@ from garkcli.methodfile import grammar as g
 from garkcli.methodfile.numbers import Reading, Rows
 
 _FORM = "give {a: [[], [[], [1]]], b: [[], [1]]}: a matrix for each stage, and one of weights"
-_MATRIX = g.Kind(lambda: {"type": "array", "items": {"type": "array"}})
+_MATRIX = g.ValueKind(lambda: {"type": "array", "items": {"type": "array"}})
 NPRK = g.mapping(
     g.Key(
         "a: [[], [[], [1]]]",
-        g.Kind(lambda: {"type": "array", "minItems": 1, "items": _MATRIX.schema()}),
+        g.ValueKind(lambda: {"type": "array", "minItems": 1, "items": _MATRIX.schema()}),
         "The numbers a_ijk: for each stage i a matrix, row j for the first argument of F, column k "
         "for the second; rows and matrices may end early, zeros follow.",
         is_needed=True,
@@ -28,7 +28,7 @@ NPRK = g.mapping(
 
 def nprk(at: Reading, node: Node) -> d.NprkText | None:
     """Reads the form ``nprk``; None if it is not a method."""
-    found: g.Found | None = NPRK.read(at, node, "nprk")
+    found: g.ReadMapping | None = NPRK.read(at, node, "nprk")
     if found is None or not found.is_right:
         return None
     stages = at.source.items(found["a"], "a", _FORM)

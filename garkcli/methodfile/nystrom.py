@@ -31,7 +31,7 @@ EMBEDDED = g.mapping(
     ),
     form=_FORM_OF_EMBEDDED,
 )
-_POLYNOMIALS = g.Kind(lambda: {"type": "array", "minItems": 1})
+_POLYNOMIALS = g.ValueKind(lambda: {"type": "array", "minItems": 1})
 DENSE = g.mapping(
     g.Key(
         "degree: 2",
@@ -110,7 +110,7 @@ NYSTROM = g.mapping(
 
 def nystrom(at: Reading, node: Node) -> d.NystromText | None:
     """Reads the form ``nystrom``; None if it is not a method."""
-    found: g.Found | None = NYSTROM.read(at, node, "nystrom")
+    found: g.ReadMapping | None = NYSTROM.read(at, node, "nystrom")
     if found is None or not found.is_right or not found["b"]:
         return None
     b: Row = found["b"]
@@ -122,7 +122,7 @@ def nystrom(at: Reading, node: Node) -> d.NystromText | None:
             return None
         return at.numbers.fitted(found[key], found.nodes[key], key, (stages, stages), why)
 
-    def row(entries: g.Found, key: str, name: str) -> Row | None:
+    def row(entries: g.ReadMapping, key: str, name: str) -> Row | None:
         if key not in entries:
             return None
         given: Row = entries[key]
@@ -136,7 +136,7 @@ def nystrom(at: Reading, node: Node) -> d.NystromText | None:
         return None
     embedded = None
     if "embedded" in found:
-        inside: g.Found = found["embedded"]
+        inside: g.ReadMapping = found["embedded"]
         embedded = row(inside, "bbar", "embedded, bbar"), row(inside, "b", "embedded, b")
         if embedded == (None, None):
             at.source.fault(inside.node, "embedded is empty", _FORM_OF_EMBEDDED, code="empty")
@@ -144,7 +144,7 @@ def nystrom(at: Reading, node: Node) -> d.NystromText | None:
     return d.NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded, dense)
 
 
-def _dense(at: Reading, found: g.Found, stages: int) -> tuple[Rows, Rows | None] | None:
+def _dense(at: Reading, found: g.ReadMapping, stages: int) -> tuple[Rows, Rows | None] | None:
     """Reads the polynomials of both components; None for q′ if they are the slopes of the
     others.
     """

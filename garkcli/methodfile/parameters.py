@@ -11,7 +11,7 @@ from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import roots_in
-from garkcli.methodfile.grammar import Found, Key, Kind, Schema, defined, mapping
+from garkcli.methodfile.grammar import Key, ReadMapping, Schema, ValueKind, defined, mapping
 from garkcli.methodfile.nodes import key_nodes, shortened, unquoted
 from garkcli.methodfile.numbers import UNKNOWN, Between, Free, Numbers
 
@@ -61,7 +61,7 @@ def _range(at: Any, node: Node, where: str) -> Between:
     return Between(((smallest, largest),))
 
 
-RANGE = Kind(
+RANGE = ValueKind(
     lambda: {"type": "array", "items": NUMBER.schema(), "minItems": 2, "maxItems": 2}, _range
 )
 """The range of a parameter."""
@@ -77,7 +77,7 @@ def _true(at: Any, node: Node, where: str) -> bool | None:
 _FREE = mapping(
     Key(
         "free: true",
-        Kind(lambda: {"const": True}, _true),
+        ValueKind(lambda: {"const": True}, _true),
         "States that the parameter has no value.",
         is_needed=True,
     ),
@@ -140,14 +140,14 @@ def _free(at: Any, node: Node, where: str) -> Free:
     """Reads a free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
     if isinstance(node, ScalarNode):
         return Free(node=node)
-    found: Found = _FREE.read(at, node, where)
+    found: ReadMapping = _FREE.read(at, node, where)
     if "free" in found.nodes and "free" not in found:
         message = f"{where} is a mapping without free: true"
         at.source.fault(node, message, _FREE_FORM, code="mapping-expected")
     return Free(node=node).within(found.get("range", Between()))
 
 
-PARAMETERS = Kind(
+PARAMETERS = ValueKind(
     lambda: {
         "type": "object",
         "additionalProperties": {"anyOf": [NUMBER.schema(), _FREE.schema()]},

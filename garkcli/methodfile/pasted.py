@@ -89,7 +89,7 @@ class Pasted(Frozen):
     embedded: _Row | None = None
 
 
-class _Line(Frozen):
+class _PastedLine(Frozen):
     """A line of numbers; ``node`` is None if no bar separates one from the row."""
 
     node: str | None
@@ -116,7 +116,7 @@ def read_pasted(text: str) -> Pasted:
         # the first column is none of nodes: weights have an entry there
         rows = [(line.node or "0", *line.row) for line in lines]
         longest = max(map(len, rows))
-        lines = [_Line(None, _filled(row, longest)) for row in rows]
+        lines = [_PastedLine(None, _filled(row, longest)) for row in rows]
     has_bars = any(line.node is not None for line in lines)
     return _with_nodes(lines) if has_bars else _without_bars(lines)
 
@@ -141,7 +141,7 @@ def _filled(row: _Row, length: int) -> _Row:
     return row + ("0",) * (length - len(row))
 
 
-def _line(text: str, sign: str) -> _Line:
+def _line(text: str, sign: str) -> _PastedLine:
     """Returns the numbers of a line.
 
     ``sign`` separates cells, the first of which is the node; empty for blanks.
@@ -150,20 +150,20 @@ def _line(text: str, sign: str) -> _Line:
         node, *cells = (x.strip() for x in text.split(sign))
         while cells and not cells[-1]:
             cells.pop()
-        return _Line(node, tuple(x or "0" for x in cells))
+        return _PastedLine(node, tuple(x or "0" for x in cells))
     *before, numbers = _BAR.split(text.strip().removesuffix(";").strip(), maxsplit=1)
     row = tuple(filter(None, _BETWEEN.split(numbers.strip(" |"))))
-    return _Line(before[0].strip() if before else None, row)
+    return _PastedLine(before[0].strip() if before else None, row)
 
 
-def _with_nodes(lines: list[_Line]) -> Pasted:
+def _with_nodes(lines: list[_PastedLine]) -> Pasted:
     """Reads lines with bars: stages have a node before the bar, weights have none."""
     nodes = tuple(takewhile(bool, (line.node or "" for line in lines)))
     rows = [line.row for line in lines]
     return _made(rows[: len(nodes)], rows[len(nodes) :], nodes)
 
 
-def _without_bars(lines: list[_Line]) -> Pasted:
+def _without_bars(lines: list[_PastedLine]) -> Pasted:
     """Reads the rows of a matrix, preceded by nodes if there is one column more."""
     rows = [line.row for line in lines]
     longest = max(map(len, rows))

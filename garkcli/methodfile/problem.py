@@ -14,7 +14,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from garkcli.doing import doing
 from garkcli.exact.formula import RESERVED
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.formulas import Formulas, bad_name
+from garkcli.methodfile.formulas import FormulaReader, bad_name
 from garkcli.methodfile.grammar import FILE, entries_in
 from garkcli.methodfile.nodes import one_line, shortened
 from garkcli.methodfile.problem_keys import (
@@ -127,7 +127,7 @@ class _ProblemReader:
 
     def __init__(self, source: Source, stiffness: fmpq | None) -> None:
         self.source, self.stiffness = source, stiffness
-        self.formulas = Formulas(source, {} if stiffness is None else {STIFFNESS: stiffness})
+        self.formulas = FormulaReader(source, {} if stiffness is None else {STIFFNESS: stiffness})
 
     def read(self) -> ProblemText | None:
         source = self.source

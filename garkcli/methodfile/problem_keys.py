@@ -18,7 +18,7 @@ from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files
-    from garkcli.glossary.key import Key as Entry
+    from garkcli.glossary.key import KeyMeaning as Entry
 
 
 DEFAULT_T_END = fmpq(2)
@@ -63,9 +63,9 @@ def _name_but(names: Iterable[str]) -> str:
     return f"^(?!({'|'.join(sorted(names))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
 
 
-def _names(pattern: str) -> g.Kind:
+def _names(pattern: str) -> g.ValueKind:
     """Returns the kind of a name or a list of different names."""
-    name = g.Kind(lambda: {"type": "string", "pattern": pattern})
+    name = g.ValueKind(lambda: {"type": "string", "pattern": pattern})
     return g.one_or_more(name, "variables", MAX_VARIABLES, True, {"uniqueItems": True})
 
 
@@ -75,7 +75,7 @@ _FORMULA = g.defined("formula")
 _CONSTANT = g.defined("constant")
 _BY_NAME = g.by_name(_FORMULA)
 _TERMS = g.one_or_more(_FORMULA, "terms", MAX_TERMS, True)
-_SIDE = g.Kind(lambda: {"anyOf": [_FORMULA.schema(), _BY_NAME.schema()]})
+_SIDE = g.ValueKind(lambda: {"anyOf": [_FORMULA.schema(), _BY_NAME.schema()]})
 KEYS = {
     key.name: key
     for key in (
@@ -155,7 +155,7 @@ FORM = g.Ways(
     "no hamiltonian, no lagrangian and no rhs",
     "write one of them, a formula or a list with one for each colour",
 )
-SOLUTION = g.Beside("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
+SOLUTION = g.KeyRelation("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
 START = g.Ways("", ("initial", "exact"), "initial missing", is_one=False)
 """The start of a problem: its initial values, or those of its solution."""
 
@@ -167,7 +167,7 @@ def problem_file_schema() -> g.Schema:
     'gark problem file'
     """
     of_momenta = _told_anew("variables", _names(_name_but({*RESERVED, *_CLASHING})))
-    without_time = g.Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
+    without_time = g.ValueKind(lambda: {"propertyNames": {"not": {"const": TIME}}})
     of_rhs = {
         "variables": _told_anew("variables", _names(_name_but({*RESERVED, TIME}))),
         "parameters": _told_anew("parameters", without_time),
@@ -194,7 +194,7 @@ def problem_file_schema() -> g.Schema:
     )
 
 
-def _told_anew(key: str, kind: g.Kind) -> g.Schema:
+def _told_anew(key: str, kind: g.ValueKind) -> g.Schema:
     return replace(KEYS[key], kind=kind).schema()
 
 

@@ -25,7 +25,7 @@ DEEPEST = 2
 """The deepest nesting of lists and tables that is read or refused."""
 
 
-def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
+def _written(kind: g.ValueKind, is_quoted: bool) -> g.ValueKind:
     """Returns a kind whose values have to be quoted in TOML, or must not be."""
 
     def read(at: Any, node: Node, where: str) -> Any:
@@ -40,7 +40,7 @@ def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
         )
         return None
 
-    return g.Kind(kind.schema, read)
+    return g.ValueKind(kind.schema, read)
 
 
 def _path(at: Any, node: Node, where: str) -> str | None:
@@ -53,7 +53,7 @@ def _path(at: Any, node: Node, where: str) -> str | None:
     return None
 
 
-def file_of(formats: Iterable[str]) -> g.Kind:
+def file_of(formats: Iterable[str]) -> g.ValueKind:
     """Returns the keys of the file.
 
     ``formats`` are those of ``gark check``.
@@ -62,7 +62,7 @@ def file_of(formats: Iterable[str]) -> g.Kind:
         g.Key(
             'paths: ["methods"]',
             g.list_of(
-                _written(g.Kind(lambda: {"type": "string"}, _path), is_quoted=True),
+                _written(g.ValueKind(lambda: {"type": "string"}, _path), is_quoted=True),
                 "paths",
                 MOST_PATHS,
                 each="paths",
@@ -102,7 +102,9 @@ def file_of(formats: Iterable[str]) -> g.Kind:
     )
 
 
-def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: str) -> g.Found:
+def read_settings(
+    source: Source, table: dict[str, Any], kind: g.ValueKind, where: str
+) -> g.ReadMapping:
     """Returns the values of a table by key; faults are reported.
 
     TOML gives no positions: a value is placed at the first line with its key.
@@ -129,7 +131,7 @@ def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: st
         shown = str(value).lower() if isinstance(value, bool) else str(value)
         return ScalarNode(f"{TAG}{type(value).__name__}", shown, mark, mark)
 
-    found: g.Found = kind.read(SimpleNamespace(source=source), node(table, top), where)
+    found: g.ReadMapping = kind.read(SimpleNamespace(source=source), node(table, top), where)
     return found
 
 

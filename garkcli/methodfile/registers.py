@@ -67,7 +67,7 @@ SHU_OSHER = g.mapping(
     form=_FORM_OF_SHU_OSHER,
 )
 """The form of Shu and Osher."""
-_A = g.Kind(lambda: {"anyOf": [ROW.schema(), MATRIX.schema()]})
+_A = g.ValueKind(lambda: {"anyOf": [ROW.schema(), MATRIX.schema()]})
 LOW_STORAGE = g.mapping(
     g.Key(
         "form: 2N",
@@ -96,7 +96,7 @@ LOW_STORAGE = g.mapping(
 
 def shu_osher(at: Reading, node: Node) -> d.RegistersText | None:
     """Reads the form ``shu-osher``; None if it is not a method."""
-    found: g.Found | None = SHU_OSHER.read(at, node, "shu-osher")
+    found: g.ReadMapping | None = SHU_OSHER.read(at, node, "shu-osher")
     if found is None or not found.is_right:
         return None
     stages = len(found["alpha"]) - _begins_with_zeros(found.nodes)
@@ -117,7 +117,7 @@ def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
 
 def low_storage(at: Reading, node: Node) -> d.RegistersText | None:
     """Reads the form ``low-storage``; None if it is not a method."""
-    found: g.Found | None = LOW_STORAGE.read(at, node, "low-storage")
+    found: g.ReadMapping | None = LOW_STORAGE.read(at, node, "low-storage")
     if found is None or not found.is_right:
         return None
     form = found["form"]
@@ -150,7 +150,12 @@ def low_storage(at: Reading, node: Node) -> d.RegistersText | None:
 
 
 def _text(
-    at: Reading, node: Node, scheme: str, found: g.Found, numbers: tuple[Any, ...], stages: int
+    at: Reading,
+    node: Node,
+    scheme: str,
+    found: g.ReadMapping,
+    numbers: tuple[Any, ...],
+    stages: int,
 ) -> d.RegistersText | None:
     c = found.get("c")
     if c is not None and not spelled_out.nodes_fit(at, found.nodes["c"], "c", c, stages):

@@ -48,7 +48,7 @@ TRANSFORMED = g.mapping(
     ),
     g.Key(
         "gamma: 1/2",
-        g.Kind(lambda: {"anyOf": [NUMBER.schema(), ROW.schema()]}),
+        g.ValueKind(lambda: {"anyOf": [NUMBER.schema(), ROW.schema()]}),
         "The diagonal of Γ: one number, or one per stage.",
         is_needed=True,
     ),
@@ -67,9 +67,9 @@ TRANSFORMED = g.mapping(
     ),
     form=_FORM_OF_TRANSFORMED,
 )
-_OF_COLOURS = g.Kind(lambda: spelled_out.rows_of(ROW.schema()))
+_OF_COLOURS = g.ValueKind(lambda: spelled_out.rows_of(ROW.schema()))
 _BLOCK = {"anyOf": [MATRIX.schema(), {"type": "null"}]}
-_BLOCKS = g.Kind(lambda: spelled_out.rows_of(spelled_out.rows_of(_BLOCK)))
+_BLOCKS = g.ValueKind(lambda: spelled_out.rows_of(spelled_out.rows_of(_BLOCK)))
 BLOCKS = g.mapping(
     g.Key(
         "alpha: [[[[], [1]], null], [[[], [1]], [[], [1]]]]",
@@ -115,7 +115,7 @@ ROSENBROCK = g.mapping(
     _D,
     g.Key(
         "embedded: [1, 0]",
-        g.Kind(ROW.schema),
+        g.ValueKind(ROW.schema),
         "Embedded weights, one per stage.",
         also=("bhat", "b_hat", "bh", "b2"),
     ),
@@ -154,19 +154,19 @@ ROSENBROCK = g.mapping(
 
 def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
     """Reads the form ``rosenbrock``; None if it is not a method."""
-    entries: g.Found | None = ROSENBROCK.read(at, node, "rosenbrock")
+    entries: g.ReadMapping | None = ROSENBROCK.read(at, node, "rosenbrock")
     if entries is None or not entries.is_right:
         return None
     if "blocks" in entries:
         return _several(at, node, entries["blocks"])
     if "transformed" in entries:
-        found: g.Found = entries["transformed"]
+        found: g.ReadMapping = entries["transformed"]
         return _text(at, node, found, ("A", "C", "m"), found["C"])
     return _text(at, node, entries, ("alpha", "gamma", "b"), entries["gamma"])
 
 
 def _text(
-    at: Reading, node: Node, found: g.Found, names: tuple[str, str, str], gamma: Rows
+    at: Reading, node: Node, found: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
 ) -> d.RosenbrockText | None:
     """Returns the method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
@@ -189,7 +189,7 @@ def _text(
     return d.RosenbrockText(node, alpha, full, (b,), c, d_, diagonal, rows["e"], (further,))
 
 
-def _several(at: Reading, node: Node, found: g.Found) -> d.RosenbrockText | None:
+def _several(at: Reading, node: Node, found: g.ReadMapping) -> d.RosenbrockText | None:
     """Reads a method of several colours."""
     before = len(at.source.faults)
 
@@ -243,7 +243,7 @@ def _several(at: Reading, node: Node, found: g.Found) -> d.RosenbrockText | None
     return d.RosenbrockText(node, alpha, gamma, b, c, d_, further=further)
 
 
-def _row(at: Reading, found: g.Found, name: str, stages: int) -> Row:
+def _row(at: Reading, found: g.ReadMapping, name: str, stages: int) -> Row:
     row: Row = found[name]
     cure = "give one per stage, or leave it out"
     spelled_out.one_each(at, found.nodes[name], name, row, "entry", "stage", stages, cure)

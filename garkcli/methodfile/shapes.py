@@ -14,7 +14,16 @@ from yaml.nodes import Node
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile import description as d
-from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, mapping, one_or_more, word
+from garkcli.methodfile.grammar import (
+    FLAG,
+    Key,
+    ReadMapping,
+    ValueKind,
+    count,
+    mapping,
+    one_or_more,
+    word,
+)
 from garkcli.methodfile.nodes import Extent, extent, shortened
 from garkcli.methodfile.numbers import Reading, Row
 
@@ -26,7 +35,7 @@ _OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
 """An entry of a matrix that is an unknown of its own."""
 
 
-class Layout(Frozen):
+class UnknownLayout(Frozen):
     """A tableau whose entries are zeros, names of unknowns and sums of them.
 
     ``kind`` is the form of its method file. ``A`` has a matrix for each colour, or α and γ of a
@@ -48,7 +57,7 @@ class Layout(Frozen):
         texts = chain.from_iterable(chain(*self.A, self.b, self.embedded or ()))
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
-    def with_entries(self, entry: Callable[[int, int, str], str]) -> Layout:
+    def with_entries(self, entry: Callable[[int, int, str], str]) -> UnknownLayout:
         """Returns the layout with changed entries in its last matrix.
 
         ``entry`` maps a row, a column (from 0) and the text there to the new text.
@@ -60,12 +69,12 @@ class Layout(Frozen):
         return replace(self, A=(*others, changed))
 
 
-def full_layout(stages: int) -> Layout:
+def full_layout(stages: int) -> UnknownLayout:
     """Returns the layout with an unknown for each entry, named by its place."""
     join = _join(stages)
     numbers = range(1, stages + 1)
     rows = tuple(tuple(f"a{join}{i}{join}{j}" for j in numbers) for i in numbers)
-    return Layout("tableau", (rows,), (tuple(f"b{join}{i}" for i in numbers),))
+    return UnknownLayout("tableau", (rows,), (tuple(f"b{join}{i}" for i in numbers),))
 
 
 def _join(stages: int) -> str:
@@ -73,14 +82,14 @@ def _join(stages: int) -> str:
     return "" if stages < 10 else "_"
 
 
-def with_embedded(layout: Layout) -> Layout:
+def with_embedded(layout: UnknownLayout) -> UnknownLayout:
     """Returns the layout with an unknown for each embedded weight: bh1 beside b1."""
     join, stages = _join(layout.stages), range(1, layout.stages + 1)
     letters = "ab" if layout.kind == "prk" else "b"
     return replace(layout, embedded=tuple(tuple(f"{x}h{join}{i}" for i in stages) for x in letters))
 
 
-def with_nodes(layout: Layout) -> Layout:
+def with_nodes(layout: UnknownLayout) -> UnknownLayout:
     """Returns the layout with the node c_i in place of the first entry of row i.
 
     If that entry is an unknown that occurs nowhere else, it is the node minus the rest of the row:
@@ -106,23 +115,23 @@ def with_nodes(layout: Layout) -> Layout:
     )
 
 
-def _explicit(layout: Layout) -> Layout:
+def _explicit(layout: UnknownLayout) -> UnknownLayout:
     return layout.with_entries(lambda i, j, text: text if j < i else ZERO)
 
 
-def _dirk(layout: Layout) -> Layout:
+def _dirk(layout: UnknownLayout) -> UnknownLayout:
     return layout.with_entries(lambda i, j, text: text if j <= i else ZERO)
 
 
-def _sdirk(layout: Layout) -> Layout:
+def _sdirk(layout: UnknownLayout) -> UnknownLayout:
     return _dirk(layout).with_entries(lambda i, j, text: "gamma" if i == j else text)
 
 
-def _esdirk(layout: Layout) -> Layout:
+def _esdirk(layout: UnknownLayout) -> UnknownLayout:
     return _sdirk(layout).with_entries(lambda i, _, text: text if i else ZERO)
 
 
-def _symplectic_dirk(layout: Layout) -> Layout:
+def _symplectic_dirk(layout: UnknownLayout) -> UnknownLayout:
     """As in J. M. Sanz-Serna, L. Abia, *Order conditions for canonical Runge-Kutta schemes*,
     1991.
     """
@@ -136,13 +145,13 @@ def _symplectic_dirk(layout: Layout) -> Layout:
     return layout.with_entries(entry)
 
 
-def _imex(layout: Layout) -> Layout:
+def _imex(layout: UnknownLayout) -> UnknownLayout:
     """Entries of the explicit part are called e_ij; the nodes and the weights are shared."""
     implicit = _esdirk(layout)
     rows = _explicit(layout).A[0]
     named = [tuple(f"e{text[1:]}" if text != ZERO else text for text in row) for row in rows]
     # the nodes of the implicit part are those of the explicit one: e_i1 = c_i − the others
-    return Layout("ark", (tuple(named), implicit.A[0]), layout.b)
+    return UnknownLayout("ark", (tuple(named), implicit.A[0]), layout.b)
 
 
 def _lower(weights: tuple[str, ...], reach: int) -> Texts:
@@ -152,13 +161,13 @@ def _lower(weights: tuple[str, ...], reach: int) -> Texts:
     return tuple((*weights[:end], *(ZERO,) * (stages - end)) for end in ends)
 
 
-def _splitting(layout: Layout) -> Layout:
+def _splitting(layout: UnknownLayout) -> UnknownLayout:
     join = _join(layout.stages)
     drifts, kicks = (tuple(f"{x}{join}{i + 1}" for i in range(layout.stages)) for x in "ab")
-    return Layout("prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks))
+    return UnknownLayout("prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks))
 
 
-def _low_storage(layout: Layout) -> Layout:
+def _low_storage(layout: UnknownLayout) -> UnknownLayout:
     """Eliminates the two registers of ΔY ← A_i ΔY + h f(Y), Y ← Y + B_i ΔY: after register step i
     the slope of stage j has the weight Σ_{m=j}^i B_m A_m ⋯ A_{j+1}.
 
@@ -179,16 +188,16 @@ def _low_storage(layout: Layout) -> Layout:
     return replace(layout, A=(rows,), b=(tuple(weight(s, j) for j in stages),))
 
 
-def _rosenbrock(layout: Layout) -> Layout:
+def _rosenbrock(layout: UnknownLayout) -> UnknownLayout:
     alpha = [[x.replace("a", "alpha", 1) for x in row] for row in _explicit(layout).A[0]]
     gamma = [[x.replace("a", "gamma", 1) for x in row] for row in _dirk(layout).A[0]]
     for i, row in enumerate(gamma):
         row[i] = "gamma"
     made = tuple(tuple(map(tuple, rows)) for rows in (alpha, gamma))
-    return Layout("rosenbrock", made, layout.b)
+    return UnknownLayout("rosenbrock", made, layout.b)
 
 
-def _stiffly_accurate_rosenbrock(layout: Layout) -> Layout:
+def _stiffly_accurate_rosenbrock(layout: UnknownLayout) -> UnknownLayout:
     """The last row of β = α + γ is b, and the last node 1.
 
     E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, VI.4.
@@ -208,7 +217,7 @@ def _stiffly_accurate_rosenbrock(layout: Layout) -> Layout:
     return replace(layout, A=matrices, b=(weights,))
 
 
-def _stiffly_accurate(layout: Layout) -> Layout:
+def _stiffly_accurate(layout: UnknownLayout) -> UnknownLayout:
     if layout.kind == "rosenbrock":
         return _stiffly_accurate_rosenbrock(layout)
     if layout.kind == "prk":
@@ -224,7 +233,7 @@ def _stiffly_accurate(layout: Layout) -> Layout:
     return replace(changed, b=(weights,) * len(layout.b))
 
 
-def _palindromic_splitting(layout: Layout) -> Layout:
+def _palindromic_splitting(layout: UnknownLayout) -> UnknownLayout:
     """a_{s+1−i} = a_i, b_{s−i} = b_i and b_s = 0: the last map is the first one again.
 
     R. McLachlan, *On the numerical integration of ordinary differential equations by symmetric
@@ -237,7 +246,7 @@ def _palindromic_splitting(layout: Layout) -> Layout:
     return replace(layout, A=(_lower(a, 1), _lower(b, 0)), b=(a, b))
 
 
-def _palindromic(layout: Layout) -> Layout:
+def _palindromic(layout: UnknownLayout) -> UnknownLayout:
     """b_{s+1−i} = b_i and a_{s+1−i,s+1−j} = b_j − a_ij.
 
     G. Wanner, *Runge-Kutta-methods with expansion in even powers of h*, Computing 11, 1973.
@@ -279,7 +288,7 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
         rows[k][l] = f"{b[j]} - {entry}"
 
 
-class Shape(Frozen):
+class TableauShape(Frozen):
     """A shape of tableaus.
 
     ``applied`` returns a layout with the shape; a shape that ``begins`` determines the colours and
@@ -288,43 +297,43 @@ class Shape(Frozen):
 
     name: str
     summary: str
-    applied: Callable[[Layout], Layout]
+    applied: Callable[[UnknownLayout], UnknownLayout]
     begins: bool = False
 
 
 SHAPES = {
     shape.name: shape
     for shape in (
-        Shape("full", "every entry unknown", lambda layout: layout),
-        Shape("explicit", "zero on and above the diagonal", _explicit),
-        Shape("dirk", "zero above the diagonal", _dirk),
-        Shape("sdirk", "zero above the diagonal, gamma on it", _sdirk),
-        Shape("esdirk", "sdirk with a first row of zeros", _esdirk),
-        Shape(
+        TableauShape("full", "every entry unknown", lambda layout: layout),
+        TableauShape("explicit", "zero on and above the diagonal", _explicit),
+        TableauShape("dirk", "zero above the diagonal", _dirk),
+        TableauShape("sdirk", "zero above the diagonal, gamma on it", _sdirk),
+        TableauShape("esdirk", "sdirk with a first row of zeros", _esdirk),
+        TableauShape(
             "symplectic-dirk",
             "a_ij = b_j below the diagonal, b_i/2 on it: midpoint rules with steps b_i h",
             _symplectic_dirk,
         ),
-        Shape(
+        TableauShape(
             "imex", "an explicit and an esdirk part with the same nodes and weights", _imex, True
         ),
-        Shape(
+        TableauShape(
             "splitting", "a1 h of the first part, b1 h of the second, and so on", _splitting, True
         ),
-        Shape(
+        TableauShape(
             "low-storage", "two registers, ΔY ← A_i ΔY + h f(Y), Y ← Y + B_i ΔY", _low_storage, True
         ),
-        Shape(
+        TableauShape(
             "rosenbrock", "α below the diagonal, γ too, with gamma on its own", _rosenbrock, True
         ),
-        Shape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
-        Shape("palindromic", "the same method backwards", _palindromic),
+        TableauShape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
+        TableauShape("palindromic", "the same method backwards", _palindromic),
     )
 }
 """All shapes by name, in the order of the documentation."""
 
 
-def layout_of(stages: int, names: Sequence[str]) -> Layout:
+def layout_of(stages: int, names: Sequence[str]) -> UnknownLayout:
     """Returns the tableau of unknowns with some shapes, applied in their order.
 
     Raises MethodError if they exclude each other.
@@ -359,11 +368,11 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     return None
 
 
-_SHAPE = Kind(word(lambda: {name: x.summary for name, x in SHAPES.items()}).schema, _shape)
+_SHAPE = ValueKind(word(lambda: {name: x.summary for name, x in SHAPES.items()}).schema, _shape)
 UNKNOWN = mapping(
     Key(
         "stages: 3",
-        Kind(count(1, MAX_STAGES).schema, count(1).read),
+        ValueKind(count(1, MAX_STAGES).schema, count(1).read),
         "The number of stages of the tableau of unknowns.",
         is_needed=True,
     ),
@@ -386,7 +395,7 @@ class Shaped(Frozen):
 
     form: d.Form
     content: d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText
-    layout: Layout
+    layout: UnknownLayout
     place: Extent
 
 
@@ -395,7 +404,7 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
 
     ``key`` is the node of the word ``unknown``, ``node`` that of its value.
     """
-    found: Found | None = UNKNOWN.read(at, node, "unknown")
+    found: ReadMapping | None = UNKNOWN.read(at, node, "unknown")
     if found is None or not found.is_right:
         return None
     if found["stages"] > MAX_STAGES:
@@ -417,7 +426,7 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
 
 
 def _content(
-    at: Reading, layout: Layout, node: Node
+    at: Reading, layout: UnknownLayout, node: Node
 ) -> d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText:
     def row(texts: TextRow, where: str) -> Row:
         numbered = enumerate(texts, start=1)
@@ -448,7 +457,7 @@ def _content(
     return d.TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
 
 
-def spelled(layout: Layout) -> str:
+def spelled(layout: UnknownLayout) -> str:
     def listed(texts: Iterable[str]) -> str:
         return f"[{', '.join(texts)}]"
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.methodfile.formulas import Formulas, Maker, Term, named, nearby
+from garkcli.methodfile.formulas import FormulaReader, FormulaTerm, Maker, named, nearby
 from garkcli.methodfile.problem_keys import STIFFNESS, ProblemText, Side
 from garkcli.problems.vectorfield import TIME
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 # parts of the time, where a solution is tried
 _TRIES = fmpq(1, 3), fmpq(2, 3), fmpq(1)
-ByName: TypeAlias = dict[str, Term]
+ByName: TypeAlias = dict[str, FormulaTerm]
 """Formulas by the variables whose derivatives they are."""
 Start: TypeAlias = dict[str, fmpq]
 """Initial values by variables."""
@@ -28,7 +28,7 @@ Start: TypeAlias = dict[str, fmpq]
 class SidesMaker(Maker):
     """Makes the problem of a file with ``rhs``."""
 
-    def __init__(self, formulas: Formulas, text: ProblemText) -> None:
+    def __init__(self, formulas: FormulaReader, text: ProblemText) -> None:
         from garkcli.problems.vectorfield import symbols
 
         self.y = symbols(text.variables, "y")
@@ -145,7 +145,10 @@ class SidesMaker(Maker):
         return found if len(found) == len(exact) else None
 
     def _refuse_constants(
-        self, all_terms: Sequence[Term], terms: Sequence[ByName], invariants: Sequence[Term]
+        self,
+        all_terms: Sequence[FormulaTerm],
+        terms: Sequence[ByName],
+        invariants: Sequence[FormulaTerm],
     ) -> None:
         """Reports right-hand sides that are all zero, and invariants that are constant."""
         parts = ([x[name].made for x in terms if name in x] for name in self.text.variables)

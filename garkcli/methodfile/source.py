@@ -27,7 +27,7 @@ MAX_PLACES = 3
 """The number of further places that are listed for a cause with many faults."""
 
 
-class Found(Frozen):
+class NotedFault(Frozen):
     """A reported fault.
 
     ``cause`` is equal for faults with the same cause, empty for a single one; if ``is_one``, faults
@@ -39,16 +39,16 @@ class Found(Frozen):
     is_one: bool = False
 
 
-def place_of(found: Found) -> Place:
+def place_of(found: NotedFault) -> Place:
     return found.fault.line, found.fault.column
 
 
-def told_once(found: Sequence[Found]) -> list[Remark]:
+def told_once(found: Sequence[NotedFault]) -> list[Remark]:
     """Returns the faults in file order; those of one cause at its first place, with the others
     listed.
     """
     causes = Counter(one.cause for one in found)
-    together: dict[object, list[Found]] = {}
+    together: dict[object, list[NotedFault]] = {}
     for number, one in enumerate(found):
         is_shared = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
         together.setdefault(one.cause if is_shared else number, []).append(one)
@@ -162,7 +162,7 @@ class Source:
         self.name = name
         self.text = text
         self.kind = kind
-        self._found: list[Found] = []
+        self._found: list[NotedFault] = []
 
     @property
     def faults(self) -> list[Remark]:
@@ -195,7 +195,7 @@ class Source:
         self._note(Remark(printable(text), printable(cure), line, column, code=code), cause, is_one)
 
     def _note(self, fault: Remark, cause: str = "", is_one: bool = False) -> None:
-        self._found.append(Found(fault, cause, is_one))
+        self._found.append(NotedFault(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
             raise self.error()
 

@@ -33,7 +33,7 @@ DENSE = g.mapping(
     ),
     g.Key(
         "weights: [[1, -1/2], [0, 1/2]]",
-        g.Kind(lambda: {"type": "array", "minItems": 1}),
+        g.ValueKind(lambda: {"type": "array", "minItems": 1}),
         "A row per stage with the coefficients of θ, θ², …; of several colours a block for each.",
         is_needed=True,
     ),
@@ -49,9 +49,9 @@ _LEVELS = (
 _PAGE = "docs/method-file.md#embedded-and-dense-further-weights"
 
 
-def _all_of(*kinds: g.Schema) -> g.Kind:
+def _all_of(*kinds: g.Schema) -> g.ValueKind:
     """Returns a kind with one of several schemas; its value is read once the colours are known."""
-    return g.Kind(lambda: {"anyOf": list(kinds)})
+    return g.ValueKind(lambda: {"anyOf": list(kinds)})
 
 
 def rows_of(item: g.Schema) -> g.Schema:
@@ -96,7 +96,7 @@ TABLEAU_KEYS = (
     ),
     g.Key(
         "dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}",
-        g.Kind(_DENSE.schema, inside=DENSE.inside),
+        g.ValueKind(_DENSE.schema, inside=DENSE.inside),
         "Dense output: weights polynomial in θ without constant terms. Write it beside b.",
         page=_PAGE,
         also=("bi", "binterp", "b_theta"),
@@ -105,7 +105,7 @@ TABLEAU_KEYS = (
 """The keys of a Butcher tableau."""
 
 
-def with_coefficients(*keys: g.Key, form: str) -> g.Kind:
+def with_coefficients(*keys: g.Key, form: str) -> g.ValueKind:
     """Returns the kind of a mapping with these keys, with A and b required."""
     also = {key.name: key.also for key in TABLEAU_KEYS}
     needed = [
@@ -225,7 +225,7 @@ def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
 
 def butcher(at: Reading, node: Node, where: str, names: Names) -> d.ButcherText | None:
     """Reads a spelled-out method; ``names`` are those of its A, b and c in messages."""
-    entries: g.Found | None = _METHOD.read(at, node, where)
+    entries: g.ReadMapping | None = _METHOD.read(at, node, where)
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     found = _method(at, entries, names)
@@ -266,7 +266,7 @@ def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
 
 def tableau(at: Reading, node: Node, linear: Node | None) -> d.TableauText | None:
     """Reads the form ``tableau``; ``linear`` lists its linear colours."""
-    entries: g.Found | None = TABLEAU.read(at, node, "tableau")
+    entries: g.ReadMapping | None = TABLEAU.read(at, node, "tableau")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     return tableau_of(at, entries, linear)
@@ -468,7 +468,9 @@ def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
 
 def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]:
     """Reads the degree and the weights of dense output; None without them."""
-    found: g.Found | None = DENSE.read(at, entries["dense"], where) if "dense" in entries else None
+    found: g.ReadMapping | None = (
+        DENSE.read(at, entries["dense"], where) if "dense" in entries else None
+    )
     if found is None or not {"degree", "weights"} <= found.keys():
         return 0, None
     return found["degree"], found["weights"]

@@ -84,7 +84,7 @@ def _grid(at: Any, node: Node, where: str) -> list[fmpq]:
     """Reads the values of a parameter; equidistant ones include both ends."""
     if not isinstance(node, MappingNode):
         return _VALUES.read(at, node, where) or []
-    found: g.Found = _STEPS.read(at, node, where)
+    found: g.ReadMapping = _STEPS.read(at, node, where)
     if len(found) < 3:
         return []
     first, last, steps = (found[key] for key in ("from", "to", "steps"))
@@ -107,7 +107,7 @@ def _parameters(at: Any, node: Node, where: str) -> dict[str, tuple[str, ...] | 
     return grids
 
 
-_GRID = g.Kind(
+_GRID = g.ValueKind(
     lambda: {"anyOf": [{"const": FREE}, _STEPS.schema(), *_VALUES.schema()["anyOf"]]}, _grid
 )
 _SEARCH = g.mapping(
@@ -175,9 +175,9 @@ def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
     """Yields the keys of ``where``: the columns, with what they are compared with."""
     claimed = {key.name: key.text.partition(" It is claimed as ")[0] for key in claims()}
     by_kind = {
-        "truth": (g.Kind(g.FLAG.schema, _truth), "true"),
-        "count": (g.Kind(lambda: _BOUND, _bound), '">= 1"'),
-        "number": (g.Kind(lambda: _BOUND, _bound), '"< 0.01"'),
+        "truth": (g.ValueKind(g.FLAG.schema, _truth), "true"),
+        "count": (g.ValueKind(lambda: _BOUND, _bound), '">= 1"'),
+        "number": (g.ValueKind(lambda: _BOUND, _bound), '"< 0.01"'),
     }
     for name in (*(x for x in kinds if x not in _OWN), *_OWN):
         kind, example = by_kind[kinds[name]]
@@ -188,7 +188,7 @@ def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
             yield g.Key(f"{name}: {shown}", kind, claimed[name], is_listed=False)
 
 
-def file_of(kinds: Mapping[str, str]) -> g.Kind:
+def file_of(kinds: Mapping[str, str]) -> g.ValueKind:
     """Returns the keys of a spec file.
 
     ``kinds`` has the columns, each a ``truth``, ``count`` or ``number``.
@@ -198,7 +198,7 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
     return g.mapping(
         g.Key(
             "name: Gauss and Lobatto",
-            g.Kind(lambda: {"type": "string"}, g.TEXT.read),
+            g.ValueKind(lambda: {"type": "string"}, g.TEXT.read),
             "The name of the sweep.",
         ),
         g.Key(
@@ -209,20 +209,20 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
         ),
         g.Key(
             "transfer: [collocation, {interpolation: tau, collocation: 1 - tau}]",
-            g.Kind(lambda: TRANSFER.schema()),
+            g.ValueKind(lambda: TRANSFER.schema()),
             "Rules for the blocks between the methods, one or a list, each tried. Weights of a "
             "combination may use the parameters. With search, ? is any transfer whose pair has the "
             "order, drawn by each seed.",
         ),
         g.Key(
             "files: [sdirk.gark.yaml]",
-            g.Kind(g.one_or_more(g.Kind(lambda: {"type": "string"})).schema),
+            g.ValueKind(g.one_or_more(g.ValueKind(lambda: {"type": "string"})).schema),
             "Method files, looked for beside the spec file, or names of the catalogue. Their "
             "parameters and unknowns take the values of parameters.",
         ),
         g.Key(
             "parameters: {tau: {from: 0, to: 1, steps: 4}}",
-            g.Kind(
+            g.ValueKind(
                 lambda: {"type": "object", "additionalProperties": _GRID.schema()},
                 _parameters,
                 _STEPS.inside,
@@ -266,7 +266,9 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
                 "write methods: [{family: gauss, stages: 1..4}], or files",
                 is_one=False,
             ),
-            g.Beside("transfer", "transfer without methods", "add methods", needs=("methods",)),
+            g.KeyRelation(
+                "transfer", "transfer without methods", "add methods", needs=("methods",)
+            ),
         ],
     )
 
@@ -298,10 +300,10 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
     root = source.compose()
     if root is None:
         raise source.error()
-    said: g.Found = file_of(kinds).read(SimpleNamespace(source=source), root, g.FILE)
+    said: g.ReadMapping = file_of(kinds).read(SimpleNamespace(source=source), root, g.FILE)
     given = said.get("parameters", {})
     grids = {name: values for name, values in given.items() if values is not None}
-    search: g.Found | None = said.get("search")
+    search: g.ReadMapping | None = said.get("search")
     if search is not None and "seeds" not in search:
         search = None
     methods = MethodsReader(source, grids, [x for x in given if x not in grids], search)
@@ -340,7 +342,7 @@ def count_methods(template: Template, grids: Mapping[str, tuple[str, ...]]) -> i
     return count * len(template.seeds) if template.is_searched else count
 
 
-def _refuse_unused(source: Source, said: g.Found, methods: MethodsReader) -> None:
+def _refuse_unused(source: Source, said: g.ReadMapping, methods: MethodsReader) -> None:
     """Reports parameters that no method has, and a search without unknowns."""
     used = {name for x in methods.templates for name in x.parameters}
     for name in methods.grids.keys() - used:

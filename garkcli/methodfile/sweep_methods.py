@@ -60,7 +60,7 @@ _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
 NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 
 
-def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Kind:
+def span(least: int, digits: int, cure: str, most: int | None = None) -> g.ValueKind:
     """Reads a number, or a range such as 1..4, up to ``most``."""
 
     def read(at: Any, node: Node, where: str) -> range | None:
@@ -79,12 +79,12 @@ def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Kind:
 
     some = rf"[0-9]{{1,{digits}}}"
     text = {"type": "string", "pattern": rf"^{some}\.\.{some}$"}
-    return g.Kind(lambda: {"anyOf": [{"type": "integer", "minimum": least}, text]}, read)
+    return g.ValueKind(lambda: {"anyOf": [{"type": "integer", "minimum": least}, text]}, read)
 
 
-def rational(read: g.Read) -> g.Kind:
+def rational(read: g.Read) -> g.ValueKind:
     text = "A rational number: 2, 0.1, 1/3."
-    return g.Kind(
+    return g.ValueKind(
         lambda: {"description": text, "type": ["number", "string"], "pattern": SIGNS}, read
     )
 
@@ -120,10 +120,10 @@ def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
     return text
 
 
-def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Found | None:
+def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.ReadMapping | None:
     """Reads rules with weights, or a rule with its degree."""
     if keys_of(node) & {"rule", "degree"}:
-        found_degree: g.Found | None = OF_DEGREE.read(at, node, where)
+        found_degree: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
         return found_degree
     entries = at.source.mapping(node, where, RULES)
     found = {rule: _weight(at, x, f"{where}, weight of {rule}") for rule, x in entries.items()}
@@ -131,7 +131,7 @@ def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Fo
 
 
 _RULES = g.by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
-_SCHEMAS = g.Kind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
+_SCHEMAS = g.ValueKind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
 TRANSFER = g.one_or_more(g.either(g.word(lambda: [*ALL_RULES, UNKNOWN]), at_mapping=_SCHEMAS))
 """Rules between methods, each of which is tried, or any transfer."""
 
@@ -148,7 +148,7 @@ class MethodsReader:
         source: Source,
         grids: Mapping[str, tuple[str, ...]],
         free: Sequence[str],
-        search: g.Found | None,
+        search: g.ReadMapping | None,
     ) -> None:
         self.source = source
         self.grids = grids
@@ -158,7 +158,7 @@ class MethodsReader:
         self.names = {*grids, *free}
         """The parameters that weights may contain."""
 
-    def read(self, node: Node, entries: Sequence[g.Found], transfer: Node | None) -> None:
+    def read(self, node: Node, entries: Sequence[g.ReadMapping], transfer: Node | None) -> None:
         """Combines the entries of ``methods`` with each rule of ``transfer``."""
         self._at = node
         choices = [self._choices(entry) for entry in entries]
@@ -178,13 +178,13 @@ class MethodsReader:
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
 
-    def _rule(self, given: str | dict[str, str] | g.Found) -> tuple[str, str, set[str]]:
+    def _rule(self, given: str | dict[str, str] | g.ReadMapping) -> tuple[str, str, set[str]]:
         """Returns a rule as in method files, as shown to users, and the parameters in it."""
         if given == UNKNOWN:
             return f'"{UNKNOWN}"', "any transfer", set()
         if isinstance(given, str):
             return given, given, set()
-        if isinstance(given, g.Found):
+        if isinstance(given, g.ReadMapping):
             degree = given.get("degree")
             if degree is None:
                 return "legendre", "legendre", set()
@@ -221,7 +221,7 @@ class MethodsReader:
         starts = self.search.get("starts", STARTS)
         return Template(name, text, used, order, self.search["seeds"], starts, is_drawn)
 
-    def _choices(self, entry: g.Found) -> list[tuple[str, int]]:
+    def _choices(self, entry: g.ReadMapping) -> list[tuple[str, int]]:
         """Returns the members for one entry of ``methods``: the existing ones of families ×
         stages.
         """

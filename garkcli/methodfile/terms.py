@@ -13,7 +13,15 @@ from flint import arb, ctx, fmpq
 from garkcli.errors import NoLegendreTransform
 from garkcli.frozen import replace
 from garkcli.methodfile.expansion import too_long
-from garkcli.methodfile.formulas import BITS, PLACES, Formulas, Maker, Term, named, nearby
+from garkcli.methodfile.formulas import (
+    BITS,
+    PLACES,
+    FormulaReader,
+    FormulaTerm,
+    Maker,
+    named,
+    nearby,
+)
 from garkcli.methodfile.problem_keys import ProblemText
 from garkcli.problems.expr import Place, Vector
 
@@ -27,7 +35,7 @@ _GOOD = 10.0**-PLACES  # the radius of momenta that may count as the start
 class HamiltonianMaker(Maker):
     """Makes the problem of a file with ``hamiltonian`` or ``lagrangian``."""
 
-    def __init__(self, formulas: Formulas, text: ProblemText) -> None:
+    def __init__(self, formulas: FormulaReader, text: ProblemText) -> None:
         from garkcli.problems.mass import velocities
         from garkcli.problems.vectorfield import symbols
 
@@ -104,8 +112,8 @@ class HamiltonianMaker(Maker):
         return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
 
     def _transformed(
-        self, lagrangians: list[Term], start: dict[str, fmpq]
-    ) -> tuple[list[Term], dict[str, fmpq]]:
+        self, lagrangians: list[FormulaTerm], start: dict[str, fmpq]
+    ) -> tuple[list[FormulaTerm], dict[str, fmpq]]:
         """Returns the Hamiltonian terms, and the initial values with momenta."""
         velocities = set(self.v)
         moving = [x for x in lagrangians if x.made.free_symbols & velocities]
@@ -130,7 +138,7 @@ class HamiltonianMaker(Maker):
             start = start | self._momenta(lagrangians, found, at, moving[0])
         return found, start
 
-    def _transform(self, term: Term, known: Place) -> Term | None:
+    def _transform(self, term: FormulaTerm, known: Place) -> FormulaTerm | None:
         """Returns the Hamiltonian of a term; None, with a fault, if it is not found."""
         from garkcli.problems.lagrangian import legendre_transform
         from garkcli.problems.mass import WRITE_HAMILTONIAN
@@ -149,7 +157,11 @@ class HamiltonianMaker(Maker):
         return replace(term, made=made)
 
     def _momenta(
-        self, lagrangians: Sequence[Term], hamiltonians: Sequence[Term], at: Place, moving: Term
+        self,
+        lagrangians: Sequence[FormulaTerm],
+        hamiltonians: Sequence[FormulaTerm],
+        at: Place,
+        moving: FormulaTerm,
     ) -> dict[str, fmpq]:
         """Returns the momenta that belong to the initial velocities, by name."""
         from garkcli.problems.lagrangian import initial_momenta
@@ -171,7 +183,9 @@ class HamiltonianMaker(Maker):
             found[str(p)] = nearby(value)
         return found
 
-    def _refuse_constants(self, terms: Sequence[Term], invariants: Sequence[Term]) -> None:
+    def _refuse_constants(
+        self, terms: Sequence[FormulaTerm], invariants: Sequence[FormulaTerm]
+    ) -> None:
         """Reports a Hamiltonian without motion, and constant invariants."""
         from garkcli.problems.vectorfield import is_constant
 

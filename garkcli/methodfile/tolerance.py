@@ -16,7 +16,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression
 from garkcli.frozen import FrozenBut
 from garkcli.methodfile import description as d
-from garkcli.methodfile.grammar import Key, Kind, Schema
+from garkcli.methodfile.grammar import Key, Schema, ValueKind
 from garkcli.methodfile.nodes import key_nodes, shortened
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.parameters import NUMBER
@@ -107,7 +107,7 @@ def _schema() -> Schema:
     return {"anyOf": [*off["anyOf"], {**by_place, "additionalProperties": off}]}
 
 
-_OFF = Kind(lambda: {"anyOf": [NUMBER.schema(), {"const": DIGITS}]}, _off)
+_OFF = ValueKind(lambda: {"anyOf": [NUMBER.schema(), {"const": DIGITS}]}, _off)
 _INSIDE = (
     Key(
         f"{OTHERS}: 1e-20",
@@ -117,7 +117,7 @@ _INSIDE = (
     Key("embedded: 1e-12", _OFF, "The tolerance of embedded weights."),
     Key("dense: 1e-8", _OFF, "The tolerance of the coefficients of dense output."),
 )
-KIND = Kind(_schema, _read, lambda: _INSIDE)
+KIND = ValueKind(_schema, _read, lambda: _INSIDE)
 
 
 class Rounding:

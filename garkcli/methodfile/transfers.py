@@ -43,7 +43,9 @@ OF_DEGREE = g.mapping(
     form="write {rule: legendre, degree: 2}",
 )
 """The rule legendre with its degree."""
-RULE = g.Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]})
+RULE = g.ValueKind(
+    lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]}
+)
 """A rule for a block, or several with weights."""
 _OF_RULE = g.defined("rule").schema()
 _ALL_UNKNOWN: g.Schema = {
@@ -59,7 +61,7 @@ _PARTS = g.mapping(
     g.Key(
         'blocks: {"1,2": interpolation}',
         g.by_name(
-            g.Kind(lambda: {"anyOf": [_OF_RULE, _ALL_UNKNOWN, g.defined("matrix").schema()]}),
+            g.ValueKind(lambda: {"anyOf": [_OF_RULE, _ALL_UNKNOWN, g.defined("matrix").schema()]}),
             propertyNames={"pattern": r"^\s*[1-9][0-9]{0,3}\s*,\s*[1-9][0-9]{0,3}\s*$"},
         ),
         "Blocks that differ from the default, by the numbers of their colours: a rule, weights of "
@@ -67,7 +69,7 @@ _PARTS = g.mapping(
     ),
     rules=[g.OfSchema({"minProperties": 1})],
 )
-TRANSFER = g.Kind(
+TRANSFER = g.ValueKind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema(), _ALL_UNKNOWN]},
     inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
@@ -104,7 +106,7 @@ def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> d.TransferText:
                 at.source.fault(key, message, cure, code="given-twice")
                 return d.TransferText(None, {})
         return d.TransferText(_rule(at, node, "transfer"), {})
-    found: g.Found = _PARTS.read(at, node, "transfer")
+    found: g.ReadMapping = _PARTS.read(at, node, "transfer")
     blocks = _blocks(at, found["blocks"], stages) if "blocks" in found else {}
     return d.TransferText(found.get("default"), blocks)
 
@@ -182,7 +184,7 @@ def _rule(at: Reading, node: Node, where: str) -> d.RuleText | None:
         rule = at.source.choice(node, where, ALL_RULES)
         return d.RuleText(node, ((rule, None),)) if rule else None
     if keys_of(node) & {"rule", "degree"}:
-        found: g.Found | None = OF_DEGREE.read(at, node, where)
+        found: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
         if found is None or not found.is_right:
             return None
         return d.RuleText(node, (("legendre", None),), found.get("degree"))

@@ -16,7 +16,16 @@ from garkcli.exact.nodes import Name
 from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.family_values import FamilyValues
-from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
+from garkcli.methodfile.grammar import (
+    FLAG,
+    Key,
+    ReadMapping,
+    ValueKind,
+    by_name,
+    count,
+    either,
+    mapping,
+)
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
@@ -27,7 +36,10 @@ FORM = "write design: {order: 3, stiffly-accurate: true}"
 
 _COUNT = count(1, MOST)
 _VALUES = {
-    "flag": (Kind(FLAG.schema, lambda at, node, where: FLAG.read(at, node, where) or None), "true"),
+    "flag": (
+        ValueKind(FLAG.schema, lambda at, node, where: FLAG.read(at, node, where) or None),
+        "true",
+    ),
     "count": (_COUNT, "3"),
     "number": (NUMBER, "0"),
     "smoothness": (count(0, 1), "1"),
@@ -43,7 +55,7 @@ def _wanted() -> Iterator[Key]:
         value, example = _VALUES[want.kind]
         colours = by_name(value, propertyNames={"pattern": "^[1-9][0-9]*$"})
         schema = either(value, at_mapping=colours).schema
-        kind = Kind(schema, partial(_wishes, want))
+        kind = ValueKind(schema, partial(_wishes, want))
         yield Key(f"{name}: {example}", kind, f"Wanted: {want.summary}.")
 
 
@@ -87,12 +99,12 @@ DESIGN = mapping(
     ),
     Key(
         "fix: {c2: 2*gamma}",
-        Kind(by_name(NUMBER).schema, _fixed),
+        ValueKind(by_name(NUMBER).schema, _fixed),
         "Unknowns with their values, which may have other unknowns in them.",
     ),
     Key(
         "range: {gamma: [1/4, 1]}",
-        Kind(by_name(RANGE).schema, _ranges),
+        ValueKind(by_name(RANGE).schema, _ranges),
         "The range of the unknowns, whose ends may be algebraic, such as sqrt(2)/2; gark lists "
         "solutions outside but does not take them.",
     ),
@@ -126,7 +138,7 @@ class Wishes(Frozen):
     entries: tuple[Entry, ...] = ()
 
     def count(self, key: str) -> int | None:
-        """The whole number that is wanted; None where none is."""
+        """Returns the whole number of a key, None if the key is absent."""
         values = [wish.value for wish in self.wishes if wish.want.key == key]
         return next((x for x in values if isinstance(x, int)), None)
 
@@ -137,7 +149,7 @@ def read_wishes(at: Any, node: Node) -> Wishes:
     """
     numbers: Numbers = at.numbers
     before = len(numbers.entries)
-    found: Found | dict[str, Any] = DESIGN.read(at, node, "design") or {}
+    found: ReadMapping | dict[str, Any] = DESIGN.read(at, node, "design") or {}
     entries = tuple(numbers.entries[before:])
     del numbers.entries[before:]
     order, fixed = found.pop("order", None), found.pop("fix", ())

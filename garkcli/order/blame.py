@@ -17,7 +17,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import AnyTableau, derived, printed, tolerance_of
-from garkcli.order.repair import Entry, Repair
+from garkcli.order.repair import Repair, RepairedEntry
 from garkcli.order.tolerance import within
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
@@ -109,7 +109,7 @@ def count_entries(method: Tableau, missed: Missed) -> int:
     return sum(1 for _ in _entries(method, missed.is_embedded, missed.keeps_shape))
 
 
-def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator[Entry]:
+def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator[RepairedEntry]:
     """The entries of blocks and weights of point stages."""
     for l, m in [] if only_weights else named_blocks(method):
         if not (_has_points(method, l) and _has_points(method, m)):
@@ -118,12 +118,12 @@ def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator
         reach = _reach(block) if keeps_shape else len(block[0])
         for i, row in enumerate(block):
             for j, old in enumerate(row[: max(i + reach, 0)]):
-                yield Entry(l, m, i, j, old)
+                yield RepairedEntry(l, m, i, j, old)
     for l, colour in enumerate(method.colours):
         if not _has_points(method, l):
             continue
         for j, old in enumerate(colour.b):
-            yield Entry(l, None, None, j, old)
+            yield RepairedEntry(l, None, None, j, old)
 
 
 def _reach(block: Matrix) -> int:
@@ -140,7 +140,9 @@ def _has_points(method: Tableau, l: int) -> bool:
     return isinstance(method.space(l), PointSpace)
 
 
-def _solution(method: Tableau, missed: Missed, entry: Entry, failing: Condition) -> Number | None:
+def _solution(
+    method: Tableau, missed: Missed, entry: RepairedEntry, failing: Condition
+) -> Number | None:
     """The value of an entry with which a failing condition holds, if it is linear in the entry:
     from its values at the entry and at one and two beyond. None if not linear or constant.
     """

@@ -52,7 +52,7 @@ class Functional(Frozen):
         return int(order == self.exact_at)
 
 
-class Failure(Frozen):
+class FailedCondition(Frozen):
     """A functional, by its index, with a tree for which it is wrong."""
 
     number: int
@@ -72,7 +72,7 @@ def first_failure(
     functionals: Sequence[Functional],
     orders: Iterable[int],
     spans: StageSpans | None = None,
-) -> Failure | None:
+) -> FailedCondition | None:
     """The first condition that is not met, exactly or within rounding, order by order; None if all
     are met.
 
@@ -92,7 +92,7 @@ def first_failure(
             tree = tree_missed(judge, order, share, method.grain)
             if tree is not None:
                 value = elementary_weight(judge, tree)
-                return Failure(number, Witness(tree, value, required_of(tree, share)))
+                return FailedCondition(number, Witness(tree, value, required_of(tree, share)))
     return None
 
 
@@ -101,7 +101,7 @@ def _first_exact(
     functionals: Sequence[Functional],
     orders: Iterable[int],
     spans: StageSpans | None,
-) -> Failure | None:
+) -> FailedCondition | None:
     spans = spans or StageSpans(tableau)
     for order in orders:
         for l, forest in spans.members(order, tableau.roots):
@@ -111,7 +111,7 @@ def _first_exact(
                 own = order - tableau.roots[l]
                 if value != share * forest.required(tableau.colours[l].kind, own):
                     tree = tableau.tree(l, forest.branches)
-                    return Failure(number, witness_of(tree, value, share))
+                    return FailedCondition(number, witness_of(tree, value, share))
     return None
 
 
@@ -132,7 +132,7 @@ class Estimator(Frozen):
     is_zero: bool
 
 
-class Orders(Frozen):
+class KnownOrders(Frozen):
     """The known orders of b and b̂ before their difference is examined.
 
     Up to ``least`` the estimate vanishes. If they ``differ``, one is known to be larger, and the
@@ -145,7 +145,7 @@ class Orders(Frozen):
 
 
 def estimator(
-    method: AnyTableau, embedded: Weights, orders: Orders, spans: StageSpans | None = None
+    method: AnyTableau, embedded: Weights, orders: KnownOrders, spans: StageSpans | None = None
 ) -> Estimator:
     """Returns the error estimate of embedded weights, which has to exceed rounding.
 

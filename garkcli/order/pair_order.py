@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 
-class Condition(Frozen):
+class SimplifyingCondition(Frozen):
     """A simplifying condition of one colour or block.
 
     Attributes:
@@ -43,7 +43,7 @@ class PairCriterion(Frozen):
     """
 
     order: int
-    missing: tuple[Condition, ...]
+    missing: tuple[SimplifyingCondition, ...]
 
 
 def added(order: int) -> Iterator[tuple[Literal["B", "C", "D", "even"], int]]:
@@ -81,11 +81,13 @@ def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriter
     return PairCriterion(limit, ())
 
 
-def missing_of_block(tableau: Tableau, edge: tuple[int, int], order: int) -> list[Condition]:
+def missing_of_block(
+    tableau: Tableau, edge: tuple[int, int], order: int
+) -> list[SimplifyingCondition]:
     """The conditions of a block that an order of the pair needs and that do not hold."""
     defects, (l, m) = defects_of(tableau), edge
     needed = [
-        Condition(letter, number, l, m)
+        SimplifyingCondition(letter, number, l, m)
         for lower in range(1, order + 1)
         for letter, number in added(lower)
         if letter != "B"
@@ -93,11 +95,11 @@ def missing_of_block(tableau: Tableau, edge: tuple[int, int], order: int) -> lis
     return [x for x in needed if not defects.vanish(defects.of(x.letter, l, m, x.number))]
 
 
-def _missing(defects: Defects, order: int) -> Iterator[Condition]:
+def _missing(defects: Defects, order: int) -> Iterator[SimplifyingCondition]:
     """The conditions added by an order that do not hold."""
     tableau = defects.tableau
     diagonal = [(l, l) for l in range(tableau.size)]
     for letter, number in added(order):
         for l, m in diagonal if letter == "B" else tableau.edges():
             if not defects.vanish(defects.of(letter, l, m, number)):
-                yield Condition(letter, number, l, m)
+                yield SimplifyingCondition(letter, number, l, m)

@@ -49,7 +49,7 @@ def arithmetic(bits: int) -> Iterator[None]:
         yield
 
 
-class Place:
+class BoxPlace:
     """A method of the box, and the tableaus around it.
 
     ``shifts`` are those of its numbers in units of their radii. ``slack`` is the part of its reach
@@ -74,7 +74,7 @@ class Place:
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
         search, shifts, slack = state
-        Place.__init__(self, search, shifts)
+        BoxPlace.__init__(self, search, shifts)
         self.slack = slack
 
     @property

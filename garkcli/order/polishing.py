@@ -18,7 +18,7 @@ from garkcli.deadline import check_time
 from garkcli.errors import MethodError
 from garkcli.exact.display import BITS_OF_A_DIGIT
 from garkcli.exact.enclosing import midpoint
-from garkcli.order.place import Place
+from garkcli.order.place import BoxPlace
 from garkcli.order.rows import of_tree
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ MOST_STEPS = 60
 """Most steps, plus one for each bit; steps without progress end the search earlier."""
 
 
-def polished(search: Recovery, digits: int) -> Place:
+def polished(search: Recovery, digits: int) -> BoxPlace:
     """Returns the method nearest to the print that meets all rows of the search, to ``digits``
     digits after the point.
 
@@ -91,7 +91,7 @@ class _Polishing:
         # a number that has to be at an end gets there from both sides
         self.end = 1 + arb(2) ** -(bits // 2)
 
-    def nearest(self, shifts: Sequence[fmpq]) -> Place:
+    def nearest(self, shifts: Sequence[fmpq]) -> BoxPlace:
         """The method nearest to the print, starting from some shifts."""
         x = [*shifts]
         slopes: arb_mat | None = None
@@ -99,7 +99,7 @@ class _Polishing:
         with ctx.workprec(self.search.bits):
             for step in range(MOST_STEPS + self.bits):
                 check_time()
-                place = Place(self.search, x)
+                place = BoxPlace(self.search, x)
                 values = self._values(place)
                 if slopes is None:
                     slopes = self._slopes(x, values)
@@ -109,7 +109,7 @@ class _Polishing:
                 )
                 x = [min(max(midpoint(y), fmpq(-1)), fmpq(1)) for y in moved]
                 if change < goal:
-                    return self._checked(Place(self.search, x))
+                    return self._checked(BoxPlace(self.search, x))
                 if step > 6 and not change < before:
                     raise _unknown()
                 # where the rows leave nothing free the old slopes do
@@ -118,7 +118,7 @@ class _Polishing:
                 before = change
         raise _unknown()
 
-    def _values(self, place: Place) -> list[arb]:
+    def _values(self, place: BoxPlace) -> list[arb]:
         found = place.values(self.system)
         return [x / scale for x, scale in zip(found, self.scales, strict=True)]
 
@@ -128,7 +128,7 @@ class _Polishing:
         for k in range(len(x)):
             check_time()
             beside = [y + h if i == k else y for i, y in enumerate(x)]
-            there = self._values(Place(self.search, beside))
+            there = self._values(BoxPlace(self.search, beside))
             columns.append([((a - b) / h).mid() for a, b in zip(there, values, strict=True)])
         return arb_mat([list(row) for row in zip(*columns, strict=True)])
 
@@ -170,7 +170,7 @@ class _Polishing:
             held[min(loose, key=lambda k: float((pulls[k, 0] * held[k]).mid()))] = 0
         raise _unknown()
 
-    def _checked(self, place: Place) -> Place:
+    def _checked(self, place: BoxPlace) -> BoxPlace:
         """The method, if it meets all rows, including dependent ones."""
         small = arb(2) ** -(3 * self.bits // 4)
         if not place.is_inside or not all(abs(x) < small for x in self._values(place)):

@@ -34,7 +34,7 @@ from garkcli.order.bounded import (
     scaled,
 )
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.place import Derive, Place, System, arithmetic
+from garkcli.order.place import BoxPlace, Derive, System, arithmetic
 from garkcli.order.recovered import as_data, key_of, recovered_of
 from garkcli.order.rows import Chosen, Label, may_vanish, of_tree
 from garkcli.order.shape import NATURAL, candidates, less, weak_rows
@@ -53,7 +53,7 @@ MAX_SHIFT = 50.0
 LOWEST_FLOOR = 1e-16
 
 
-class Failure(Frozen, eq=False):
+class RecoveryFailure(Frozen, eq=False):
     """Why no method of the box meets some rows.
 
     ``is_proved`` says that there is none; ``labels`` are the rows that exclude each other, those
@@ -88,20 +88,20 @@ class Recovery:
         self.grain = fmpq(1, 1 << self.zero_bits)
         self.small = arb(self.grain)
         self.radius = max((to_float(t) for t in box.radii), default=0.0)
-        self.origin = Place(self, (fmpq(0),) * len(box.numbers))
+        self.origin = BoxPlace(self, (fmpq(0),) * len(box.numbers))
         self.place = self.origin
-        self._dense: tuple[int, Failure | None] = 0, None
+        self._dense: tuple[int, RecoveryFailure | None] = 0, None
         self.shape: System = {}
         self.system: System = {}
-        self._orders: dict[str, tuple[int, Failure | None, list[Tree], int]] = {}
-        self._places: dict[str, Place] = {}
+        self._orders: dict[str, tuple[int, RecoveryFailure | None, list[Tree], int]] = {}
+        self._places: dict[str, BoxPlace] = {}
         self._reached: dict[str, int] = {}
         self._powers: dict[str, int] = {}
         self._runs = 0
         self._has_shape = self._is_settled = False
 
     @property
-    def settled(self) -> Place:
+    def settled(self) -> BoxPlace:
         """The method that the box is taken to mean, with the orders of its own weights at least."""
         if not self._is_settled:
             self._is_settled = True
@@ -166,7 +166,7 @@ class Recovery:
         other._has_shape = other._is_settled = True
         return other
 
-    def missed_at(self, place: Place) -> dict[str, list[Tree]]:
+    def missed_at(self, place: BoxPlace) -> dict[str, list[Tree]]:
         """The trees of all orders reached whose conditions a method misses, by the name of the
         tableau.
         """
@@ -180,7 +180,7 @@ class Recovery:
         """
         return int(self._powers.get(name, order) == order)
 
-    def recover_dense(self, limit: int) -> tuple[int, Failure | None]:
+    def recover_dense(self, limit: int) -> tuple[int, RecoveryFailure | None]:
         """Moves to a method whose dense output has the largest order; returns why it has no larger
         one.
         """
@@ -227,17 +227,17 @@ class Recovery:
             with np.errstate(all="ignore"):
                 if any(self.place.missed(name, q) for q in range(1, order + 1)):
                     return False
-        failure = Failure(True, ((name, of_tree(missed)),))
+        failure = RecoveryFailure(True, ((name, of_tree(missed)),))
         self._orders.setdefault(name, (order, failure, [missed], order + 1))
         self._reached.setdefault(name, order)
         return True
 
-    def order_of(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
+    def order_of(self, name: str, limit: int) -> tuple[int, RecoveryFailure | None, list[Tree]]:
         """The order of a tableau as by ``recover_order``, computed once."""
         with np.errstate(all="ignore"):  # numbers beyond floats leave all open
             return self._order_of(name, limit)
 
-    def _order_of(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
+    def _order_of(self, name: str, limit: int) -> tuple[int, RecoveryFailure | None, list[Tree]]:
         if not self._has_shape:
             self._has_shape = True
             self._recover_shape_and_orders()
@@ -270,7 +270,7 @@ class Recovery:
         if found is None:
             return False
         self._add_further()
-        place = Place(self, found.shifts)
+        place = BoxPlace(self, found.shifts)
         sizes = [abs(x) for x in place.values(found.shape)]
         if not place.is_inside or not all(x < self.small for x in sizes):
             return False
@@ -317,7 +317,9 @@ class Recovery:
 
     # orders
 
-    def recover_order(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
+    def recover_order(
+        self, name: str, limit: int
+    ) -> tuple[int, RecoveryFailure | None, list[Tree]]:
         """Moves to a method of the largest order that the earlier results leave possible.
 
         Returns the order, why the next one fails, and the trees that it misses; None and none at
@@ -328,7 +330,7 @@ class Recovery:
             return limit, None, []
         for order in range(self._reached.get(name, 0) + 1, limit + 1):
             if alone is not None and order > at_once:
-                failure: Failure | None = Failure(True, ((name, of_tree(alone)),))
+                failure: RecoveryFailure | None = RecoveryFailure(True, ((name, of_tree(alone)),))
             else:
                 failure = self._try({name: order})
             if failure is not None:
@@ -345,7 +347,7 @@ class Recovery:
                     return order - 1, tree
         return limit, None
 
-    def _try(self, orders: Mapping[str, int]) -> Failure | None:
+    def _try(self, orders: Mapping[str, int]) -> RecoveryFailure | None:
         """Moves to a method with further orders; if there is none, nothing moves and the reason is
         returned.
         """
@@ -357,7 +359,7 @@ class Recovery:
             self.place, self.shape, self.system = before
         return failure
 
-    def _reach(self, orders: Mapping[str, int]) -> Failure | None:
+    def _reach(self, orders: Mapping[str, int]) -> RecoveryFailure | None:
         """Moves to a method with some orders, by the name of the tableau; returns why there is
         none.
         """
@@ -368,7 +370,7 @@ class Recovery:
             failure = self._meet(missed)
             if failure is not None:
                 return failure
-        return Failure(is_proved=False)
+        return RecoveryFailure(is_proved=False)
 
     def _missed(self, orders: Mapping[str, int]) -> dict[str, list[Tree]]:
         """The trees up to some orders that the method misses now, by the name of the tableau."""
@@ -378,7 +380,7 @@ class Recovery:
         }
         return {name: trees for name, trees in found.items() if trees}
 
-    def _meet(self, missed: Mapping[str, Sequence[Tree]]) -> Failure | None:
+    def _meet(self, missed: Mapping[str, Sequence[Tree]]) -> RecoveryFailure | None:
         """Moves to a method that meets the conditions of more trees; returns why there is none."""
         fresh: System = {
             name: {of_tree(u, self.share(name, u.order)): [0] for u in trees}
@@ -388,7 +390,7 @@ class Recovery:
         if wanted == self.system:
             wanted = _both(self.system, fresh)
         if wanted == self.system:
-            return Failure(is_proved=False)
+            return RecoveryFailure(is_proved=False)
         failure = self.move(_both(self.shape, wanted))
         if failure is not None and self.shape:
             # an order that needs another shape is taken, and one that the shape excludes may hold
@@ -399,7 +401,7 @@ class Recovery:
             self.system = wanted
         return failure
 
-    def independent(self, fresh: System, place: Place) -> System:
+    def independent(self, fresh: System, place: BoxPlace) -> System:
         """Rows independent of those recovered before and of each other, to first order around a
         method.
         """
@@ -426,7 +428,7 @@ class Recovery:
             name, label = labels[i]
             kept.setdefault(name, {})[label] = [0]
 
-    def move(self, system: System) -> Failure | None:
+    def move(self, system: System) -> RecoveryFailure | None:
         """Moves to a method that meets all rows of a system; returns why there is none."""
         rows = self.origin.rows(system)
         labels = [
@@ -438,9 +440,9 @@ class Recovery:
         is_finite = [bool(np.isfinite(row).all()) for row in rows.slopes]
         for i, label in enumerate(labels):
             if is_finite[i] and not may_vanish(rows, i):
-                return Failure(True, (label,))
+                return RecoveryFailure(True, (label,))
         if not all(is_finite):
-            return Failure(is_proved=False)  # numbers beyond floats
+            return RecoveryFailure(is_proved=False)  # numbers beyond floats
         place = self._newton(system, self.place)
         if place is None and np.isfinite(rows.remainders).all():
             c, G, scale = scaled(rows)
@@ -448,14 +450,14 @@ class Recovery:
             miss = c + G @ start
             if np.abs(miss).max(initial=0) > 1e-12 and excludes(rows, miss / scale):
                 heavy = np.argsort(-np.abs(miss))
-                return Failure(True, tuple(labels[i] for i in heavy))
-            place = self._newton(system, Place(self, [dyadic(x, 60) for x in start]))
+                return RecoveryFailure(True, tuple(labels[i] for i in heavy))
+            place = self._newton(system, BoxPlace(self, [dyadic(x, 60) for x in start]))
         if place is None:
-            return Failure(is_proved=False)
+            return RecoveryFailure(is_proved=False)
         self.place = place
         return None
 
-    def _newton(self, system: System, place: Place) -> Place | None:
+    def _newton(self, system: System, place: BoxPlace) -> BoxPlace | None:
         """A method of the box at which all rows vanish; None if none is found. Equal digits move
         together first, as they do in most methods, which leaves fewer numbers.
         """
@@ -487,14 +489,14 @@ class Recovery:
         alone = list(range(len(tied)))
         return [alone] if tied == alone else [tied, alone]
 
-    def _iterate(self, system: System, place: Place, groups: Sequence[int]) -> Place | None:
+    def _iterate(self, system: System, place: BoxPlace, groups: Sequence[int]) -> BoxPlace | None:
         """A method at which all rows vanish, by Newton's method, or one of the box where they
         vanish to second order; None if neither is found. The first steps go to the method nearest
         to the print, to first order.
         """
         floor, cut = FLOOR, max(FLOOR, 30 * self.radius)
         best: arb | None = None
-        champion: tuple[arb, Place] | None = None
+        champion: tuple[arb, BoxPlace] | None = None
         solver: Solver | None = None
         with arithmetic(self.bits):
             for step in range(MAX_STEPS):
@@ -519,7 +521,7 @@ class Recovery:
                 if step < 4 and not worst < 1e-9:
                     near = solver.nearest(parts, place.shifts, cut)
                     if near is not None:
-                        place = Place(self, [dyadic(x, 50) for x in near])
+                        place = BoxPlace(self, [dyadic(x, 50) for x in near])
                         if self.radius > COARSE:
                             solver = None
                         continue
@@ -536,7 +538,7 @@ class Recovery:
                 moved = [
                     x + unit * dyadic(y, 50) for x, y in zip(place.shifts, change, strict=True)
                 ]
-                place = Place(self, [_rounded(x, self.bits) for x in moved])
+                place = BoxPlace(self, [_rounded(x, self.bits) for x in moved])
                 if place.distance > MAX_SHIFT:
                     break
                 if relative > COARSE and self.radius > COARSE:
@@ -545,7 +547,7 @@ class Recovery:
             return None
         worst, place = champion
         # the place may be that of a search before, which knows what it misses without slack
-        found = Place(self, place.shifts)
+        found = BoxPlace(self, place.shifts)
         found.slack = 4 * float(worst)
         return found
 

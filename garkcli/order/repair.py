@@ -8,7 +8,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.tableau.tableau import Tableau
 
 
-class Entry(Frozen):
+class RepairedEntry(Frozen):
     """One entry of a method: the block's colours ``l, m``, or ``m`` None for the weights b^{l}; the
     indices ``i, j``, or ``i`` None for weights. All count from 0.
     """
@@ -37,7 +37,7 @@ class Entry(Frozen):
         return replace(method, blocks={**method.blocks, key: tuple(block)})
 
 
-class Repair(Entry):
+class Repair(RepairedEntry):
     """An entry that restores the claimed order when it alone is changed; ``is_embedded`` marks
     embedded weights.
     """

@@ -22,7 +22,7 @@ from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order, required_of
 from garkcli.order.conditions import are_few, count_conditions, elementary_weight
 from garkcli.order.place import Derive
-from garkcli.order.recovering import Failure, Recovery
+from garkcli.order.recovering import Recovery, RecoveryFailure
 from garkcli.order.simplifying import BoxDefects, Defects
 from garkcli.order.tolerance import NOT_FOUND
 from garkcli.order.tree_residuals import TreeResiduals
@@ -314,7 +314,7 @@ def find_order_within(
 
 
 def _most_telling(
-    rounded: RoundedTableau, order: int, failure: Failure, missed: Sequence[Tree]
+    rounded: RoundedTableau, order: int, failure: RecoveryFailure, missed: Sequence[Tree]
 ) -> Tree:
     """A tree of a failing order: one whose condition no method of the box meets, or the one with
     the largest weight in the proof that none meets all.

@@ -9,7 +9,7 @@ import numpy as np
 from garkcli.ntrees.kind import ONE_BRANCH
 from garkcli.ntrees.tree import Tree
 from garkcli.order.bounded import compromise, scaled
-from garkcli.order.place import Place, arithmetic
+from garkcli.order.place import BoxPlace, arithmetic
 from garkcli.order.rows import Chosen, FormDefects, Label, may_vanish, of_tree
 from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.tableau import Edge, Tableau
@@ -25,7 +25,7 @@ WHOLE = {"symplectic": ("symplectic",), **dict.fromkeys(SYMMETRIC, SYMMETRIC)}
 """Kinds of conditions that only make sense together."""
 
 
-def candidates(origin: Place) -> Chosen:
+def candidates(origin: BoxPlace) -> Chosen:
     """The conditions that hold within the radii one by one, and not by chance."""
     defects = origin.defects("method")
     made = defects.tableau.made
@@ -90,7 +90,7 @@ def candidates(origin: Place) -> Chosen:
     return chosen
 
 
-def _equalities(origin: Place, edges: Sequence[Edge]) -> Iterator[Label]:
+def _equalities(origin: BoxPlace, edges: Sequence[Edge]) -> Iterator[Label]:
     """Rows of numbers that may be equal: a stage equal to the step, a constant diagonal."""
     printed = origin.exact("method")
     for l, m in edges:
@@ -141,7 +141,7 @@ def _tall(tableau: Tableau, l: int) -> Iterator[Tree]:
         yield tree
 
 
-def less(origin: Place, chosen: Chosen) -> Chosen:
+def less(origin: BoxPlace, chosen: Chosen) -> Chosen:
     """The rows without those that the others exclude, to first order: the one with the largest
     residual in a compromise, and those that build on it.
     """
@@ -173,7 +173,7 @@ def less(origin: Place, chosen: Chosen) -> Chosen:
     return less
 
 
-def weak_rows(place: Place, k: int) -> list[Label]:
+def weak_rows(place: BoxPlace, k: int) -> list[Label]:
     """The conditions of weak stage order k, for as many words b A ⋯ A of each last colour as there
     are stages: longer ones are combinations, for one colour by Cayley-Hamilton.
     """

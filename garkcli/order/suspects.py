@@ -17,7 +17,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.order.bounded import FLOOR, exactly, nearest
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.conditions import conditions
-from garkcli.order.place import Place
+from garkcli.order.place import BoxPlace
 from garkcli.order.recovering import Recovery
 from garkcli.order.repair import Repair
 from garkcli.order.rounded import RoundedTableau
@@ -172,7 +172,7 @@ def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candid
             return _Candidate(k, shift, doubt, is_sure=x is not None)
         shifts = [fmpq(0)] * rows.slopes.shape[1]
         shifts[k] = shift
-        before, rows = miss, Place(search, shifts).rows(system)
+        before, rows = miss, BoxPlace(search, shifts).rows(system)
         if not np.isfinite(rows.slopes).all():
             return None
     return None

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from garkcli.ntrees.table import Column, Segment
 
 
-class Sizes(Frozen, eq=False):
+class ResidualSizes(Frozen, eq=False):
     """The size of the residuals of one order: an upper bound of |residual|, and the largest one
     reached by a tree.
     """
@@ -58,14 +58,14 @@ class TreeResiduals(StageVectors[BallVectors]):
         self._admissible = coupling_graph(tableau)
         super().__init__(self._admissible, [colour.space for colour in tableau.colours])
 
-    def sizes(self, order: int) -> Sizes:
+    def sizes(self, order: int) -> ResidualSizes:
         bound = reached = arb(0)
         for residual, _, _ in self.of_order(order):
             size = abs(residual)
             bound = bound.max(size)
             if size > reached:
                 reached = size
-        return Sizes(bound.abs_upper(), reached)
+        return ResidualSizes(bound.abs_upper(), reached)
 
     def table(self, order: int) -> TreeTable:
         return TreeTable.of(self._admissible, order)

@@ -72,7 +72,7 @@ def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[in
         yield letter, seeing, driven
 
 
-class Line(NamedTuple):
+class TableauLine(NamedTuple):
     """A row of a printed tableau.
 
     ``place`` is its number among the stages of its colour, or among the rows of weights, from 0;
@@ -90,13 +90,15 @@ class Line(NamedTuple):
         return self.place == 0
 
 
-def lines_of(entries: Entries, stages: Sequence[int], colours: Sequence[int]) -> Iterator[Line]:
+def lines_of(
+    entries: Entries, stages: Sequence[int], colours: Sequence[int]
+) -> Iterator[TableauLine]:
     """Yields the stages of each colour of ``stages``, then the weights, with columns of
     ``colours``.
     """
     for l in stages:
         blocks = [entries.A[l][m] for m in colours]
         for i, node in enumerate(entries.c[l]):
-            yield Line(i, l, node, [None if x is None else x[i] for x in blocks])
+            yield TableauLine(i, l, node, [None if x is None else x[i] for x in blocks])
     for k, weights in enumerate(filter(None, (entries.b, entries.embedded))):
-        yield Line(k, None, None, [weights[m] for m in colours])
+        yield TableauLine(k, None, None, [weights[m] for m in colours])

@@ -43,7 +43,7 @@ def watching(what: str) -> Iterator[None]:
     if not is_watched:
         yield
         return
-    line = Line(what, _pen())
+    line = ProgressLine(what, _pen())
     try:
         with doing.telling(line):
             yield
@@ -63,7 +63,7 @@ def _pen() -> Draws:
 def aside() -> Iterator[None]:
     """Removes the line while it is open, for other output on the terminal."""
     line = doing.listener()
-    if not isinstance(line, Line):
+    if not isinstance(line, ProgressLine):
         yield
         return
     line.make_room()
@@ -75,7 +75,7 @@ Draws: TypeAlias = "Pen | Process"
 """Draws the line, erases it until the next update, and ends."""
 
 
-class Line:
+class ProgressLine:
     """The tasks at work, the outermost first.
 
     ``what`` is shown while there is none.

@@ -26,7 +26,7 @@ _Points: TypeAlias = Sequence[scene.Point]
 
 def place_line(
     beside: Sequence[scene.Curve], slope: int, curves: Sequence[scene.Curve], is_whole: bool = False
-) -> scene.Rule:
+) -> scene.RuledLine:
     """Returns a line of given slope near one of its curves, away from all others; its label is on
     the far side.
 
@@ -100,7 +100,7 @@ def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
     return [points[-3:], points[:3]]
 
 
-def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.Rule:
+def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.RuledLine:
     """Returns the line with this distance from the nearest point."""
     left, _ = points[0]
     right, _ = points[-1]
@@ -111,10 +111,10 @@ def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.Ru
     offset = min(offsets) - gap if is_below else max(offsets) + gap
     start, end = ((x, offset + slope * x) for x in (left, right))
     label = f"slope {slope}".replace("-", "−")
-    return scene.Rule(start, end, label, is_right=(slope > 0) == is_below, is_below=is_below)
+    return scene.RuledLine(start, end, label, is_right=(slope > 0) == is_below, is_below=is_below)
 
 
-def _clearance(line: scene.Rule, figure: _Figure) -> float:
+def _clearance(line: scene.RuledLine, figure: _Figure) -> float:
     """Returns the least vertical distance of a line and its label from the curves, in heights."""
     (left, start), (right, end) = line.start, line.end
     points: list[scene.Point] = []
@@ -197,7 +197,7 @@ def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h
 def _panel(
     description: str,
     curves: Sequence[scene.Curve],
-    rules: Sequence[scene.Rule],
+    rules: Sequence[scene.RuledLine],
     against: str,
     results: Sequence[Convergence],
 ) -> scene.Panel:

@@ -57,7 +57,7 @@ def history_panel(run: LongRun, history: InvariantHistory) -> scene.Panel:
         f"{scene.capitalized(history.name)} error against time, from 0 to {end:g}: {became}.",
         scene.Axis("time t", start, end),
         y,
-        [*shapes, scene.Rule((start, 0.0), (end, 0.0))],
+        [*shapes, scene.RuledLine((start, 0.0), (end, 0.0))],
         f"{history.name}: {became}",
         _HEIGHT if is_first else _LOWER,
         has_grid=True,

@@ -21,7 +21,7 @@ from garkcli.plots.scene import (
     Curve,
     Loops,
     Panel,
-    Rule,
+    RuledLine,
     Scene,
     shortened,
 )
@@ -131,7 +131,7 @@ def _fill(axes: Axes, area: Area, loops: Loops) -> None:
         axes.add_patch(PathPatch(whole, fill=False, **line))
 
 
-def _rule(axes: Axes, rule: Rule) -> None:
+def _rule(axes: Axes, rule: RuledLine) -> None:
     """Draws a thin line, with its label on the far side of the curve."""
     xs, ys = zip(rule.start, rule.end, strict=True)
     axes.plot(xs, ys, color=_TEXT, linewidth=0.8)

@@ -20,7 +20,18 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
-from garkcli.plots.scene import Area, Axis, Curve, Loops, Panel, Point, Rule, Scene, Shape, polygons
+from garkcli.plots.scene import (
+    Area,
+    Axis,
+    Curve,
+    Loops,
+    Panel,
+    Point,
+    RuledLine,
+    Scene,
+    Shape,
+    polygons,
+)
 from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
@@ -50,7 +61,7 @@ def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> Panel:
         for part in _parts(oscillator, end):
             shapes.append(Curve(style, part, label))
             label = ""
-    shapes.append(Rule((0.0, 1.0), (end, 1.0)))
+    shapes.append(RuledLine((0.0, 1.0), (end, 1.0)))
     names = "; ".join(name for name, _ in named)
     about = f"of {names}" if len(named) > 1 else _spans_text(spans[0])
     return Panel(
@@ -266,7 +277,7 @@ def _in_plane(
 ) -> Panel:
     """Returns the panel of regions in the complex plane with both axes."""
     left, right, top = window.left, window.right, window.top
-    axes = [Rule((left, 0.0), (right, 0.0)), Rule((0.0, -top), (0.0, top))]
+    axes = [RuledLine((left, 0.0), (right, 0.0)), RuledLine((0.0, -top), (0.0, top))]
     x, y = Axis(f"Re {z}", left, right), Axis(f"Im {z}", -top, top)
     return Panel(title, description, x, y, [*areas, *axes], note, _HEIGHT, is_plane=True)
 

@@ -223,7 +223,7 @@ def _crosses(x: float, y: float, start: Point, end: Point) -> bool:
     return (b > y) != (d > y) and a + (c - a) * (y - b) / (d - b) > x
 
 
-class Rule(Frozen):
+class RuledLine(Frozen):
     """A thin straight line in the colour of text.
 
     ``is_right`` and ``is_below`` give the side of its middle on which the label is.
@@ -236,7 +236,7 @@ class Rule(Frozen):
     is_below: bool = False
 
 
-Shape: TypeAlias = Curve | Area | Rule
+Shape: TypeAlias = Curve | Area | RuledLine
 
 
 class Panel(Frozen):
@@ -259,7 +259,7 @@ class Panel(Frozen):
     @property
     def legend(self) -> list[Curve | Area]:
         """The labelled shapes."""
-        named = [shape for shape in self.shapes if not isinstance(shape, Rule)]
+        named = [shape for shape in self.shapes if not isinstance(shape, RuledLine)]
         return [shape for shape in named if shape.label]
 
 

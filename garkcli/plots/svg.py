@@ -157,7 +157,7 @@ class _Frame:
             "path", d=data, style=style, fill_opacity=opacity, fill_rule="evenodd", **stroke
         )
 
-    def _rule(self, rule: scene.Rule) -> Iterator[str]:
+    def _rule(self, rule: scene.RuledLine) -> Iterator[str]:
         ends = [rule.start, rule.end]
         yield element("path", d=self.path(ends), stroke="currentColor", stroke_width=0.7)
         if not rule.label:

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from garkcli.errors import printable
 from garkcli.page.paint import folded
-from garkcli.plots.scene import Area, Curve, Mark, Panel, Rule, shortened
+from garkcli.plots.scene import Area, Curve, Mark, Panel, RuledLine, shortened
 
 COLUMNS = 58
 """The width of a picture; indented by two it fits narrow terminals."""
@@ -100,7 +100,7 @@ class _Picture:
                 if sign:
                     found[i, j] = sign
         for shape in shapes:
-            if isinstance(shape, Rule):
+            if isinstance(shape, RuledLine):
                 self.rule(shape, found)
         curves = [x for x in shapes if isinstance(x, Curve)]
         # a reference is below what is drawn
@@ -116,11 +116,11 @@ class _Picture:
                 dots[place] = sign if is_free else SEVERAL
         found |= dots
         for shape in shapes:
-            if isinstance(shape, Rule) and shape.label:
+            if isinstance(shape, RuledLine) and shape.label:
                 self.label(shape, found)
         return found
 
-    def rule(self, rule: Rule, found: _Cells) -> None:
+    def rule(self, rule: RuledLine, found: _Cells) -> None:
         """Draws a thin line: above regions if it is vertical, otherwise in empty cells only."""
         curve = Curve(0, [rule.start, rule.end])
         (a, b), (c, d) = rule.start, rule.end
@@ -128,7 +128,7 @@ class _Picture:
         cells = self.line(curve, sign)
         found.update(cells if a == c else {x: sign for x in cells if x not in found})
 
-    def label(self, rule: Rule, found: _Cells) -> None:
+    def label(self, rule: RuledLine, found: _Cells) -> None:
         """Writes the label of a rule near its middle if there is space."""
         text = self.spelt(rule.label)
         (a, b), (c, d) = rule.start, rule.end

@@ -23,7 +23,7 @@ from garkcli.problems.problem import (
 )
 from garkcli.problems.righthandside import RightHandSide, clock, solution, steepness
 from garkcli.problems.straightline import code_of
-from garkcli.problems.vectorfield import GROUPS, Group, Layout, VectorField
+from garkcli.problems.vectorfield import GROUPS, Group, StateLayout, VectorField
 
 TERMS = (1, 2, 3)
 
@@ -60,7 +60,7 @@ def _ask_all(of: Problem) -> None:
         solution(of, arb(0))
 
 
-def _ask_field(field: VectorField, layout: Layout) -> None:
+def _ask_field(field: VectorField, layout: StateLayout) -> None:
     if field.is_zero:
         return
     for group in field.depends:

@@ -20,7 +20,7 @@ from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
 from garkcli.problems.vectorfield import (
     GROUPS,
     Group,
-    Layout,
+    StateLayout,
     VectorField,
     field_of_components,
     symbols,
@@ -65,9 +65,9 @@ class Hamiltonian(Frozen):
         return sum(self.terms)
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> StateLayout:
         """The groups q and p."""
-        return Layout(GROUPS, self.dimension)
+        return StateLayout(GROUPS, self.dimension)
 
     @property
     def quantities(self) -> Invariants:

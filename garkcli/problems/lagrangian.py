@@ -31,7 +31,7 @@ from garkcli.problems.solving import solutions
 from garkcli.problems.vectorfield import symbols
 
 
-class Solved(Frozen):
+class SolvedVelocities(Frozen):
     """Velocities as functions of positions and momenta, and the values of forms of the Lagrangian
     for them.
     """
@@ -71,7 +71,7 @@ class Equations(Frozen):
         return dict(zip(self.p, enclosed(self.gradient, at), strict=True))
 
 
-def candidates(L: Expr, equations: Equations) -> list[Solved]:
+def candidates(L: Expr, equations: Equations) -> list[SolvedVelocities]:
     """Candidates for solutions of the equations, some of which are wrong."""
     if equations.are_linear:
         return [_by_elimination(equations)]
@@ -80,24 +80,26 @@ def candidates(L: Expr, equations: Equations) -> list[Solved]:
         (v,), (p,) = equations.v, equations.p
         (slope,) = equations.gradient
         for velocity in solutions(slope, v, p):
-            solved.append(Solved({v: velocity}, {}))
+            solved.append(SolvedVelocities({v: velocity}, {}))
     return solved
 
 
-def _by_elimination(equations: Equations) -> Solved:
+def _by_elimination(equations: Equations) -> SolvedVelocities:
     """The solution of linear equations: v = M⁻¹(p − ∂L/∂v at v = 0)."""
     at_rest = dict.fromkeys(equations.v, 0)
     inverse, divisor = inverse_of(equations.M, equations.v, equations.start)
     pairs = zip(equations.p, equations.gradient, strict=True)
     products = _times(inverse, [p - slope.xreplace(at_rest) for p, slope in pairs])
-    return Solved({v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {})
+    return SolvedVelocities(
+        {v: x / divisor for v, x in zip(equations.v, products, strict=True)}, {}
+    )
 
 
 def _times(matrix: ExprMatrix, vector: Vector) -> list[Expr]:
     return [dot(row, vector) for row in matrix]
 
 
-class _Form(Frozen):
+class _QuadraticForm(Frozen):
     """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
 
     ``a`` is the form as it occurs in L, ``symbol`` its symbol in φ, ``slope`` φ'(a), ``at_rest``
@@ -112,7 +114,7 @@ class _Form(Frozen):
     at_rest: Expr
 
 
-def _by_form(L: Expr, equations: Equations) -> list[Solved]:
+def _by_form(L: Expr, equations: Equations) -> list[SolvedVelocities]:
     """The velocities if L depends on them by one quadratic form, and linearly otherwise.
 
     Then p − b = φ'(a) G v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
@@ -132,7 +134,9 @@ def _by_form(L: Expr, equations: Equations) -> list[Solved]:
     return []
 
 
-def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[Solved]:
+def _of_form(
+    form: _QuadraticForm, v: Vector, shifted: Vector, raised: Vector
+) -> list[SolvedVelocities]:
     """The velocities G⁻¹(p − b)/φ'(a) for the possible a, from p − b and G⁻¹(p − b)."""
     import sympy
 
@@ -145,11 +149,11 @@ def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[So
         slope = form.slope.xreplace({form.symbol: value})
         slope = slope.xreplace(norm)
         made = {velocity: x / slope for velocity, x in zip(v, raised, strict=True)}
-        solved.append(Solved(made, {form.a: value.xreplace(norm)}))
+        solved.append(SolvedVelocities(made, {form.a: value.xreplace(norm)}))
     return solved
 
 
-def _form(L: Expr, a: Expr, v: Vector) -> _Form | None:
+def _form(L: Expr, a: Expr, v: Vector) -> _QuadraticForm | None:
     """L by its part ``a``; None if that is not a quadratic form in all velocities, or they occur
     otherwise not just linearly.
     """
@@ -172,7 +176,7 @@ def _form(L: Expr, a: Expr, v: Vector) -> _Form | None:
     if not (is_quadratic and is_even and is_apart):
         return None
     slope = phi.xreplace(at_rest).diff(symbol)
-    return _Form(a, symbol, G, slope, b, a.xreplace(at_rest))
+    return _QuadraticForm(a, symbol, G, slope, b, a.xreplace(at_rest))
 
 
 _TRIES = 8  # random places where a solution is tested
@@ -203,13 +207,13 @@ def by_solving(lagrangian: Lagrangian) -> Expr:
     return H
 
 
-def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
+def _solution(L: Expr, equations: Equations, p: Vector) -> SolvedVelocities:
     """The unique right solution.
 
     Raises:
         NoLegendreTransform: none was found, or several fit the start.
     """
-    right: list[Solved] = []
+    right: list[SolvedVelocities] = []
     for candidate in candidates(L, equations):
         right += [x for x in _smooth(candidate, p) if _is_right(x.velocities, equations)]
     if not right:
@@ -225,7 +229,7 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
     return right[0]
 
 
-def _smooth(solved: Solved, p: Vector) -> list[Solved]:
+def _smooth(solved: SolvedVelocities, p: Vector) -> list[SolvedVelocities]:
     """A candidate without |y|: replaced by those with y and −y if y is made of momenta only.
 
     An analytic velocity that is right near the start is right as far as it is analytic. Empty if a
@@ -248,7 +252,7 @@ def _smooth(solved: Solved, p: Vector) -> list[Solved]:
     return [_with_sign(solved, sign) for sign in (1, -1)]
 
 
-def _with_sign(solved: Solved, sign: int) -> Solved:
+def _with_sign(solved: SolvedVelocities, sign: int) -> SolvedVelocities:
     """The candidate with ``sign`` · y for |y|."""
     import sympy
 
@@ -258,7 +262,7 @@ def _with_sign(solved: Solved, sign: int) -> Solved:
     def signed(of: Substitution) -> dict[Expr, Expr]:
         return {x: without_kinks(y) for x, y in of.items()}
 
-    return Solved(signed(solved.velocities), signed(solved.forms))
+    return SolvedVelocities(signed(solved.velocities), signed(solved.forms))
 
 
 def _is_right(solved: Substitution, equations: Equations) -> bool:

@@ -20,7 +20,7 @@ from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import (
     TIME,
     Group,
-    Layout,
+    StateLayout,
     VectorField,
     arguments_in,
     field_of_components,
@@ -76,10 +76,10 @@ class RightHandSide(Frozen):
         return bool(occurring([x for term in self.terms for x in term], self.variables, (TIME,)))
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> StateLayout:
         """y, and t if it occurs."""
         groups: tuple[Group, ...] = ("y", TIME) if self.has_time else ("y",)
-        return Layout(groups, self.dimension)
+        return StateLayout(groups, self.dimension)
 
     @property
     def quantities(self) -> Invariants:

@@ -41,7 +41,7 @@ BALLS: Mapping[str, Any] = {
 """The names in programs for balls, different from those for floats."""
 
 
-class Code(Frozen):
+class StraightLineCode(Frozen):
     """Straight-line code for several expressions of the same arguments.
 
     The texts have ``{a0}``, ``{a1}``, … for the arguments, ``{t0}``, … for the temporaries, and
@@ -117,7 +117,7 @@ def constant_name(x: fmpq) -> str:
 
 
 @cache
-def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
+def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> StraightLineCode:
     """The code of sympy expressions in the symbols ``arguments``.
 
     Raises:
@@ -131,7 +131,7 @@ def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
         f"{kind} of {arguments.name}",
         lambda: _spelled_out(_written(expressions, arguments, is_for_balls)),
     )
-    return Code(
+    return StraightLineCode(
         len(arguments),
         tuple(made["temporaries"]),
         tuple(made["results"]),
@@ -140,7 +140,7 @@ def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
     )
 
 
-def _spelled_out(code: Code) -> dict[str, list[str]]:
+def _spelled_out(code: StraightLineCode) -> dict[str, list[str]]:
     """A code as JSON, without the parts that its name determines."""
     return {
         "temporaries": list(code.temporaries),
@@ -149,7 +149,7 @@ def _spelled_out(code: Code) -> dict[str, list[str]]:
     }
 
 
-def _written(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
+def _written(expressions: Vector, arguments: Vector, is_for_balls: bool) -> StraightLineCode:
     import sympy
 
     found, reduced = sympy.cse(list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in count()))
@@ -157,7 +157,7 @@ def _written(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code
     for symbol, expression in found:
         writer.symbols[symbol] = writer.named(writer.text(expression))
     results = ["0" if x == 0 else writer.text(x) for x in reduced]
-    return Code(
+    return StraightLineCode(
         len(arguments),
         tuple(writer.temporaries),
         tuple(results),
@@ -306,7 +306,7 @@ def function(
     return program
 
 
-def enclosed(codes: Sequence[Code]) -> dict[str, arb]:
+def enclosed(codes: Sequence[StraightLineCode]) -> dict[str, arb]:
     """The rational constants of programs for balls, at the current precision."""
     found = {}
     for code in codes:

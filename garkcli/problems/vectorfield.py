@@ -26,7 +26,7 @@ TIME: Final = "t"
 """The name of time in formulas, and of its group."""
 
 
-class Layout(Frozen):
+class StateLayout(Frozen):
     """The numbers of a state, group by group, time last.
 
     ``dimension`` d is the size of every group except time, which has size 1.

@@ -67,7 +67,7 @@ def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
                 return Symmetry(None if tolerance else False)
             reflections[k] = reflection
     no = Symmetry(None if tolerance and reflections else False)
-    search = _Search(tableau, reflections, tolerance)
+    search = _SymmetrySearch(tableau, reflections, tolerance)
     possible = _by_sums(tableau, tolerance) if tolerance else _by_sight(tableau)
     if possible is None or not search.algebras_are_turned():
         return no
@@ -210,7 +210,7 @@ class _TooManyError(Exception):
     """More than ``MOST_TRIALS`` images were tried."""
 
 
-class _Search:
+class _SymmetrySearch:
     """Searches the involution of stages that turns a method into its adjoint, most constrained
     stages first.
 

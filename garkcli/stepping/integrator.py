@@ -261,7 +261,7 @@ class StepFailed(GarkError):
         self.residual = residual
 
 
-class Work(Frozen):
+class RunWork(Frozen):
     """The cost of a run of steps.
 
     Attributes:
@@ -346,11 +346,11 @@ class Stepper(Mutable):
         return self._numbers[: self.integrator.problem.layout.unknowns]
 
     @property
-    def work(self) -> Work:
+    def work(self) -> RunWork:
         """The cost of all steps so far."""
         program = self.integrator.program
         repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
-        return Work(
+        return RunWork(
             self.done * program.evaluations + repeated, sum(self._iterations), self._jacobians
         )
 

@@ -22,7 +22,7 @@ from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import ERROR_OF_MATRIX, LEAF, MATRIX, NOT_ONE, ONE_BRANCH, PLAIN, Kind
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.straightline import function
-from garkcli.problems.vectorfield import TIME, Group, Layout
+from garkcli.problems.vectorfield import TIME, Group, StateLayout
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau, butcher
 
@@ -107,7 +107,7 @@ class LinearProgram(Frozen):
     repeated: tuple[int, ...] = ()
 
 
-def program_of(method: LinearlyImplicit, layout: Layout) -> LinearProgram:
+def program_of(method: LinearlyImplicit, layout: StateLayout) -> LinearProgram:
     groups = len([group for group in layout.groups if group != TIME])
     return LinearProgram(method, 2 * layout.total, groups * len(method.b))
 
@@ -260,7 +260,7 @@ def _field(problem: Problem, is_for_balls: bool) -> tuple[Fields, Callable[..., 
     """
     layout = problem.layout
     groups = [group for group in layout.groups if group != TIME]
-    parts = [_Part(problem, group, is_for_balls) for group in groups]
+    parts = [_StagePart(problem, group, is_for_balls) for group in groups]
 
     def value(*numbers: Any) -> Numbers:
         return [x for part in parts for x in part.value(numbers)]
@@ -277,7 +277,7 @@ def _field(problem: Problem, is_for_balls: bool) -> tuple[Fields, Callable[..., 
     return value, slopes
 
 
-class _Part:
+class _StagePart:
     """The part of a vector field that drives a group."""
 
     def __init__(self, problem: Problem, group: Group, is_for_balls: bool) -> None:

@@ -14,8 +14,8 @@ from collections.abc import Mapping
 from itertools import product
 
 from garkcli.frozen import Frozen, replace
-from garkcli.problems.straightline import Code
-from garkcli.problems.vectorfield import Layout
+from garkcli.problems.straightline import StraightLineCode
+from garkcli.problems.vectorfield import StateLayout
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.fields import Fields
 from garkcli.stepping.jacobian import ChainRule, JacobianWriter
@@ -45,7 +45,7 @@ class Program(Frozen):
 
     source: str
     coefficients: tuple[tuple[Stage | None, FieldEvaluation], ...]
-    codes: tuple[Code, ...]
+    codes: tuple[StraightLineCode, ...]
     size: int
     evaluations: int
     implicit: tuple[StageBlock, ...]
@@ -60,7 +60,9 @@ class Program(Frozen):
         return tuple(counts)
 
 
-def write(graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool) -> Program:
+def write(
+    graph: DependencyGraph, fields: Fields, layout: StateLayout, is_for_balls: bool
+) -> Program:
     """The program of one step of the method with ``graph`` on states with ``layout``."""
     return _ProgramWriter(graph, fields, layout, is_for_balls).program()
 
@@ -69,7 +71,7 @@ class _ProgramWriter:
     """Writes a whole step, using the writers of its parts."""
 
     def __init__(
-        self, graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
+        self, graph: DependencyGraph, fields: Fields, layout: StateLayout, is_for_balls: bool
     ) -> None:
         self.body = Lines(_INSIDE)
         self.stages = StageWriter(graph, fields, layout, is_for_balls, self.body)

@@ -7,8 +7,8 @@ from contextlib import contextmanager
 
 from garkcli.frozen import Frozen
 from garkcli.problems.expr import Vector
-from garkcli.problems.straightline import Code, code_of
-from garkcli.problems.vectorfield import Group, Layout
+from garkcli.problems.straightline import StraightLineCode, code_of
+from garkcli.problems.vectorfield import Group, StateLayout
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
 from garkcli.stepping.fields import Fields
 
@@ -52,7 +52,7 @@ class StageWriter:
         self,
         graph: DependencyGraph,
         fields: Fields,
-        layout: Layout,
+        layout: StateLayout,
         is_for_balls: bool,
         lines: Lines,
     ) -> None:
@@ -62,7 +62,7 @@ class StageWriter:
         self.lines = lines
         self.weights: dict[str, str] = {}
         self.first: list[tuple[Stage | None, FieldEvaluation]] = []
-        self.codes: list[Code] = []
+        self.codes: list[StraightLineCode] = []
         self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
         self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))}
@@ -143,14 +143,16 @@ class StageWriter:
             self.first.append((stage, evaluation))
         return self.weights[text]
 
-    def code(self, expressions: Vector, evaluation: FieldEvaluation, is_for_balls: bool) -> Code:
+    def code(
+        self, expressions: Vector, evaluation: FieldEvaluation, is_for_balls: bool
+    ) -> StraightLineCode:
         """The code of expressions in the arguments of an evaluation."""
         arguments = self.fields[evaluation.colour, evaluation.group].arguments
         made = code_of(expressions, arguments, is_for_balls)
         self.codes.append(made)
         return made
 
-    def emit(self, code: Code, arguments: Sequence[str], prefix: str) -> list[str]:
+    def emit(self, code: StraightLineCode, arguments: Sequence[str], prefix: str) -> list[str]:
         """Writes ``code`` for these arguments and returns the names of its results."""
         lines, results = code.lines(arguments, prefix)
         for line in lines:

@@ -33,7 +33,7 @@ from garkcli.tableau.forms import on_linear_problems, pair, with_time
 from garkcli.tableau.tableau import Tableau
 
 
-class Judged(Frozen):
+class SweptMethod(Frozen):
     """A method and its properties, each computed once. The coefficients are taken as exact."""
 
     tableau: Tableau
@@ -121,7 +121,7 @@ class Column(Frozen):
     """
 
     name: str
-    value: Callable[[Judged], Value]
+    value: Callable[[SweptMethod], Value]
     text: str
     more_is_better: bool = True
 
@@ -161,7 +161,7 @@ def _rounded(text: str) -> float:
     return value
 
 
-def _property(key: str, judged: Judged) -> Value:
+def _property(key: str, judged: SweptMethod) -> Value:
     value = judged.subject.verdict(key).value
     if not isinstance(value, Size):
         return value
@@ -170,14 +170,14 @@ def _property(key: str, judged: Judged) -> Value:
     return _rounded(root_decimal(value.root, DIGITS))
 
 
-def _phase_order(judged: Judged) -> Value:
+def _phase_order(judged: SweptMethod) -> Value:
     phase = judged.phase
     if phase is None:
         return None
     return INFINITY if phase.order is None else phase.order
 
 
-def _phase_constant(judged: Judged) -> Value:
+def _phase_constant(judged: SweptMethod) -> Value:
     phase = judged.phase
     if phase is None or phase.constant is None:
         return None
@@ -189,7 +189,7 @@ def _order(found: object) -> int | None:
     return order if isinstance(order, int) else None
 
 
-def _view(which: Which, judged: Judged) -> int | None:
+def _view(which: Which, judged: SweptMethod) -> int | None:
     """Returns the order of a Rosenbrock method for another class of problems.
 
     None for other methods, except for f(t, y), and on DAEs if α + γ is singular.
@@ -242,7 +242,7 @@ _PLAIN = (
     ),
     Column(
         "pair-p-stable",
-        lambda m: None if m.pair is None else _property("p-stable", Judged(m.pair)),
+        lambda m: None if m.pair is None else _property("p-stable", SweptMethod(m.pair)),
         "whether the pair is P-stable",
     ),
     Column("phase-order", _phase_order, "the order of the phase lag on the oscillator"),
@@ -276,7 +276,7 @@ def columns() -> Mapping[str, Column]:
     return found
 
 
-def value_of(name: str, judged: Judged) -> Value:
+def value_of(name: str, judged: SweptMethod) -> Value:
     """Returns the value of a column.
 
     Raises MethodError if the column does not apply to the method.

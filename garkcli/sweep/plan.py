@@ -11,7 +11,7 @@ from itertools import accumulate
 from typing import Any, Literal, TypeAlias, cast
 
 from garkcli.frozen import Frozen
-from garkcli.glossary.key import Files, Key
+from garkcli.glossary.key import Files, KeyMeaning
 from garkcli.methodfile.grammar import file_schema
 from garkcli.methodfile.grammar import told as entries_of
 from garkcli.methodfile.sweep_file import count_methods, file_of, read_sweep
@@ -21,7 +21,7 @@ from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
 Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
 
 
-class Condition(Frozen):
+class RowCondition(Frozen):
     """A condition on the methods that are kept: a column, a relation and a bound."""
 
     column: str
@@ -73,7 +73,7 @@ class Criteria(Frozen):
     """
 
     columns: tuple[str, ...]
-    conditions: tuple[Condition, ...]
+    conditions: tuple[RowCondition, ...]
 
     @cached_property
     def _as_text(self) -> str:
@@ -143,7 +143,9 @@ def load_plan(path: str) -> Plan:
     Raises MethodFileError with all errors and their positions.
     """
     said = read_sweep(path, _kinds())
-    conditions = (Condition(x, cast(Relation, sign), bound) for x, sign, bound in said.conditions)
+    conditions = (
+        RowCondition(x, cast(Relation, sign), bound) for x, sign, bound in said.conditions
+    )
     criteria = Criteria(said.columns, tuple(conditions))
     return Plan(said.name, said.templates, said.grids, criteria, said.best, said.pareto)
 
@@ -159,7 +161,7 @@ def sweep_schema() -> dict[str, Any]:
     )
 
 
-def told(files: Files) -> Iterable[Key]:
+def told(files: Files) -> Iterable[KeyMeaning]:
     """The keys of spec files."""
     return entries_of(file_of(_kinds()).inside(), files.page)
 

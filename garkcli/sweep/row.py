@@ -21,7 +21,7 @@ from garkcli.methodfile.family import FamilyFile, loads_family, with_values
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.search_file import FileSearch
 from garkcli.problems.draw import Draw
-from garkcli.sweep.columns import Judged, Value, columns, is_value, value_of
+from garkcli.sweep.columns import SweptMethod, Value, columns, is_value, value_of
 from garkcli.sweep.plan import Criteria, Point
 from garkcli.tableau.tableau import Tableau
 
@@ -111,7 +111,7 @@ def row_of(criteria: Criteria, point: Point) -> Row:
             return {**row, "kept": not criteria.conditions}
         if not is_rosenbrock(tableau):
             tableau.demand_fields("gark sweep")
-        judged = Judged(tableau)
+        judged = SweptMethod(tableau)
         for condition in criteria.conditions:
             value = value_of(condition.column, judged)
             row[condition.column] = value

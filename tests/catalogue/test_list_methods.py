@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from garkcli.catalogue.entries import ORDERS, Range, all_entries, read_range, sorted_by
+from garkcli.catalogue.entries import ORDERS, NumberRange, all_entries, read_range, sorted_by
 from garkcli.cli.options import command_of
 from garkcli.errors import UsageProblem
 from garkcli.properties.registry import every_property
@@ -82,16 +82,16 @@ def test_every_property_has_its_filter() -> None:
 @pytest.mark.parametrize(
     ("text", "found"),
     [
-        ("4", Range(4, 4)),
-        ("=4", Range(4, 4)),
-        (" >= 4 ", Range(4, 10_000)),
-        (">4", Range(5, 10_000)),
-        ("<=4", Range(0, 4)),
-        ("<4", Range(0, 3)),
-        ("2 .. 4", Range(2, 4)),
+        ("4", NumberRange(4, 4)),
+        ("=4", NumberRange(4, 4)),
+        (" >= 4 ", NumberRange(4, 10_000)),
+        (">4", NumberRange(5, 10_000)),
+        ("<=4", NumberRange(0, 4)),
+        ("<4", NumberRange(0, 3)),
+        ("2 .. 4", NumberRange(2, 4)),
     ],
 )
-def test_ranges(text: str, found: Range) -> None:
+def test_ranges(text: str, found: NumberRange) -> None:
     """As people write them."""
     assert read_range(text) == found
 

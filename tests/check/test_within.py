@@ -21,7 +21,7 @@ from garkcli.methodfile.load import loads
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.meant import as_meant
-from garkcli.order.recovering import Failure, Recovery
+from garkcli.order.recovering import Recovery, RecoveryFailure
 from garkcli.order.rounded import RoundedTableau
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
@@ -199,7 +199,7 @@ def test_an_order_that_the_shape_excludes_may_hold(monkeypatch: pytest.MonkeyPat
     assert isinstance(box, RoundedTableau)
     search = box.search
     assert search.settled
-    answers = iter([Failure(True), Failure(False)])
+    answers = iter([RecoveryFailure(True), RecoveryFailure(False)])
     monkeypatch.setattr(search, "move", lambda _: next(answers))
     tree = Tree(0, (Tree(0),) * 4)
     failure = search._meet({"method": [tree]})
@@ -246,7 +246,9 @@ def test_dense_output_fails_by_proof_alone(monkeypatch: pytest.MonkeyPatch) -> N
         method = loads(text)
         if not is_proved:
             monkeypatch.setattr(
-                Recovery, "recover_dense", lambda x, limit: (whole(x, limit)[0], Failure(False))
+                Recovery,
+                "recover_dense",
+                lambda x, limit: (whole(x, limit)[0], RecoveryFailure(False)),
             )
         found = analyse(method.tableau, tolerance=method.tolerance, further=method.further)
         assert found.dense is not None

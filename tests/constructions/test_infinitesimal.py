@@ -14,8 +14,8 @@ from flint import fmpq
 
 from garkcli import loads
 from garkcli.constructions.infinitesimal import (
+    CollocationPlan,
     Coupling,
-    Plan,
     following,
     generalized,
     highest,
@@ -178,7 +178,7 @@ def test_collocation_has_enough_nodes_and_no_more() -> None:
     assert (plan.fast, plan.order) == ((3,), 2)
 
     def weights(shift: int) -> list[object]:
-        other = Plan(tuple(n + shift for n in plan.fast), plan.stages, plan.order)
+        other = CollocationPlan(tuple(n + shift for n in plan.fast), plan.stages, plan.order)
         made, _ = infinitesimal(found, other)
         return [elementary_weight(made, c.tree) for c in all_conditions(made, 2)]
 

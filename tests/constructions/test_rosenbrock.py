@@ -40,7 +40,7 @@ from garkcli.order.conditions import (
 )
 from garkcli.order.deciding import order_of
 from garkcli.order.dense import dense_order
-from garkcli.order.functionals import Orders, estimator
+from garkcli.order.functionals import KnownOrders, estimator
 from garkcli.order.meant import as_meant
 from garkcli.order.rounded import RoundedOrder
 from garkcli.order.simplifying import is_symplectic
@@ -391,7 +391,7 @@ def test_embedded_weights_and_dense_output() -> None:
     Jacobian, as β counts in it; with any matrix it has order 1.
     """
     tableau, (b,) = RODAS3.tableau, RODAS3.b
-    found = estimator(tableau, weights_for(tableau, [RODAS3_EMBEDDED]), Orders(2, True, 5))
+    found = estimator(tableau, weights_for(tableau, [RODAS3_EMBEDDED]), KnownOrders(2, True, 5))
     assert (found.order, found.is_zero) == (3, False)
     beta = add(RODAS3.alpha[0][0], RODAS3.gamma[0][0])
     e = apply(beta, (fmpq(1),) * 4)

@@ -6,7 +6,7 @@ import pytest
 from flint import arb, ctx, fmpq
 
 from garkcli.convergence import reference as module
-from garkcli.convergence.reference import Reference, magnitude, reference
+from garkcli.convergence.reference import ReferenceSolution, magnitude, reference
 from garkcli.doing import telling
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.problem import loads_problem
@@ -43,7 +43,7 @@ def test_linear_springs(digits: int, t_end: fmpq) -> None:
     eigenvectors.
     """
     problem = hamiltonian("split-oscillator", 2)
-    found = Reference(problem.unsplit(), t_end).to(digits)
+    found = ReferenceSolution(problem.unsplit(), t_end).to(digits)
     with ctx.workprec(400):
         k = arb(25) / 4
         root = (1 + 4 * k * k).sqrt()
@@ -78,7 +78,7 @@ def test_how_far_it_is_can_be_seen() -> None:
     """What is computed is told, with the number of steps; in the end all of them are done."""
     who = Listener()
     with telling(who):
-        Reference(hamiltonian("pendulum", 1), fmpq(1)).to(18)
+        ReferenceSolution(hamiltonian("pendulum", 1), fmpq(1)).to(18)
     steps = [work for work in who.told if work.total is not None]
     assert {work.what for work in steps} == {"reference solution, 18 digits"}
     assert steps
@@ -97,7 +97,7 @@ def test_collision_has_no_solution(digits: int, monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(module, "_REFINED", 8)
     problem = replace(hamiltonian("kepler", 1), initial=(fmpq(1), fmpq(0), fmpq(0), fmpq(0)))
     with pytest.raises((StepFailed, UsageProblem)):
-        Reference(problem, fmpq(2)).to(digits)
+        ReferenceSolution(problem, fmpq(2)).to(digits)
 
 
 @in_whole
@@ -115,7 +115,7 @@ def test_a_solution_that_ends_is_told_when() -> None:
     with pytest.raises(
         UsageProblem, match=r"no solution is found at t = 2: .* fail at t = 0\.75"
     ) as told:
-        Reference(problem.unsplit(), fmpq(2)).to(16)
+        ReferenceSolution(problem.unsplit(), fmpq(2)).to(16)
     assert "final time before 0.75" in (told.value.help or "")
 
 
@@ -126,7 +126,7 @@ def test_what_is_not_smooth_is_seen_by_its_error() -> None:
     """
     problem = loads_problem("{variables: [y], rhs: {y: sqrt(t)*y}, initial: {y: 1}, t_end: 1}")
     with telling(listener := Listener()), pytest.raises(UsageProblem, match="hardly reduce"):
-        Reference(problem, fmpq(1)).to(21)
+        ReferenceSolution(problem, fmpq(1)).to(21)
     assert max(work.total or 0 for work in listener.told) < module.MAX_STEPS // 50
 
 
@@ -134,4 +134,4 @@ def test_search_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
     """With too few steps allowed it is said, with the time and the digits."""
     monkeypatch.setattr(module, "MAX_STEPS", 10)
     with pytest.raises(UsageProblem, match="t = 2 is not found to 40 digits in 10 steps"):
-        Reference(hamiltonian("kepler", 1), fmpq(2)).to(40)
+        ReferenceSolution(hamiltonian("kepler", 1), fmpq(2)).to(40)

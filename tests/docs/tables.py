@@ -10,7 +10,7 @@ from garkcli.glossary import read
 from garkcli.glossary import term as glossary
 from garkcli.glossary.faults import TOPICS, faults_of, findings_of
 from garkcli.glossary.fields import field_text
-from garkcli.glossary.key import Key, keys_of
+from garkcli.glossary.key import KeyMeaning, keys_of
 from garkcli.glossary.term import PAPER, Term
 from garkcli.properties.definitions import every_definition
 from garkcli.properties.registry import KEYS
@@ -114,7 +114,7 @@ IN_SECTIONS = (
 """Keys of method files with a section on the page, which tells of them and what is below."""
 
 
-def _said(key: Key, end: str) -> str:
+def _said(key: KeyMeaning, end: str) -> str:
     """What a key is, and what holds without it."""
     parent, _, name = key.path.rpartition(".")
     for of, names, said in _ALIKE:

@@ -186,7 +186,10 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE + "parameters: {pi: 3}", [(4, 18, "parameters: pi has a meaning already")]),
         (ONE + "parameters: {sin: 3}", [(4, 19, "parameters: sin has a meaning already")]),
         (ONE + "parameters: {a: b, b: 1}", [(4, 17, "parameters: a: 'b' is not a parameter")]),
-        (ONE + "parameters: {a: log(-1)}", [(4, 17, "parameters: a: log of -1 is not a real number")]),
+        (
+            ONE + "parameters: {a: log(-1)}",
+            [(4, 17, "parameters: a: log of -1 is not a real number")],
+        ),
         (ONE + "parameters: {a: x}", [(4, 17, "parameters: a: 'x' is not a parameter")]),
         (ONE + "parameters: {'a b': 1}", [(4, 21, "parameters: 'a b' is no name")]),
         (

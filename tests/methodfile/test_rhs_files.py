@@ -109,7 +109,10 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
             [(3, 12, "starts at 1.00000, but initial has 2.00000")],
         ),
         (HEAD + "rhs: {x: y, y: -x}\nexact: {x: sin(t)}\n", [(3, 8, "no value for y")]),
-        (HEAD + "rhs: {x: y, y: -x}\nexact: {x: y, y: cos(t)}\n", [(3, 12, "'y' is not a parameter")]),
+        (
+            HEAD + "rhs: {x: y, y: -x}\nexact: {x: y, y: cos(t)}\n",
+            [(3, 12, "'y' is not a parameter")],
+        ),
         (
             "variables: x\nhamiltonian: px**2/2\nexact: {x: t}\ninitial: {x: 0, px: 1}\n",
             [(3, 8, "exact is for rhs")],

@@ -27,7 +27,7 @@ from garkcli.order.bounded import bounded_least_squares, excludes, nearest
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import conditions, coupling_graph
 from garkcli.order.meant import as_meant
-from garkcli.order.place import MOST_ROWS, Place
+from garkcli.order.place import MOST_ROWS, BoxPlace
 from garkcli.order.recovering import Recovery
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.simplifying import simplifying
@@ -306,7 +306,7 @@ def test_what_is_missed_is_seen_by_spans_as_by_trees(
         assert isinstance(box, RoundedTableau)
         listed = box.search.settled.missed("method", order)
         monkeypatch.setattr("garkcli.order.place.MOST_TREES", 0)
-        spanned = Place(box.search, box.search.settled.shifts).missed("method", order)
+        spanned = BoxPlace(box.search, box.search.settled.shifts).missed("method", order)
         monkeypatch.undo()
         assert bool(listed) == bool(spanned)
         assert not any(box.meets(tree) for tree in spanned)
@@ -427,7 +427,7 @@ def test_what_is_met_to_second_order_counts_as_met_everywhere() -> None:
     box = as_meant(loads(rounded("plain", "rk4", 6).text))
     assert isinstance(box, RoundedTableau)
     place = box.search.settled
-    box.search.place = Place(box.search, [x + fmpq(1, 10**9) for x in place.shifts])
+    box.search.place = BoxPlace(box.search, [x + fmpq(1, 10**9) for x in place.shifts])
     assert simplifying(box, 8, "B").B == (0,)
     box.search.place.slack = 1e-8
     assert simplifying(box, 8, "B").B == (4,)
@@ -459,7 +459,7 @@ def test_trees_are_made_of_the_conditions_that_are_taken(
     )
     assert isinstance(box, RoundedTableau)
     search = box.search
-    place = Place(search, [fmpq(0)] * len(search.box.numbers))
+    place = BoxPlace(search, [fmpq(0)] * len(search.box.numbers))
     monkeypatch.setattr(place, "slack", slack)
     made: list[int] = []
     whole = TreeTable.tree

@@ -11,7 +11,7 @@ import pytest
 
 from garkcli.doing import counting, doing, hush, listener, telling
 from garkcli.page import progress
-from garkcli.page.progress import Line, Pen, aside, watching
+from garkcli.page.progress import Pen, ProgressLine, aside, watching
 from tests.had import needs_fork
 from tests.listener import Listener
 
@@ -122,7 +122,7 @@ def test_work_that_fails_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
                     raise ArithmeticError
             except ArithmeticError:
                 line = listener()
-                assert isinstance(line, Line)
+                assert isinstance(line, ProgressLine)
                 assert line.text == "gark check"
             raise ValueError("broken")
 

@@ -17,7 +17,16 @@ from garkcli.plots.convergence import errors_scene
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure
 from garkcli.plots.regions import springs_panel, stability_scene
-from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent, polygons
+from garkcli.plots.scene import (
+    Area,
+    Axis,
+    Curve,
+    Panel,
+    RuledLine,
+    Scene,
+    common_exponent,
+    polygons,
+)
 from garkcli.plots.svg import svg
 from garkcli.stability.springs_plane import SpringsPlane
 from tests.whole import in_whole
@@ -56,7 +65,7 @@ def test_all_outputs_draw_all_of_a_scene() -> None:
             root = ET.fromstring(svg(panel))
             texts = [str(x.text) for x in root.iter("text")]
             names = [x.label for x in panel.legend]
-            slopes = [x.label for x in panel.shapes if isinstance(x, Rule) and x.label]
+            slopes = [x.label for x in panel.shapes if isinstance(x, RuledLine) and x.label]
             assert {panel.x.label, panel.y.label, *names, *slopes} <= {*texts}
             lines = "\n".join(terminal.drawn(panel))
             assert all(x in lines for x in (panel.x.label, panel.y.label, *names, *slopes))

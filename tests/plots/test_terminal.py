@@ -12,7 +12,7 @@ from garkcli.frozen import replace
 from garkcli.page.plaintext import plain_text
 from garkcli.plots.convergence import errors_scene
 from garkcli.plots.regions import stability_scene
-from garkcli.plots.scene import Axis, Curve, Panel, Rule, polygons
+from garkcli.plots.scene import Axis, Curve, Panel, RuledLine, polygons
 from garkcli.plots.terminal import COLUMNS, SEVERAL, drawn
 
 LIMITS = Axis("x", 0.0, 6.0), Axis("y", 0.0, 6.0)
@@ -152,7 +152,7 @@ def test_names_from_outside_are_harmless() -> None:
 
 def test_labels_of_rules_are_on_no_point() -> None:
     """The slope beside a line, where there is space for it."""
-    rule = Rule((0, 0), (6, 6), "slope 1")
+    rule = RuledLine((0, 0), (6, 6), "slope 1")
     dots = Curve(0, [(x / 4, 3.6) for x in range(24)], has_dots=True)
     text = "\n".join(drawn(Panel("", "", *LIMITS, [rule, dots])))
     assert "slope 1" in text

@@ -17,7 +17,7 @@ from garkcli.problems.__main__ import answers, answers_of_clock
 from garkcli.problems.builtin import PROBLEMS, problem
 from garkcli.problems.deferred import KNOWN, Deferred, Record, ask, known
 from garkcli.problems.draw import Draw
-from garkcli.problems.straightline import Code, code_of, function
+from garkcli.problems.straightline import StraightLineCode, code_of, function
 
 DIGITS = 40
 TERMS = {name: 2 if of.takes_seed else 3 for name, of in PROBLEMS.items()}
@@ -49,9 +49,9 @@ def no_programs(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Known programs are not written anew, which takes long: their values are compared."""
     written = straightline._written
 
-    def none(expressions: Any, *others: Any) -> Code:
+    def none(expressions: Any, *others: Any) -> StraightLineCode:
         if isinstance(expressions, Deferred):
-            return Code(0, (), (), (), False)
+            return StraightLineCode(0, (), (), (), False)
         return written(expressions, *others)
 
     monkeypatch.setattr(straightline, "_written", none)

@@ -26,7 +26,7 @@ from garkcli.plots import saving
 from garkcli.plots.convergence import errors_scene
 from garkcli.plots.figure import figure as draw
 from garkcli.plots.saving import check_suffix, save
-from garkcli.plots.scene import Curve, Rule, logarithmic_marks
+from garkcli.plots.scene import Curve, RuledLine, logarithmic_marks
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
 from tests.whole import in_whole
@@ -150,7 +150,7 @@ def test_work_figure(against: str) -> None:
     (panel,) = errors_scene([("rk4", result)], against).panels
     rule, curve = panel.shapes
     assert isinstance(curve, Curve)
-    assert isinstance(rule, Rule)
+    assert isinstance(rule, RuledLine)
     if against == "evaluations":
         assert [10**x for x, _ in curve.points] == pytest.approx(
             [row.cost.evaluations for row in result.rows if row.cost]

@@ -27,7 +27,7 @@ def _adjoint(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     return None if part is None else at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
 
 
-ADJOINT = g.Kind(g.defined("part").schema, _adjoint)
+ADJOINT = g.ValueKind(g.defined("part").schema, _adjoint)
 
 
 _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
@@ -56,7 +56,7 @@ def _order(at: PartReader, node: Node, where: str) -> int | None:
     return order
 
 
-_ORDER = g.Kind(g.count(2, MAX_ORDER).schema, _order)
+_ORDER = g.ValueKind(g.count(2, MAX_ORDER).schema, _order)
 _STEP = g.mapping(
     g.Key("step: 1/2", NUMBER, "The fraction of the step that this substep takes.", is_needed=True),
     g.Key("of: explicit-euler", METHOD, "The method of this substep."),
@@ -81,7 +81,7 @@ _KEYS = g.mapping(
     ),
     g.Key(
         "scheme: kahan-li-8",
-        g.Kind(g.word(lambda: SCHEMES.keys()).schema, _scheme),
+        g.ValueKind(g.word(lambda: SCHEMES.keys()).schema, _scheme),
         "The substeps by the name of a published scheme, as gark list shows them.",
     ),
     g.Key(
@@ -110,16 +110,18 @@ _KEYS = g.mapping(
             "give steps: [1/2, 1/2] or scheme: triple-jump",
             is_one=False,
         ),
-        g.Beside("scheme", "of missing beside scheme", _FORM, needs=("of",), code="missing-key"),
+        g.KeyRelation(
+            "scheme", "of missing beside scheme", _FORM, needs=("of",), code="missing-key"
+        ),
         *(
-            g.Beside(key, f"{key} goes with scheme", needs=("scheme",), code="option-alone")
+            g.KeyRelation(key, f"{key} goes with scheme", needs=("scheme",), code="option-alone")
             for key in ("order", "from")
         ),
     ],
 )
 
 
-def _read(at: PartReader, found: g.Found, where: str) -> ConstructionText | None:
+def _read(at: PartReader, found: g.ReadMapping, where: str) -> ConstructionText | None:
     """Reads the methods and their substeps."""
     before, node = len(at.source.faults), found.node
     steps = [*_steps(at, found, where)]
@@ -134,7 +136,7 @@ def _read(at: PartReader, found: g.Found, where: str) -> ConstructionText | None
     return at.made(node, _maker(steps), rounding or None)
 
 
-def _steps(at: PartReader, found: g.Found, where: str) -> Iterator[_Step]:
+def _steps(at: PartReader, found: g.ReadMapping, where: str) -> Iterator[_Step]:
     """Yields the substeps between those of the processor."""
     whole: Any = found.get("of")
     if "scheme" in found:
@@ -157,7 +159,7 @@ def _steps(at: PartReader, found: g.Found, where: str) -> Iterator[_Step]:
             yield part, step["step"], step.get("adjoint", False)
 
 
-def _orders(at: PartReader, found: g.Found, scheme: Scheme) -> tuple[int, int]:
+def _orders(at: PartReader, found: g.ReadMapping, scheme: Scheme) -> tuple[int, int]:
     """Returns the order of the method and that of the result for a repeated scheme.
 
     The substeps that raise a symmetric method of order p contain a root of degree p + 1.

@@ -54,7 +54,7 @@ def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
     return tuple(numbers)
 
 
-_NUMBERS = g.Kind(
+_NUMBERS = g.ValueKind(
     lambda: {
         "type": "array",
         "items": g.count(1, MAX_PARTS).schema(),
@@ -91,21 +91,21 @@ _KEYS = g.mapping(
     form=_FORM,
     rules=[
         g.Ways("", ("order", "sequence"), _HOW_FAR, _GIVE_ORDER, is_one=False),
-        g.Beside(
+        g.KeyRelation(
             "sequence",
             "the numbers of sequence determine the order",
             "keep one of them",
             bars=("order",),
             code="given-twice",
-            values=g.Values({"type": "array"}, lambda node: isinstance(node, SequenceNode)),
+            values=g.KeyValues({"type": "array"}, lambda node: isinstance(node, SequenceNode)),
         ),
-        g.Beside(
+        g.KeyRelation(
             "sequence",
             _HOW_FAR,
             _GIVE_ORDER,
             needs=("order",),
             code="missing-key",
-            values=g.Values(
+            values=g.KeyValues(
                 {"not": {"type": "array"}}, lambda node: not isinstance(node, SequenceNode)
             ),
         ),
@@ -113,7 +113,7 @@ _KEYS = g.mapping(
 )
 
 
-def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText:
+def _read(at: PartReader, found: g.ReadMapping, _: str) -> ConstructionText:
     """Reads the method and the numbers of its substeps."""
     plan = _Plan(
         found.get("sequence", "harmonic"),

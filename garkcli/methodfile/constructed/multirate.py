@@ -11,8 +11,8 @@ from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.constructions.infinitesimal import (
+    CollocationPlan,
     Coupling,
-    Plan,
     Powers,
     check_ends,
     following,
@@ -73,7 +73,7 @@ _NAMES = ("lambda", "M")
 """The number of a small step, from 1, and the number of small steps, in coupling matrices."""
 TableauOf: TypeAlias = Callable[[PartText], Tableau]
 
-_SMALL_STEPS = g.Kind(MATRIX.schema, g.as_it_is)
+_SMALL_STEPS = g.ValueKind(MATRIX.schema, g.as_it_is)
 _COUPLING = g.mapping(
     g.Key(
         "fast-slow: [[(lambda - 1)/M]]",
@@ -105,20 +105,20 @@ _PREDICTOR = g.mapping(
 )
 
 
-def _one_of(names: tuple[str, ...], kind: g.Kind, other: g.Kind) -> g.Kind:
+def _one_of(names: tuple[str, ...], kind: g.ValueKind, other: g.ValueKind) -> g.ValueKind:
     """Returns the kind of a mapping with one of the keys, or of another value."""
 
     def is_it(node: Node) -> bool:
         return isinstance(node, MappingNode) and any(k.value in names for k, _ in node.value)
 
-    return g.Kind(
+    return g.ValueKind(
         lambda: {"anyOf": [other.schema(), kind.schema()]},
         lambda at, node, where: (kind if is_it(node) else other).read(at, node, where),
         lambda: (*other.inside(), *kind.inside()),
     )
 
 
-def _powers(key: str) -> g.Kind:
+def _powers(key: str) -> g.ValueKind:
     return g.list_of(MATRIX, "matrices", MAX_POWERS, f"{key}, matrix {{}}", _FORM_OF_MRI)
 
 
@@ -178,11 +178,11 @@ def _is_exact(node: Node) -> bool:
     return isinstance(node, ScalarNode) and node.value == EXACT
 
 
-_FAST = g.Kind(
+_FAST = g.ValueKind(
     lambda: {"anyOf": [{"const": EXACT}, METHOD.schema()]},
     lambda at, node, where: EXACT if _is_exact(node) else METHOD.read(at, node, where),
 )
-_MRI_OR_NAME = g.Kind(
+_MRI_OR_NAME = g.ValueKind(
     lambda: {"anyOf": [{"type": "string"}, _MRI.schema()]},
     lambda at, node, where: (METHOD if isinstance(node, ScalarNode) else _MRI).read(
         at, node, where
@@ -224,21 +224,21 @@ _KEYS = g.mapping(
     form=_FORM,
     rules=[
         _SLOW,
-        g.Beside("coupling", "coupling does not go with {way}", needs=("slow",)),
-        g.Beside(
+        g.KeyRelation("coupling", "coupling does not go with {way}", needs=("slow",)),
+        g.KeyRelation(
             "fast",
             "steps missing",
             "give the number of small steps, or write fast: exact",
             needs=("steps",),
             code="missing-key",
-            values=g.Values({"not": {"const": EXACT}}, lambda node: not _is_exact(node)),
+            values=g.KeyValues({"not": {"const": EXACT}}, lambda node: not _is_exact(node)),
         ),
-        g.Beside(
+        g.KeyRelation(
             "fast",
             "steps does not go with fast: exact",
             "leave it out, or name a fast method",
             bars=("steps",),
-            values=g.Values({"const": EXACT}, _is_exact),
+            values=g.KeyValues({"const": EXACT}, _is_exact),
         ),
     ],
 )
@@ -261,7 +261,7 @@ class Infinitesimal(Frozen):
         if self.fast is None:
             _refuse_parameters(coupling.rows)
         plan_for = plan_for_flow if self.fast is None else plan_for_method
-        plan: Plan = values.once(("plan", id(self)), lambda: plan_for(coupling))
+        plan: CollocationPlan = values.once(("plan", id(self)), lambda: plan_for(coupling))
         fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
         return infinitesimal(coupling, plan, fast, self.steps)
 
@@ -324,7 +324,7 @@ def _embedded_of(part: PartText) -> Row | None:
     return texts[0].embedded if len(texts) == 1 else None
 
 
-def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
+def _generalized(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
     """Returns the coupling by α, β and γ."""
     stages = len(found["beta"])
     parts = [
@@ -334,7 +334,9 @@ def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
     return lambda _, values: generalized(*map(values.matrix, parts))
 
 
-def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
+def _coupling_by_name(
+    at: PartReader, found: g.ReadMapping
+) -> Callable[[TableauOf, Values], Coupling]:
     """Returns the coupling of another multirate infinitesimal method."""
     part: PartText = found["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
@@ -349,7 +351,7 @@ def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Va
     return lambda *_: following((), ())
 
 
-def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
+def _read(at: PartReader, found: g.ReadMapping, _: str) -> ConstructionText | None:
     """Reads the methods and their coupling."""
     before = len(at.source.faults)
     kept: tuple[PartText, ...] = ()
@@ -362,7 +364,7 @@ def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
             rounding = found["mri"].tolerance
         elif "mri" in found:
             coupling = _polynomials(at, found["mri"])
-        elif isinstance(found["mis"], g.Found):
+        elif isinstance(found["mis"], g.ReadMapping):
             coupling = _generalized(at, found["mis"])
         else:
             coupling, kept = _mis(found["mis"]), (found["mis"],)
@@ -373,11 +375,11 @@ def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
     return replace(at.made(found.node, make, rounding), kept=kept)
 
 
-def _coupled(at: PartReader, found: g.Found) -> Make:
+def _coupled(at: PartReader, found: g.ReadMapping) -> Make:
     """Returns two methods with a coupling by name, or by matrices."""
     coupling = found.get("coupling", SLOWEST_FIRST)
     is_exact = found["fast"] == EXACT
-    if isinstance(coupling, g.Found) and "gamma" in coupling:
+    if isinstance(coupling, g.ReadMapping) and "gamma" in coupling:
         rows = {key: coupling[key] for key in ("gamma", "embedded") if key in coupling}
         for key, matrix in rows.items():
             at.numbers.rectangular(matrix, coupling.nodes[key], key)
@@ -393,7 +395,7 @@ def _coupled(at: PartReader, found: g.Found) -> Make:
     if is_exact:
         return Predictor(found["slow"], None, {}, 1)
     steps: int = found.get("steps", 1)
-    keys = _BLOCKS if isinstance(coupling, g.Found) else ()
+    keys = _BLOCKS if isinstance(coupling, g.ReadMapping) else ()
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
@@ -446,7 +448,7 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
             numbers.define(name, value)
 
 
-def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
+def _polynomials(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
     """Returns the polynomial couplings between nodes, the explicit part before the implicit one."""
     c: Row = found["c"]
     restart = found.get("restart")
@@ -486,7 +488,9 @@ def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
     return coupling
 
 
-def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequence[Rows]]) -> None:
+def _check_restart(
+    at: PartReader, found: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
+) -> None:
     """Reports what a method with restarts cannot have."""
     restart = found["restart"]
     if restart == "merk" and len(matrices) > 1:
@@ -502,21 +506,21 @@ def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequen
         cure = "restart: sr has one matrix gamma: [[[…]]]"
         at.source.fault(found.nodes["gamma"], message, cure, code="wrong-size")
     rows = found.get("embedded")
-    count = len(rows.get("gamma", ())) if isinstance(rows, g.Found) else 0
+    count = len(rows.get("gamma", ())) if isinstance(rows, g.ReadMapping) else 0
     if restart == "sr" and count > 1:
         message = f"multirate, mri, embedded: gamma has {count} rows, and is added once"
         cure = "restart: sr has one row gamma: [[…]]"
         at.source.fault(found["embedded"].nodes["gamma"], message, cure, code="wrong-size")
 
 
-def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
+def _embedded_rows(at: PartReader, found: g.ReadMapping) -> dict[str, Rows] | None:
     """Returns the embedded rows for each slow part, with one entry for each node."""
     given = found.get("embedded")
     if given is None:
         return None
     node = found.nodes["embedded"]
     keys = [key for key in ("omega", "gamma") if key in found]
-    if not isinstance(given, g.Found):
+    if not isinstance(given, g.ReadMapping):
         if len(keys) > 1:
             message = "multirate, mri, embedded: a mapping is expected here"
             cure = "of two slow parts write embedded: {omega: [[…]], gamma: [[…]]}"

@@ -64,7 +64,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     """Reads the parts and their flows."""
     source = at.source
     before = len(source.faults)
-    found: g.Found | None = _KEYS.read(at, node, where)
+    found: g.ReadMapping | None = _KEYS.read(at, node, where)
     if found is None:
         return None
     terms = _terms(at, found, where)
@@ -98,7 +98,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     return at.made(node, made, rounding)
 
 
-def _terms(at: PartReader, found: g.Found, where: str) -> int:
+def _terms(at: PartReader, found: g.ReadMapping, where: str) -> int:
     """Returns the number of parts; one method for each of them is required."""
     of = found.nodes.get("of")
     terms: int | None = found.get("terms")
@@ -128,7 +128,7 @@ def _largest(flows: Node | None) -> int:
     return min(max(numbers), MAX_TERMS)
 
 
-def _alternating(at: PartReader, found: g.Found, where: str) -> Iterator[_Flow]:
+def _alternating(at: PartReader, found: g.ReadMapping, where: str) -> Iterator[_Flow]:
     """Yields a_1 of part 1, b_1 of part 2, and so on."""
     a, b = found["a"], found["b"]
     if len(a) - len(b) not in {0, 1}:
@@ -149,7 +149,7 @@ def _one_by_one(at: PartReader, items: list[Node], terms: int) -> Iterator[_Flow
             yield int(name) - 1, at.numbers.entry(value, where)
 
 
-def _by_scheme(at: PartReader, found: g.Found, terms: int, where: str) -> Iterator[_Flow]:
+def _by_scheme(at: PartReader, found: g.ReadMapping, terms: int, where: str) -> Iterator[_Flow]:
     """Yields the flows of a named splitting."""
     scheme, node = SPLITTINGS[found["scheme"]], found.nodes["scheme"]
     if scheme.terms and scheme.terms != terms:
@@ -160,4 +160,4 @@ def _by_scheme(at: PartReader, found: g.Found, terms: int, where: str) -> Iterat
         yield l, at.numbers.written(text, node, scheme.name)
 
 
-KIND = g.Kind(_KEYS.schema, _read, _KEYS.inside)
+KIND = g.ValueKind(_KEYS.schema, _read, _KEYS.inside)

@@ -10,7 +10,7 @@ from markupsafe import Markup
 from garkcli.check.analysis import is_pair_of_itself
 from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.parametric import Parametric
-from garkcli.page.cells import Line, lines_of, parts_of, remark
+from garkcli.page.cells import TableauLine, lines_of, parts_of, remark
 from garkcli.page.tableau_latex import dense_polynomials
 from garkcli.page.tableau_text import readable
 from garkcli.report.tableau import shown_parts
@@ -143,7 +143,7 @@ def _part(
     }
 
 
-def _line(tableau: Tableau, found: Entries, line: Line, colours: Sequence[int]) -> Content:
+def _line(tableau: Tableau, found: Entries, line: TableauLine, colours: Sequence[int]) -> Content:
     """Returns the blocks of a stage, which several colours may share, or of weights; blanks for
     absent ones.
     """
