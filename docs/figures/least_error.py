@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 from garkcli.ntrees.drawing import FONTS
-from garkcli.plots.scene import Axis, Curve, Mark, Panel, Rule
+from garkcli.plots.scene import Axis, Curve, Mark, Panel, RuledLine
 from garkcli.plots.svg import STYLE, svg
 
 HERE = Path(__file__).resolve().parent
@@ -45,7 +45,7 @@ def picture() -> str:
     """The SVG document."""
     rows = table()
     pairs = list(rows)
-    shapes: list[Curve | Rule] = [Rule((-0.5, 1.0), (len(pairs) - 0.5, 1.0))]
+    shapes: list[Curve | RuledLine] = [RuledLine((-0.5, 1.0), (len(pairs) - 0.5, 1.0))]
     for style, rule in enumerate(RULES):
         places = [n + (style - 1.5) / 8 for n in range(len(rows))]  # none hides another
         both = zip(places, rows.values(), strict=True)

@@ -118,7 +118,7 @@ def _filters() -> list[click.Option]:
             "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
             "nonlinearly partitioned (nprk), multiderivative (mdrk), multirate (mri).",
         ),
-        "sort": (ORDERS, "The order of the list; by default by order."),
+        "sort": (ORDERS, "The column by which the list is sorted; by default the order."),
     }
     structures = "Which vector fields the problem has: general, separable, nystrom ..."
     judging = "Judge your own methods as gark check does, instead of taking their claims."

@@ -45,7 +45,7 @@ def is_null(node: Node) -> bool:
 
 
 def meant_key(key: str, known: Sequence[str], words: Mapping[str, str]) -> str:
-    """Returns the known key for which an unknown one stands; empty if there is none.
+    """Returns the known key meant by an unknown one; empty if there is none.
 
     ``words`` has other spellings.
     """
