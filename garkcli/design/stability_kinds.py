@@ -63,7 +63,7 @@ class Members(Frozen):
         """Polynomials between whose roots one value decides on A-stability, if they are known."""
         return None
 
-    def known(self, t: Point) -> bool | None:  # noqa: ARG002 -- of the others
+    def known(self, t: Point) -> bool | None:  # noqa: ARG002 -- slices know some
         """Whether a value is A-stable where that is known without a computation."""
         return None
 
@@ -198,7 +198,7 @@ class Kind(ABC):
         tableau = self.members.at(t)
         return tableau is not None and self.holds(tableau)
 
-    def is_refuted(self, t: RealRoot) -> bool:  # noqa: ARG002 -- of the others
+    def is_refuted(self, t: RealRoot) -> bool:  # noqa: ARG002 -- A-stability sees some
         """Whether the method for a value is seen not to have it, in balls."""
         return False
 
