@@ -285,3 +285,37 @@ def test_numbers_that_are_no_nodes_are_left_out() -> None:
     )
     found = [audit(table) for x in (one, three) for table in c.find(x, "x")]
     assert [x is not None and x.has_errors for x in found] == [True, False]
+
+
+def test_a_last_row_like_another_one_is_no_weights() -> None:
+    """The fifth row of RK4 with its weights has the node 1, too, and a higher order than the last:
+    weights are elsewhere.
+    """
+    rows = "[0]*6, [1/2, 0, 0, 0, 0, 0], [0, 1/2, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0]"
+    text = f"rk_a = [{rows}, [1/6, 1/3, 1/3, 1/6, 0, 0], [1/6, 2/3, 0, 0, 1/6, 0]]\n"
+    text += "rk_c = [0, 1/2, 1/2, 1, 1, 1]\n"
+    assert not any(x.b for x in python.find(text, "rk.py"))
+
+
+CASES = """
+subroutine schemes(scheme)
+  real(8), allocatable :: butcher_a(:,:), butcher_b(:)
+  select case (scheme)
+  case ('IJ3')
+    butcher_a = reshape([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, &
+      0.0, onethird, 0.0, 0.0, 0.0, -1.0, 2.0, 0.0], [4, 4], order=[2, 1])
+    butcher_b = reshape([0.0, 0.0, 0.75, 0.25], [4])
+  case ('SDIRK2')
+    butcher_a = reshape([gammaa, 0.0, 1.0 - gammaa, gammaa], [2, 2], order=[2, 1])
+    butcher_b = reshape([1.0 - gammaa, gammaa], [2])
+  end select
+end subroutine
+"""
+
+
+def test_a_matrix_of_stages_is_no_block_and_what_is_not_known_is_told() -> None:
+    """Rows of zeros agree with every node; gammaa is a number of another procedure."""
+    found = [audit(table) for table in fortran.find(CASES, "x")]
+    assert not any(x.has_errors for x in found if x is not None)
+    messages = [y.message for x in found if x is not None for y in x.findings]
+    assert any("the name gammaa" in x for x in messages)
