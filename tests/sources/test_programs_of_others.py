@@ -299,15 +299,15 @@ def test_a_last_row_like_another_one_is_no_weights() -> None:
 
 CASES = """
 subroutine schemes(scheme)
-  real(8), allocatable :: butcher_a(:,:), butcher_b(:)
+  real(8), allocatable :: butcher_aA(:,:), butcher_bA(:)
   select case (scheme)
   case ('IJ3')
-    butcher_a = reshape([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, &
+    butcher_aA = reshape([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, &
       0.0, onethird, 0.0, 0.0, 0.0, -1.0, 2.0, 0.0], [4, 4], order=[2, 1])
-    butcher_b = reshape([0.0, 0.0, 0.75, 0.25], [4])
+    butcher_bA = reshape([0.0, 0.0, 0.75, 0.25], [4])
   case ('SDIRK2')
-    butcher_a = reshape([gammaa, 0.0, 1.0 - gammaa, gammaa], [2, 2], order=[2, 1])
-    butcher_b = reshape([1.0 - gammaa, gammaa], [2])
+    butcher_aA = reshape([gammaa, 0.0, 1.0 - gammaa, gammaa], [2, 2], order=[2, 1])
+    butcher_bA = reshape([1.0 - gammaa, gammaa], [2])
   end select
 end subroutine
 """
