@@ -22,7 +22,7 @@ from garkcli.problems.draw import Draw
 MOST_MINORS = 200
 """Equations that are written down at most."""
 MOST_GENERATORS = 200
-"""Choices of members of a basis that are looked at for as many generators as the codimension."""
+"""Most choices of as many basis elements as the codimension."""
 MOST_POINTS = 60
 """Critical points, complex ones included."""
 CENTRES = 3

@@ -159,7 +159,7 @@ class ConditionTable(Mutable):
 
     @property
     def summary(self) -> str:
-        """The number of conditions, and of those that hold."""
+        """The number of conditions, and how many hold."""
         verdict = (
             "" if self.valued is None or not self.count else _verdict(self.failed, self.valued)
         )
