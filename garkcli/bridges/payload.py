@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from garkcli.bridges.own_arrays import OwnArrays
     from garkcli.constructions.infinitesimal import Coupling
     from garkcli.constructions.rosenbrock import Rosenbrock
+    from garkcli.tableau.embedded import Predictor
 
 Kind: TypeAlias = Literal[
     "rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives", "mri"
@@ -50,6 +51,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         c: the nodes, a row per colour.
         embedded: the embedded weights, a row per colour.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
+        predictor: the weights that predict stages.
         orders: what was proved.
         is_exact: whether every entry is an exact number.
         tolerance: the rounding that A, b and c of the file admit; None where they are exact.
@@ -77,6 +79,7 @@ class Payload(Frozen, eq=False, kw_only=True):
     is_exact: bool = True
     embedded: tuple[Row, ...] | None = None
     dense: tuple[tuple[Row, ...], ...] | None = None
+    predictor: Predictor | None = None
     tolerance: fmpq | None = None
     embedded_tolerance: fmpq | None = None
     dense_tolerance: fmpq | None = None
@@ -106,8 +109,8 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @property
     def parts(self) -> Mapping[str, list[Part]]:
-        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by
-        colour.
+        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by colour; of a
+        predictor ``predictor_old_r0`` and so on, a matrix for each power of r.
         """
         blocks: list[Part] = [
             (l, m, block)
@@ -120,6 +123,10 @@ class Payload(Frozen, eq=False, kw_only=True):
         for x, of_colours in rows.items():
             found[x] = [(l, "", (row,)) for l, row in enumerate(of_colours, start=1)]
         found["dense"] = [(l, "", weights) for l, weights in enumerate(self.dense or (), start=1)]
+        if self.predictor is not None:
+            for name, matrices in (("old", self.predictor.old), ("new", self.predictor.new)):
+                for k, matrix in enumerate(matrices):
+                    found[f"predictor_{name}_r{k}"] = [(1, "", matrix)]
         return found
 
     def arrays(self, before: str = "") -> list[tuple[str, Sequence[Row]]]:

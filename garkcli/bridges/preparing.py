@@ -81,6 +81,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         embedded=None if own else embedded,
         own=own_arrays(own, tableau, method.further) if own else None,
         dense=None if own or dense is None else dense.weights,
+        predictor=method.predictor,
         tolerance=method.tolerance,
         embedded_tolerance=method.embedded_tolerance,
         dense_tolerance=method.dense_tolerance,

@@ -30,7 +30,7 @@ from garkcli.bridges.trials import sides, trial_of
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
 
-EMBEDDED, DENSE = "embedded weights", "dense output"
+EMBEDDED, DENSE, PREDICTOR = "embedded weights", "dense output", "predictor"
 Stages: TypeAlias = Literal["any", "lower", "explicit"]
 """Which stages a target computes: all together, one after the other, explicit ones alone."""
 
@@ -68,6 +68,7 @@ class Bridge(Frozen):
         starts: whether an explicit first stage has to be at the beginning of a step.
         ends: whether explicit methods get a last stage that is the first of the next step.
         lacks: what its files have no place for.
+        has_predictor: whether they have one for weights that predict stages.
         values: what its template has beyond what all have, from the method and its tables; raises
             ``CannotExport`` with the reason and the cure.
         words: how its programs write the right-hand sides; None where nothing runs it.
@@ -89,6 +90,7 @@ class Bridge(Frozen):
     starts: bool = False
     ends: bool = False
     lacks: tuple[str, ...] = (DENSE,)
+    has_predictor: bool = False
     values: Callable[[Payload, Sequence[Table]], Values] = lambda _, __: {}
     words: Mapping[str, str] | None = None
     file: FileName | None = None
@@ -148,14 +150,14 @@ class Bridge(Frozen):
             message = f"{self.name} has no {_KINDS[payload.kind]}"
             raise CannotExport(message, _others(payload), code="unknown-word")
         if payload.kind == "row":
-            left_out = _left_out(payload, self.lacks)
+            left_out = self._left_out(payload)
             return {"left_out": left_out, **({} if self.write else self.linear(payload))}
         if payload.own is not None:
             return {} if self.write else stepped_values(payload)
         fields: Sequence[int] = range(payload.size)
         if payload.kind == "prk" and self.is_split:
             given = {"steps": self._steps(payload), "tables": [], "fields": fields}
-            return {**given, "left_out": _left_out(payload, (EMBEDDED, DENSE))}
+            return {**given, "left_out": _left_out(payload, (EMBEDDED, DENSE, PREDICTOR))}
         tables = [table(payload)] if payload.kind == "rk" else []
         if payload.kind != "rk" and self.several != "as they are":
             tables = shared(payload)
@@ -169,8 +171,11 @@ class Bridge(Frozen):
             raise CannotExport(message, cure)
         found = {"tables": tables, **self.values(payload, tables)}
         first = found["tables"][0] if tables else None
-        left_out = _left_out(payload, self.lacks)
+        left_out = self._left_out(payload)
         return {**found, "table": first, "fields": fields, "left_out": left_out}
+
+    def _left_out(self, payload: Payload) -> list[str]:
+        return _left_out(payload, self.lacks if self.has_predictor else (*self.lacks, PREDICTOR))
 
     def _steps(self, payload: Payload) -> Composition:
         """A method for (q, p) as kicks and drifts."""
@@ -240,7 +245,11 @@ _KINDS: Mapping[Kind, str] = {
 
 def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
     """What a method has that its file has no place for."""
-    has = {EMBEDDED: payload.embedded is not None, DENSE: payload.dense is not None}
+    has = {
+        EMBEDDED: payload.embedded is not None,
+        DENSE: payload.dense is not None,
+        PREDICTOR: payload.predictor is not None,
+    }
     return [x for x in lacks if has[x]]
 
 

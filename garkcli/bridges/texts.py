@@ -66,7 +66,19 @@ LANGUAGES: Mapping[str, Language] = {
 """By the ending of a file; the lines of C and of Fortran are longer than those of the others."""
 
 
-_OF_METHOD = ("stem", "kind", "size", "stages", "A", "b", "c", "embedded", "dense", "arrays")
+_OF_METHOD = (
+    "stem",
+    "kind",
+    "size",
+    "stages",
+    "A",
+    "b",
+    "c",
+    "embedded",
+    "dense",
+    "predictor",
+    "arrays",
+)
 
 
 def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.order.meant import AnyTableau
     from garkcli.order.nearness import Nearness
+    from garkcli.order.predictor import PredictorOrders
     from garkcli.order.sums import WrongSum
     from garkcli.properties.subject import Subject
 
@@ -58,7 +59,8 @@ class Analysis(Shown, Frozen):
             not applicable.
         embedded: the facts about its embedded weights, or None.
         dense: the facts about its dense output, or None.
-        further: its embedded and dense weights.
+        predictor: the orders of its predictor, or None.
+        further: its further weights.
     """
 
     tableau: Tableau
@@ -82,6 +84,7 @@ class Analysis(Shown, Frozen):
     nonautonomous_order: AnyOrder | None = None
     embedded: EmbeddedFacts | None = None
     dense: DenseFacts | None = None
+    predictor: PredictorOrders | None = None
     further: Further = NOTHING
 
     @cached_property

@@ -58,6 +58,8 @@ def _why_none(key: str, analysis: AnyAnalysis) -> str:
         return "there are no embedded weights"
     if key.startswith("dense") and analysis.dense is None:
         return "there is no dense output"
+    if key.startswith("predictor") and getattr(analysis, "predictor", None) is None:
+        return "there is no predictor"
     if key in OF_DAE:
         several = analysis.tableau.size > 2
         return "it has several colours" if several else "alpha + gamma is singular"
@@ -75,6 +77,8 @@ PLACES = {
     "dense-order": "dense.order",
     "dense-continuous": "dense.ends_at_step",
     "dense-smooth": "dense.is_smooth",
+    "predictor-order": "predictor.order",
+    "predictor-order-equal-steps": "predictor.equal_steps",
     "dense-position-order": "dense.position_order",
     "dense-velocity-order": "dense.velocity_order",
 }

@@ -131,7 +131,12 @@ def analyse(
     from garkcli.check.further import further_facts  # few files have them
 
     embedded, dense = further_facts(method, further, order, inconsistent, limit, spans)
-    return replace(found, embedded=embedded, dense=dense, further=further)
+    predictor = None
+    if further.predictor is not None:
+        from garkcli.order.predictor import predictor_orders  # fewer still
+
+        predictor = predictor_orders(tableau, further.predictor, limit)
+    return replace(found, embedded=embedded, dense=dense, predictor=predictor, further=further)
 
 
 def looks_rounded(method: MethodFile) -> RoundingHint | None:

@@ -210,11 +210,11 @@ def check_every(
             message = f"{count} free parameters (limit {MOST_PARAMETERS})"
             cure = "give values to some by --set; gark design asks for one order"
             return _refused(file, message, cure, "too-many")
-        of_dense = [x for x in family.claims if x.key.startswith("dense")]
-        if of_dense:
+        further = [x for x in family.claims if x.key.startswith(("dense", "predictor"))]
+        if further:
             name = family.parameters[0]
-            message = f"{of_dense[0].key} is claimed, and {name} is free"
-            cure = f"dense output is judged for values: --set {name}=1/2"
+            message = f"{further[0].key} is claimed, and {name} is free"
+            cure = f"dense output and predictors are judged for values: --set {name}=1/2"
             return _refused(file, message, cure, "free-parameters")
         found = every_value(family, max(limit, highest_order(family.claims) + 1))
     except MethodFileError as error:

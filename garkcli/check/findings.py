@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
+    from garkcli.order.predictor import PredictorOrders
     from garkcli.order.repair import Repair
     from garkcli.order.simplifying import Simplifying
     from garkcli.order.sums import WrongSum
@@ -54,11 +55,26 @@ DENSE_ORDERS = {
 """Claims on orders of dense output, and the attributes for them."""
 
 
+PREDICTOR_ORDERS = ("predictor-order", "predictor-order-equal-steps")
+"""Claims on a predictor."""
+
+
 def dense_witness_text(found: DenseWitness, colours: bool | Sequence[str]) -> Reason:
     """Returns the tree and the power of θ whose condition fails, and the residual."""
     tree = Code(format_tree(found.witness.tree, colours))
     power = Formula(f"θ^{found.power}", rf"\theta^{{{found.power}}}")
     return _told(found.witness, Reason("{}, at {}", tree, power))
+
+
+def predictor_witness_text(found: PredictorOrders, *, equal_steps: bool) -> Reason:
+    """Which condition the first stage of least order misses; empty where nothing fails."""
+    missed = found.first_missed(equal_steps=equal_steps)
+    if missed is None:
+        return NO_REASON
+    stage, where = missed
+    tree = Code(format_tree(where.witness.tree, colours=False))
+    ratio = "" if equal_steps else f", r = {where.ratio}"
+    return _told(where.witness, Reason(f"{{}} of stage {stage + 1}{ratio}", tree))
 
 
 def _told(witness: Witness, condition: Code | Reason) -> Reason:
@@ -114,6 +130,9 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
         if dense is None or dense.witness is None:
             return NO_REASON
         return dense_witness_text(dense.witness, analysis.tableau.size > 1)
+    if claim in PREDICTOR_ORDERS and analysis.predictor is not None:
+        equal_steps = claim.endswith("equal-steps")
+        return predictor_witness_text(analysis.predictor, equal_steps=equal_steps)
     order, tableau = order_of(analysis, claim)
     if order is None or tableau is None or order.witness is None:
         return NO_REASON

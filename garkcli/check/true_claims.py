@@ -12,7 +12,10 @@ from garkcli.methodfile.expectations import CLAIMS, AtLeast
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 
-ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
+ORDERS = (
+    *("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order"),
+    *("predictor-order", "predictor-order-equal-steps"),
+)
 """The claims that are always written."""
 OF_ROSENBROCK = (
     *("order", "w-order", "old-jacobian-order", "nonautonomous-order", "index-1-order"),

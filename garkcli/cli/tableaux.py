@@ -289,7 +289,8 @@ def convert(given: Given, output: Output) -> None:
     if made.left_out:
         output.note(f"{file}: claims that are left out: {', '.join(made.left_out)}")
     if made.loses_further:
-        output.note(f"{file}: embedded and dense weights are left out")
+        lost = [x for x in method.further.kinds if x not in made.method.further.kinds]
+        output.note(f"{file}: left out: {', '.join(lost)}")
     if output.format != "yaml":
         write_tableau(made.method, output)
     else:

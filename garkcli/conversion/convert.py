@@ -68,7 +68,7 @@ class Converted(Frozen):
     Attributes:
         method: the method, read from the written text.
         left_out: the claims of the file that do not hold for it, or are not defined.
-        loses_further: whether embedded weights or dense output are lost.
+        loses_further: whether embedded weights, dense output or a predictor are lost.
     """
 
     method: MethodFile
@@ -132,7 +132,7 @@ def convert(
         text = write_method(sheet.tableau, name, tolerance, sheet.further)
     else:
         text = _written(replace(found, sheet=sheet), name)
-    loses_further = bool(method.further) and not sheet.further
+    loses_further = method.further.kinds != sheet.further.kinds
     return replace(_converted(text, method, goal), loses_further=loses_further)
 
 

@@ -18,7 +18,7 @@ from garkcli.design.ideal import Ideal, without_multiples
 from garkcli.design.member import (
     TABLEAUS,
     Whose,
-    dense_member,
+    further_member,
     is_admissible,
     is_as_stable,
     member,
@@ -55,6 +55,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.order.dense import dense_order
+from garkcli.order.predictor import predictor_orders
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import PointSpace
@@ -580,18 +581,20 @@ def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
 
 
 def further_of(family: Family, whose: Whose, solution: Solution) -> dict[str, Any]:
-    """``embedded`` and ``dense`` of ``Found``, where a method has such weights."""
+    """``embedded``, ``dense`` and ``predictor`` of ``Found``, where a method has such weights."""
     is_spelled_out = all(isinstance(x, PointSpace) for x in family.tableau.spaces)
     if whose != "method" or not is_spelled_out:
         return {}
-    tableau, further, at = family.tableau, family.further, (family.ring, solution.values)
     found: dict[str, Any] = {}
     with suppress(ZeroDivisionError):
+        at = family.ring, solution.values
+        tableau, further = member(family.tableau, *at), further_member(family.further, *at)
         if further.dense is not None:
-            dense = dense_member(further.dense, *at)
-            found["dense"] = dense_order(member(tableau, *at), dense, DEFAULT_LIMIT)
+            found["dense"] = dense_order(tableau, further.dense, DEFAULT_LIMIT)
+        if further.predictor is not None:
+            found["predictor"] = predictor_orders(tableau, further.predictor, DEFAULT_LIMIT)
         if further.embedded is not None:
-            embedded = member(with_weights(tableau, further.embedded), *at)
+            embedded = with_weights(tableau, further.embedded)
             order = find_order(embedded)
             error = squared_error(embedded, order.order + 1, None)
             found["embedded"] = order, error.numerator / error.denominator

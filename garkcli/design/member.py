@@ -23,7 +23,7 @@ from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.embedded import DenseOutput, Further
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.family import OSCILLATING, Family, Stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.stages import PointSpace, StageSpace
@@ -56,12 +56,6 @@ def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> 
     )
     blocks = {key: at.matrix(block) for key, block in tableau.blocks.items()}
     return Tableau(spaces, colours, blocks)
-
-
-def dense_member(dense: DenseOutput, ring: Parameters, values: Mapping[str, Number]) -> DenseOutput:
-    """Dense output with every parameter replaced by its value, as ``member`` does."""
-    at = _At([values[name] for name in ring.names])
-    return DenseOutput(tuple(map(at.matrix, dense.weights)))
 
 
 def further_member(further: Further, ring: Parameters, values: Mapping[str, Number]) -> Further:

@@ -15,6 +15,7 @@ from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Order
 from garkcli.order.dense import DenseOrder
+from garkcli.order.predictor import PredictorOrders
 
 Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]
 
@@ -33,6 +34,7 @@ class Found(Frozen):
         embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
             None where there are none.
         dense: the order of the dense output; None where there is none.
+        predictor: the orders of the predictor; None likewise.
     """
 
     solution: Solution
@@ -42,6 +44,7 @@ class Found(Frozen):
     open: tuple[int, ...] = ()
     embedded: tuple[Order, Number] | None = None
     dense: DenseOrder | None = None
+    predictor: PredictorOrders | None = None
 
 
 class Zeros(Frozen):

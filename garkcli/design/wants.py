@@ -12,6 +12,7 @@ from flint import fmpq
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.dense import DENSE
 from garkcli.design.pairs import pair_conditions
+from garkcli.design.predictor import PREDICTOR
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE
@@ -353,6 +354,7 @@ WANTS = {
             for key, what in LEVELS.items()
         ),
         *DENSE,
+        *PREDICTOR,
     )
 }
 """Every one of them by its key, in the order of the documentation."""

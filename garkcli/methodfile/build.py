@@ -25,7 +25,7 @@ from garkcli.order.meant import AnyTableau, meant
 from garkcli.reference import Reference
 from garkcli.tableau import forms
 from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.embedded import DenseOutput, Further, padded
+from garkcli.tableau.embedded import DenseOutput, Further, Predictor, padded
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Method, Tableau, butcher
@@ -298,12 +298,36 @@ class Builder(Generic[V]):
         if blocks:
             degree = max(len(block[0]) for block in blocks)
             dense = DenseOutput(tuple(padded(x, degree) for x in blocks))
-        found = Further(tuple(embedded) or None, dense)
+        predictor = self._predictor(texts[0].predictor)
+        found = Further(tuple(embedded) or None, dense, predictor)
         if isinstance(content, d.RosenbrockText) and content.diagonal is not None:
             return self._transformed(content, found)
         return found
 
     # few files are of these kinds: what makes them is imported on use
+
+    def _predictor(self, text: d.PredictorText | None) -> Predictor | None:
+        """The predictor of a method of one colour."""
+        if text is None:
+            return None
+        from garkcli.order.predictor import check_predictor
+
+        rounding = self.text.description.rounding
+        if rounding is not None:
+            message = "predictor needs exact coefficients, and the file has a tolerance"
+            cure = "write exact coefficients, or leave predictor out"
+            self.source.fault(text.node, message, cure, code="rounded")
+            raise self.source.error()
+        powers = max(len(text.old), len(text.new))
+        stages = len((text.old or text.new)[0])
+        nothing = ((ZERO,) * stages,) * stages
+        old, new = (
+            (*map(self.values.matrix, x), *(nothing,) * (powers - len(x)))
+            for x in (text.old, text.new)
+        )
+        made = Predictor(old, new)
+        self._at(text.node, lambda: check_predictor(self.tableau, made))
+        return made
 
     def _rosenbrock(self, text: d.RosenbrockText) -> Rosenbrock:
         from garkcli.constructions.rosenbrock import Rosenbrock, transformed

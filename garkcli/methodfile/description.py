@@ -69,16 +69,35 @@ def of_colour(letter: str, l: int) -> str:
     return f"{letter}^{{{l + 1}}}"
 
 
+class PredictorText(Frozen):
+    """Weights that predict stages.
+
+    Attributes:
+        node: the place in the file.
+        old: the matrices of 1, r, r², … for the slopes of the last step.
+        new: the same for those of this step; zeros follow the shorter of both.
+    """
+
+    node: Node
+    old: tuple[Rows, ...]
+    new: tuple[Rows, ...]
+
+
 class FurtherText(Frozen):
     """Further weights of one colour, or None: embedded ones, one for each stage, and for dense
     output the coefficients of θ, θ², … for each stage.
 
-    ``node`` is that of the first of them.
+    Attributes:
+        embedded: one per stage.
+        dense: of dense output, the coefficients of θ, θ², … a stage.
+        node: where the first of them is.
+        predictor: of the stages.
     """
 
     embedded: Row | None = None
     dense: Rows | None = None
     node: Node | None = None
+    predictor: PredictorText | None = None
 
 
 NOTHING_FURTHER = FurtherText()

@@ -18,7 +18,15 @@ from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, 
 from garkcli.methodfile.expectations import EXPECT
 from garkcli.methodfile.parameters import DEFINITIONS, PARAMETERS
 from garkcli.methodfile.source import Home
-from garkcli.methodfile.spelled_out import BUTCHER, DENSE, TABLEAU, TABLEAU_KEYS, rows_of
+from garkcli.methodfile.spelled_out import (
+    BUTCHER,
+    DENSE,
+    PREDICTOR,
+    PREDICTOR_KEY,
+    TABLEAU,
+    TABLEAU_KEYS,
+    rows_of,
+)
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files
@@ -78,6 +86,7 @@ KEYS = {
             also=("method",),
         ),
         *TABLEAU_KEYS,
+        PREDICTOR_KEY,
         g.Key(
             "transfer: collocation",
             g.later("transfers", "TRANSFER"),
@@ -290,7 +299,14 @@ BESIDE_FORM: tuple[g.KeyRelation, ...] = (
         )
         for key in BESIDE
     ),
-    g.KeyRelation(
+    g.Beside(
+        "predictor",
+        "predictor belongs beside b of a Butcher tableau, which is missing",
+        "gark tableau --format yaml spells the method out, for it",
+        needs=("A", "tableau"),
+        code="missing-key",
+    ),
+    g.Beside(
         "structure",
         "structure does not go with {way}",
         {**_INSIDE, "ark": "use methods, tableau or prk", "": "write absent blocks as null"},
@@ -337,6 +353,7 @@ def method_file_schema() -> g.Schema:
         definitions={
             **DEFINITIONS,
             "dense": DENSE.schema(),
+            "predictor": PREDICTOR.schema(),
             "butcher": BUTCHER.schema(),
             "method": {"oneOf": [FAMILY.schema(), g.defined("butcher").schema()]},
             "part": {

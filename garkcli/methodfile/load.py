@@ -121,6 +121,7 @@ def loads(
         tableau=made.tableau,
         embedded=made.further.embedded,
         dense=made.further.dense,
+        predictor=made.further.predictor,
         form=description.form,
         structure=description.structure,
         is_conjugate=description.is_conjugate,

@@ -22,12 +22,13 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
 
 UNKNOWN = "?"
-"""The text for an unknown coefficient."""
-_MATRICES = {"A", "alpha", "gamma", "dense"}
-_LETTERS = {"embedded": "bh", "dense": "bt"}
+"""What is in a file for a coefficient that is not known."""
+_MATRICES = {"A", "alpha", "gamma", "dense", "predictor, old", "predictor, new"}
+_LETTERS = {"embedded": "bh", "dense": "bt", "predictor, old": "po", "predictor, new": "pn"}
 _PLACE = (
-    r"(?:(?P<part>[qp])\.)?(?:rosenbrock, )?(?P<letter>[Abcd]|alpha|gamma|embedded|dense)"
-    r"(?:\^\{(?P<colours>[0-9,]+)\})?(?:, weights)?"
+    r"(?:(?P<part>[qp])\.)?(?:rosenbrock, )?"
+    r"(?P<letter>[Abcd]|alpha|gamma|embedded|dense|predictor, (?:old|new))"
+    r"(?:\^\{(?P<colours>[0-9,]+)\}|, matrix (?P<matrix>[0-9]+))?(?:, weights)?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
 
@@ -46,14 +47,19 @@ def name_of_place(where: str) -> str | None:
     ('bh1', 'gamma21')
     >>> name_of_place("dense, weights, row 3, entry 2"), name_of_place("dense^{2}, weights, row 1")
     ('bt32', 'bt2_11')
+    >>> name_of_place("predictor, old, row 2, entry 1")
+    'po21'
+    >>> name_of_place("predictor, new, matrix 2, row 3, entry 1")
+    'pn2_31'
     """
     found = re.fullmatch(_PLACE, where)
     if found is None:
         return None
-    part, letter, colours, row, entry = found.groups()
+    part, letter, colours, matrix, row, entry = found.groups()
     # one value in place of a row of one is its only entry
     indices = [row or "1", entry or "1"] if letter in _MATRICES else [entry or "1"]
-    of_colours = f"{_together(colours.split(','))}_" if colours else ""
+    before = (colours or matrix or "").split(",")
+    of_colours = f"{_together(before)}_" if before != [""] else ""
     name = _LETTERS.get(letter, letter.lower()) + of_colours + _together(indices)
     return f"{part}_{name}" if part else name
 
@@ -175,7 +181,9 @@ class Numbers(Mutable):
         """
         name = name_of_place(where)
         if name is None:
-            message = f"{UNKNOWN} stands for an entry of A, b, c, embedded, dense, α, γ or d"
+            message = (
+                f"{UNKNOWN} stands for an entry of A, b, c, embedded, dense, predictor, α, γ or d"
+            )
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)

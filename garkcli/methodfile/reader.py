@@ -61,10 +61,13 @@ class ContentReader(Reading):
         content = self._content(form, structure, entries)
         if content is None:
             return None
-        further = [text.node for text in d.further_of(content) if text.node is not None]
+        texts = d.further_of(content)
+        further = [x.node for x in texts if x.node is not None]
+        further += [x.predictor.node for x in texts if x.predictor is not None]
         if is_conjugate and further:
             message = (
-                "conjugate: the symplectic conjugate has no embedded weights and no dense output"
+                "conjugate: the symplectic conjugate has no embedded weights, dense output or"
+                " predictor"
             )
             self.source.fault(further[0], message, "leave them out", code="not-together")
         place = next(entries[key] for key in (form, "unknown", "b") if key in entries)

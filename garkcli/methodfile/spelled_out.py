@@ -1,5 +1,5 @@
-"""Methods that are spelled out, as Butcher tableaus or in the form ``tableau``, and the further
-weights ``embedded`` and ``dense``, which are beside b in every form.
+"""YAML nodes to methods that are spelled out: Butcher tableaus and the form ``tableau``; and to
+further weights: ``embedded`` and ``dense``, which are beside b in every form, and ``predictor``.
 """
 
 from __future__ import annotations
@@ -39,6 +39,25 @@ DENSE = g.mapping(
     ),
     form=FORM_OF_DENSE,
 )
+"""What is under ``dense``."""
+MAX_POWERS = 10
+"""Most matrices of a predictor, one for each power of r."""
+PREDICTOR = g.mapping(
+    g.Key(
+        "old: [[], [-1/2, 3/2]]",
+        g.Kind(lambda: {"type": "array", "minItems": 1}),
+        "The weights of the slopes of the last step, row by row; or a matrix each for 1, r, r², …, "
+        "with the ratio r of this step size to the last one.",
+    ),
+    g.Key(
+        "new: [[], [1/2]]",
+        g.Kind(lambda: {"type": "array", "minItems": 1}),
+        "The weights of the slopes of this step, of earlier stages alone, in the same way.",
+    ),
+    form="write predictor: {old: [[], [-1/2, 3/2]]}, a row per stage",
+    rules=(g.Ways("slopes are", ("old", "new"), "no weights", "give old or new", is_one=False),),
+)
+"""What is under ``predictor``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
@@ -102,7 +121,15 @@ TABLEAU_KEYS = (
         also=("bi", "binterp", "b_theta"),
     ),
 )
-"""The keys of a Butcher tableau."""
+"""What a Butcher tableau has, wherever it is."""
+_PREDICTOR = g.defined("predictor")
+PREDICTOR_KEY = g.Key(
+    "predictor: {old: [[], [-1/2, 3/2]]}",
+    g.Kind(_PREDICTOR.schema, inside=PREDICTOR.inside),
+    "Weights that predict the values of implicit stages from the slopes of the last step and of "
+    "earlier stages. Write it beside b, for one colour.",
+    page="docs/method-file.md#predictor-where-the-stages-begin",
+)
 
 
 def with_coefficients(*keys: g.Key, form: str) -> g.ValueKind:
@@ -123,6 +150,7 @@ def _elsewhere() -> Mapping[str, str | Home]:
 TABLEAU = with_coefficients(
     *(replace(key, page="") for key in TABLEAU_KEYS[:-1]),
     replace(TABLEAU_KEYS[-1], kind=_DENSE, page=""),
+    replace(PREDICTOR_KEY, kind=_PREDICTOR, page=""),
     form=EXAMPLE,
 )
 """The form ``tableau``."""
@@ -283,6 +311,7 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauT
         if found is None:
             return None
         beside = further_of_method(at, entries, len(found[1]))
+        beside = _with_predictor(at, entries, beside, len(found[1]))
         colours = _linear(at, linear, 1)
         return d.TableauText(((found[0],),), (found[1],), (found[2],), colours, (beside,))
     if is_one_matrix:
@@ -305,6 +334,44 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauT
     return _blocks(at, entries, linear)
 
 
+def _with_predictor(
+    at: Reading, entries: Entries, beside: d.FurtherText, stages: int
+) -> d.FurtherText:
+    if "predictor" not in entries:
+        return beside
+    return replace(beside, predictor=_predictor(at, entries["predictor"], stages))
+
+
+def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
+    """The matrices of a predictor."""
+    found: g.Found | None = PREDICTOR.read(at, node, "predictor")
+    if found is None or not found:
+        return None
+    given = {key: _powers(at, found[key], f"predictor, {key}", stages) for key in found}
+    if not all(given.values()):
+        return None
+    return d.PredictorText(node, given.get("old", ()), given.get("new", ()))
+
+
+def _powers(at: Reading, node: Node, where: str, stages: int) -> tuple[Rows, ...]:
+    """The matrices of 1, r, r², …, or that of 1 alone; none where one has a fault."""
+    is_one = depth_of_lists(node) < 3
+    items = [node] if is_one else at.source.items(node, where)
+    if len(items) > MAX_POWERS:
+        message = f"{where} has {len(items)} matrices (limit {MAX_POWERS})"
+        at.source.fault(node, message, "take polynomials of a lower degree", code="too-many")
+        return ()
+    found = []
+    for k, item in enumerate(items, start=1):
+        name = where if is_one else f"{where}, matrix {k}"
+        rows = at.numbers.matrix(item, name)
+        zero = at.numbers.written("0", item, name)
+        rows = tuple(row + (zero,) * (stages - len(row)) for row in rows)
+        why = f"b has {entries_of(stages)}"
+        found.append(at.numbers.fitted(rows, item, name, (stages, stages), why))
+    return tuple(found) if all(found) else ()
+
+
 def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
     items = colours_in(at, entries["b"], "b")
     if items is None:
@@ -322,7 +389,13 @@ def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText
     if not b or not all(b) or any(len(row) != len(b) for row in A):
         return None
     colours = _linear(at, linear, len(b))
-    return d.TableauText(A, b, c, colours, further_of_colours(at, entries, [len(row) for row in b]))
+    beside = further_of_colours(at, entries, [len(row) for row in b])
+    if len(b) == 1:
+        beside = (_with_predictor(at, entries, beside[0], len(b[0])),)
+    elif "predictor" in entries:
+        message = "predictor is for a method of one colour"
+        at.source.fault(entries["predictor"], message, "leave it out", code="not-together")
+    return d.TableauText(A, b, c, colours, beside)
 
 
 def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:

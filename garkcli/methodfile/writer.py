@@ -36,8 +36,15 @@ def write_tableau_file(
 ) -> str:
     """Returns a method file with every block of ``tableau`` spelled out.
 
-    The tableau has point spaces and exact entries. ``note`` is a comment at the top, ``text``
-    writes a coefficient, ``parameters`` has a text such as ``tau: free`` for each parameter.
+    Args:
+        tableau: over point spaces, every entry exact.
+        name: what the file calls the method.
+        tolerance: the rounding of its coefficients, or None; by keys of ``tolerance`` where it is
+            not the same for all.
+        note: a comment above it.
+        text: how a coefficient is written.
+        parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
+        further: embedded weights, dense output and a predictor, written beside b.
     """
     tableau.demand_fields("a method file")
     lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]
@@ -236,6 +243,12 @@ def _further(further: Further, text: NumberText) -> list[str]:
         lines += ["  dense:", f"    degree: {further.dense.degree}", "    weights:"]
         for l, rows in enumerate(further.dense.weights, start=1):
             lines += [f"      -  # colour {l}: θ, θ², … a stage", *_items(rows, 8, text)]
+    if further.predictor is not None:
+        lines.append("  predictor:")
+        for key, matrices in further.predictor.parts:
+            lines.append(f"    {key}:")
+            for k, rows in enumerate(matrices):
+                lines += [f"      -  # r^{k}", *_items(rows, 8, text)]
     return lines
 
 

@@ -22,7 +22,8 @@ MAX_BESIDE = 8
 
 
 def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
-    return [*displays(tableau, entries), *_dense(entries)]
+    """The arrays, the polynomials of dense output, and the matrices of a predictor."""
+    return [*displays(tableau, entries), *_dense(entries), *_predictor(entries)]
 
 
 def displays(
@@ -96,6 +97,20 @@ def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
         for i, row in enumerate(rows, start=1):
             powers = ((x, power_text(r"\theta", k, f"{{{k}}}")) for k, x in enumerate(row, 1))
             yield f"{letter}_{{{i}}}(\\theta)", sum_latex(powers, lambda x: _cell(x, entries))
+
+
+def _predictor(entries: Entries) -> Iterator[str]:
+    """P(r) and Q(r) of a predictor, as sums of matrices."""
+    for name, matrices in entries.predictor:
+        letter = {"old": "P", "new": "Q"}[name]
+        yield r"\["
+        for k, matrix in enumerate(matrices):
+            begin = f"{letter}(r) = " if not k else f"+ {power_text('r', k, f'{{{k}}}')}"
+            yield f"{begin}\\begin{{pmatrix}}"
+            for row in matrix:
+                yield f"  {' & '.join(_cell(x, entries) for x in row)} \\\\"
+            yield r"\end{pmatrix}"
+        yield r"\]"
 
 
 def _cell(cell: Cell, entries: Entries) -> str:

@@ -35,7 +35,7 @@ def tableau_lines(tableau: Tableau, entries: Entries, width: int = 80) -> list[s
     lines = _grid(tableau, entries)
     if max(map(len, lines)) > width:
         lines = _listing(tableau, entries, width)
-    return [*lines, *_dense(tableau, entries, width)]
+    return [*lines, *_dense(tableau, entries, width), *_predictor(entries, width)]
 
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
@@ -100,6 +100,22 @@ def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
         cells = [_texts(row, entries.digits) for row in rows]
         lines += _block(f"{_named('b', tableau, colour.name)}(θ)", cells, width)
     return lines[:-1]
+
+
+def _predictor(entries: Entries, width: int) -> list[str]:
+    """The weights that predict stages, a block for each power of r."""
+    lines = []
+    for name, matrices in entries.predictor:
+        lines += ["", f"predictor, weights of {_SLOPES[name]}, h = r h_old", ""]
+        for k, matrix in enumerate(matrices):
+            cells = [_texts(row, entries.digits) for row in matrix]
+            lines += _block(("1", "r")[k] if k < 2 else f"r^{k}", cells, width)
+        lines.pop()
+    return lines
+
+
+_SLOPES = {"old": "the slopes of the last step", "new": "the slopes of earlier stages"}
+"""By the part of a predictor that weighs them."""
 
 
 def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:

@@ -54,6 +54,8 @@ _ROCHE = "M. Roche, Numer. Math. 52 (1988)"
 _NYSTROM = "Nyström methods"
 _HAIRER_II_14 = f"{_HAIRER} II.14"
 _WITH_DENSE = "methods with dense output"
+_WITH_PREDICTOR = "methods with a predictor"
+_HIGUERAS = "I. Higueras, T. Roldán, Numerical Algorithms 23 (2000)"
 _ORDERS = (
     Definition(
         "order",
@@ -239,6 +241,20 @@ _ORDERS = (
         " order is no larger than the degree.",
         _HAIRER_II_6,
         meaning=_WITH_DENSE,
+    ),
+    Definition(
+        "predictor-order",
+        "The largest q for which every implicit stage is predicted up to O(h^(q+1)) on every"
+        " problem, whatever the ratio r of this step size to the last one: the prediction and the"
+        " stage have equal weights at all trees of at most q vertices.",
+        _HIGUERAS,
+        meaning=_WITH_PREDICTOR,
+    ),
+    Definition(
+        "predictor-order-equal-steps",
+        "The predictor-order for steps of one size, r = 1.",
+        _HIGUERAS,
+        meaning=_WITH_PREDICTOR,
     ),
     Definition(
         "dense-position-order",

@@ -11,6 +11,7 @@ from garkcli.check.findings import (
     bound_numbers,
     dense_witness_text,
     order_of,
+    predictor_witness_text,
     sum_text,
 )
 from garkcli.check.findings import CLAIM as CLAIM_CURE
@@ -64,6 +65,7 @@ if TYPE_CHECKING:
     from garkcli.order.dense import DenseOrder, DenseWitness
     from garkcli.order.functionals import Estimator
     from garkcli.order.nearness import Entry, Nearness
+    from garkcli.order.predictor import PredictorOrders, StageOrder
     from garkcli.order.repair import Repair
     from garkcli.order.simplifying import Simplifying
     from garkcli.order.sums import WrongSum
@@ -801,6 +803,41 @@ DENSE: Section[DenseFacts] = Section(
 )
 
 
+def predictor_order(a: Analysis) -> Answer[int] | None:
+    """The least order of a predicted stage for every ratio of step sizes, with what fails."""
+    found = a.predictor
+    if found is None:
+        return None
+    missed = found.first_missed(equal_steps=False)
+    status = Status(None, missed is None, NO_REASON)
+    if missed is None:
+        return Answer(found.order, status)
+    reason = predictor_witness_text(found, equal_steps=False)
+    return Answer(found.order, status, reason, witness=missed[1].witness)
+
+
+def predictor_words(x: PredictorOrders, _: Plain) -> str:
+    """``stage 2: order 1, 2 with equal steps``."""
+    said = []
+    for stage in x.stages:
+        equal = f", {stage.equal_steps} with equal steps"
+        is_more = stage.equal_steps > stage.order
+        said.append(f"stage {stage.stage + 1}: order {stage.order}{equal if is_more else ''}")
+    return "; ".join(said)
+
+
+PREDICTED_STAGE: Section[StageOrder] = Section(
+    Row("stage", kinds.POSITION, lambda x: x.stage + 1),
+    Row("order", kinds.COUNT, lambda x: x.order),
+    Row("equal_steps", kinds.COUNT, lambda x: x.equal_steps),
+    optional("order_is_lower_bound", kinds.TRUE, lambda x: x.missed is None or None, DATA),
+)
+PREDICTOR: Section[PredictorOrders] = Section(
+    Row("equal_steps", kinds.COUNT, lambda x: x.equal_steps),
+    Row("stages", parts(PREDICTED_STAGE), lambda x: x.stages),
+)
+
+
 class InTableau(NamedTuple):
     colour: Colour
     tableau: Tableau
@@ -860,6 +897,8 @@ ANALYSIS: Rows[Analysis] = [
     ),
     maybe("dense_order", kinds.COUNT, dense_order),
     maybe("dense", part(DENSE, dense_words), lambda a: a.dense, label="dense output"),
+    optional("predictor_order", kinds.COUNT, predictor_order),
+    optional("predictor", part(PREDICTOR, predictor_words), lambda a: a.predictor),
     maybe("pair_criterion", kinds.COUNT, pair_criterion, DETAIL),
     Row("pair_criterion_why", kinds.TEXTS, pair_criterion_why, DATA),
     maybe("pair_bound", kinds.COUNT, lambda a: bound(a, is_sharp=False, is_of_pair=True), DETAIL),

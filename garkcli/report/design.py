@@ -254,8 +254,8 @@ def certified(order: AnyOrder, whose: str) -> str:
 
 
 def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:
-    """The orders of a solution's embedded weights, with their error at the next order, and of its
-    dense output.
+    """The orders of a solution's embedded weights, with their error at the next order, of its
+    dense output and of its predictor.
     """
     said = []
     if found.embedded is not None:
@@ -265,6 +265,10 @@ def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:
         said.append(f"embedded {known} {order.order} with error {at_next}")
     if found.dense is not None:
         said.append(f"dense order {found.dense.order}")
+    if found.predictor is not None:
+        least, equal = found.predictor.order, found.predictor.equal_steps
+        more = f", {equal} with equal steps" if equal > least else ""
+        said.append(f"predictor order {least}{more}")
     return said
 
 
@@ -557,6 +561,10 @@ def _dense_order(found: Found) -> int | None:
     return None if found.dense is None else found.dense.order
 
 
+def _predictor_order(found: Found) -> int | None:
+    return None if found.predictor is None else found.predictor.order
+
+
 def _embedded_error(found: Found, index: int | None) -> RealRoot | None:
     if found.embedded is None or index is None:
         return None
@@ -570,6 +578,7 @@ OF_FOUND: Rows[Found] = (
 FURTHER: Rows[Found] = (
     optional("embedded_order", COUNT, _embedded_order),
     optional("dense_order", COUNT, _dense_order),
+    optional("predictor_order", COUNT, _predictor_order),
 )
 REAL: Section[Solutions] = Section(
     Row("values", VALUES_OF, lambda x: x.values),

@@ -6,6 +6,7 @@ Numbers are exact strings, with floats of the same shape beside them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
@@ -105,6 +106,10 @@ def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> Rows[E
     def several(entries: Entries, found: Sequence[Grid | None]) -> list[list[list[object]] | None]:
         return [rows(entries, x) for x in found]
 
+    def predictor(key: str, entries: Entries) -> Sequence[object] | None:
+        found = dict(entries.predictor).get(key)
+        return None if found is None else several(entries, found)
+
     matrix = array(array(entry))
     one: Kind[Sequence[object]] = Kind(Json(matrix))
     blocks: Kind[Sequence[object]] = Kind(Json(array(array(nullable(matrix)))))
@@ -115,6 +120,8 @@ def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> Rows[E
         Row("b", one, lambda x: rows(x, x.b), DATA),
         optional("embedded", one, lambda x: rows(x, x.embedded), DATA),
         optional("dense", powers, lambda x: None if x.dense is None else several(x, x.dense), DATA),
+        optional("predictor_old", powers, partial(predictor, "old"), DATA),
+        optional("predictor_new", powers, partial(predictor, "new"), DATA),
     ]
 
 

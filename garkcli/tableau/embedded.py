@@ -1,4 +1,5 @@
-"""Further weights at the stages of a method: embedded ones, and polynomials of dense output.
+"""Further weights at the stages of a method: embedded ones, polynomials of dense output, and those
+that predict stages.
 
 They belong to the same stages and so share stage vectors; with them as b the method is a tableau of
 its own, with the same blocks.
@@ -6,12 +7,12 @@ its own, with the same blocks.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
 from garkcli.errors import ShapeMismatch
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Vector
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -52,17 +53,66 @@ class DenseOutput(Frozen):
         return tuple(map(rows, self.weights))
 
 
+class Predictor(Frozen):
+    """Weights that predict the stages of a step from slopes that are known before they are solved:
+    Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with the slopes k_j of the last step, K_j of
+    the stages of this one that are known, and the ratio r of this step size h to the last one.
+
+    Attributes:
+        old: the matrices p of 1, r, r², …, shape (s, s) each.
+        new: the matrices q, as many.
+    """
+
+    old: tuple[Matrix, ...]
+    new: tuple[Matrix, ...]
+
+    @property
+    def degree(self) -> int:
+        """The largest power of r that has a matrix."""
+        return len(self.old) - 1
+
+    @property
+    def parts(self) -> Iterator[tuple[str, tuple[Matrix, ...]]]:
+        """``old`` and ``new`` with their matrices, without what is zero."""
+        for name, matrices in (("old", self.old), ("new", self.new)):
+            if any(x for matrix in matrices for row in matrix for x in row):
+                yield name, matrices
+
+    def at(self, ratio: Number) -> tuple[Matrix, Matrix]:
+        """The matrices p and q at one ratio."""
+        return _matrix_at(self.old, ratio), _matrix_at(self.new, ratio)
+
+    def changed(self, change: Callable[[Matrix], Matrix]) -> Predictor:
+        """Every matrix replaced by what ``change`` makes of it."""
+        return Predictor(tuple(map(change, self.old)), tuple(map(change, self.new)))
+
+
 class Further(Frozen):
-    """The further weights of a method, None without: embedded weights of each colour, and dense
-    output.
+    """Further weights of a method, each None if there are none.
+
+    Attributes:
+        embedded: the embedded weights of each colour.
+        dense: the weights of dense output.
+        predictor: the weights that predict the stages of a method of one colour.
     """
 
     embedded: Weights | None = None
     dense: DenseOutput | None = None
+    predictor: Predictor | None = None
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Which of them there are, in words."""
+        named = {
+            "embedded weights": self.embedded,
+            "dense output": self.dense,
+            "predictor": self.predictor,
+        }
+        return tuple(name for name, weights in named.items() if weights is not None)
 
     def __bool__(self) -> bool:
         """Whether there are any further weights."""
-        return self.embedded is not None or self.dense is not None
+        return bool(self.kinds)
 
     @property
     def powers(self) -> tuple[Weights, ...]:
@@ -85,12 +135,14 @@ class Further(Frozen):
         def rows(weights: Weights) -> Weights:
             return tuple(map(row, weights))
 
-        embedded, dense = self.embedded, self.dense
+        embedded, dense, predictor = self.embedded, self.dense, self.predictor
         if embedded is not None:
             embedded = rows(embedded)
         if dense is not None:
             dense = DenseOutput(tuple(map(rows, dense.weights)))
-        return Further(embedded, dense)
+        if predictor is not None:
+            predictor = predictor.changed(rows)
+        return Further(embedded, dense, predictor)
 
 
 NOTHING = Further()
@@ -102,6 +154,19 @@ def _value(coefficients: Vector, theta: Number) -> Number:
     for coefficient in reversed(coefficients):
         value = (value + coefficient) * theta
     return value
+
+
+def _matrix_at(powers: Sequence[Matrix], ratio: Number) -> Matrix:
+    """Σ_k M_k r^k, entry by entry."""
+
+    def entry(coefficients: Vector) -> Number:
+        value: Number = ZERO
+        for coefficient in reversed(coefficients):
+            value = value * ratio + coefficient
+        return value
+
+    rows = zip(*powers, strict=True)
+    return tuple(tuple(map(entry, zip(*row, strict=True))) for row in rows)
 
 
 def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
@@ -143,7 +208,7 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
     So operations on stages, such as merging equal ones, also apply to these rows.
     """
-    if not further:
+    if not further.rows:
         return tableau
     colours = list(tableau.colours)
     for weights in further.rows:
@@ -153,12 +218,13 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """Returns the tableau and its further weights, the inverse of ``as_colours``.
+    """The inverse of ``as_colours``: the tableau and its further weights, without a predictor,
+    which is for the stages as they were.
 
     ``further`` are the original weights, which tell the kinds.
     """
-    if not further:
-        return tableau, further
+    if not further.rows:
+        return tableau, replace(further, predictor=None)
     size = tableau.size // (len(further.rows) + 1)
     rows = [
         tuple(colour.b for colour in tableau.colours[start : start + size])

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from garkcli.errors import MethodError, counted
 from garkcli.frozen import Frozen
-from garkcli.tableau.embedded import DenseOutput, Further, Weights
+from garkcli.tableau.embedded import DenseOutput, Further, Predictor, Weights
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown, answered
 
@@ -109,6 +109,7 @@ class GarkMethod(Shown, Frozen, kw_only=True):
         embedded: embedded weights of each colour, exact numbers; None if there are none, as for a
             conjugate and a pair.
         dense: dense output, or None.
+        predictor: weights that predict stages, or None.
         embedded_tolerance: the rounding of the embedded weights.
         dense_tolerance: the rounding of dense output.
 
@@ -127,6 +128,7 @@ class GarkMethod(Shown, Frozen, kw_only=True):
     dense: DenseOutput | None = None
     embedded_tolerance: fmpq | None = None
     dense_tolerance: fmpq | None = None
+    predictor: Predictor | None = None
 
     @cached_property
     def entries(self) -> Entries:
@@ -227,8 +229,7 @@ class GarkMethod(Shown, Frozen, kw_only=True):
 
     @property
     def further(self) -> Further:
-        """The embedded weights and the dense output."""
-        return Further(self.embedded, self.dense)
+        return Further(self.embedded, self.dense, self.predictor)
 
     def _by_colour(self, rows: Sequence[Any]) -> Any:
         """The row of the single colour, or the rows of all."""

@@ -49,6 +49,8 @@ class Entries(Frozen):
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
         embedded: the embedded weights, one row per colour; or None.
         dense: the coefficients of dense output, for each colour a row per stage; or None.
+        predictor: by the slopes that it weighs, the matrices of 1, r, r², …; none where there is no
+            predictor.
     """
 
     c: tuple[Row, ...]
@@ -59,6 +61,7 @@ class Entries(Frozen):
     have_radicals: bool = True
     embedded: tuple[Row, ...] | None = None
     dense: tuple[tuple[Row, ...], ...] | None = None
+    predictor: tuple[tuple[str, tuple[tuple[Row, ...], ...]], ...] = ()
 
     def changed(self, change: Callable[[Cell], Cell]) -> Entries:
         """The entries with ``change`` applied to every number."""
@@ -78,11 +81,18 @@ class Entries(Frozen):
         dense = self.dense
         if dense is not None:
             dense = tuple(tuple(map(row, rows)) for rows in dense)
-        return replace(self, c=c, A=tuple(A), b=b, embedded=embedded, dense=dense)
+        predictor = tuple(
+            (name, tuple(tuple(map(row, matrix)) for matrix in matrices))
+            for name, matrices in self.predictor
+        )
+        return replace(
+            self, c=c, A=tuple(A), b=b, embedded=embedded, dense=dense, predictor=predictor
+        )
 
     def beside(self, further: Further) -> Entries:
         dense = None if further.dense is None else further.dense.weights
-        return replace(self, embedded=further.embedded, dense=dense)
+        predictor = () if further.predictor is None else tuple(further.predictor.parts)
+        return replace(self, embedded=further.embedded, dense=dense, predictor=predictor)
 
     def in_decimals(self, digits: int) -> Entries:
         """The entries as enclosures with ``digits`` correct digits."""

@@ -165,7 +165,7 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     *forms, plain = SCHEMA["allOf"][0]["allOf"][0]["oneOf"]
     assert [x["required"] for x in forms] == [[form] for form in (*FORMS, "unknown")]
     assert [x["required"] for x in plain["anyOf"]] == [[key] for key in PLAIN]
-    assert set(properties["tableau"]["properties"]) == {*PLAIN, *BESIDE}
+    assert set(properties["tableau"]["properties"]) == {*PLAIN, *BESIDE, "predictor"}
     assert properties["structure"]["enum"] == list(STRUCTURES)
     assert set(properties["expect"]["properties"]) == set(CLAIMS)
     *words, combination, of_degree = SCHEMA["definitions"]["rule"]["oneOf"]

@@ -12,7 +12,7 @@ from garkcli.bridges.couplings import coupling_of, keys_of
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import SCHEMA, Payload
 from garkcli.bridges.readers.rows import COLUMNS
-from garkcli.bridges.registry import EVERYTHING, STEPPED, Bridge
+from garkcli.bridges.registry import EVERYTHING, PREDICTOR, STEPPED, Bridge
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
 from garkcli.page.record import Field, Record, schema_named
@@ -83,6 +83,12 @@ def _multirate(payload: Payload) -> Any:
     return _told(payload, keys_of(coupling_of(payload)))
 
 
+def _predictor(payload: Payload) -> Any:
+    """The matrices of 1, r, r², … that predict stages."""
+    found = payload.predictor
+    return found and {"old": _texts(payload, found.old), "new": _texts(payload, found.new)}
+
+
 def _told(payload: Payload, value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: _told(payload, x) for key, x in value.items()}
@@ -124,6 +130,12 @@ _MATRIX = array(_NUMBERS)
 _ONE_ROW = one_of(_NUMBERS, _MATRIX)
 _ONE_BLOCK = one_of(_MATRIX, array(array(_MATRIX)))
 _MATRICES = array(_MATRIX)
+_PREDICTOR: Schema = {
+    "type": "object",
+    "properties": {"old": _MATRICES, "new": _MATRICES},
+    "required": ["old", "new"],
+    "additionalProperties": False,
+}
 _MULTIRATE: Schema = {
     "type": "object",
     "properties": {
@@ -191,6 +203,7 @@ _REPORT: Record[Payload] = Record(
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense_bbar", _MATRIX, _own("dense_bbar"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
+    Field("predictor", _PREDICTOR, _predictor, is_optional=True),
     Field("multirate", _MULTIRATE, _multirate, is_optional=True),
 )
 
@@ -199,7 +212,10 @@ def _csv(payload: Payload) -> str:
     """A row an entry, below a head of comments; colours and stages count from 1, of ``dense`` j is
     the power of theta.
     """
-    return "\n".join([*HASH.lines(head(payload)), ",".join(COLUMNS), *_lines(payload)]) + "\n"
+    notes = [] if payload.predictor is None else [f"Left out: {PREDICTOR}."]
+    return (
+        "\n".join([*HASH.lines(head(payload, *notes)), ",".join(COLUMNS), *_lines(payload)]) + "\n"
+    )
 
 
 def _lines(payload: Payload) -> Iterator[str]:
@@ -219,6 +235,7 @@ BRIDGES = (
         summary="JSON, every number as exact text",
         kinds=(*STEPPED, "mri"),
         suffix=".json",
+        has_predictor=True,
         write=_json,
         reads_back=True,
     ),

@@ -40,6 +40,7 @@ BRIDGES = (
         suffix=".h",
         style=c_style("GARK_REAL_C"),
         lacks=(),
+        has_predictor=True,
         reads_back=True,
     ),
     # With varstep = FALSE deSolve reads only the entries right below the diagonal of A. R reads
@@ -98,6 +99,7 @@ BRIDGES = (
         suffix=".py",
         style=PYTHON,
         lacks=(),
+        has_predictor=True,
         reads_back=True,
     ),
     Bridge(
