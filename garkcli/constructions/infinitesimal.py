@@ -42,6 +42,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.display import to_float
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, replace
 from garkcli.order.meant import AnyTableau
 from garkcli.properties.reduction import merged
@@ -273,13 +274,15 @@ def plan_for_flow(coupling: Coupling) -> CollocationPlan:
     """The plan with the exact solution of each fast problem.
 
     The order is at most ``highest``, and at most ``apparent_order`` unless rounding explains large
-    residuals, so collocation that keeps the trees up to the next order decides it. Otherwise, or
-    with too many stages for that, the search for the order ends there.
+    residuals or coefficients are unknown, so collocation that keeps the trees up to the next order
+    decides it. Otherwise, or with too many stages for that, the search for the order ends there.
     """
     seen = {j for interval in coupling.every for _, row in interval.rows for j in _support(row)}
     degrees = _solved(coupling, [max(1, *map(len, x.forcing)) for x in coupling.every])
     room = max(MAX_STAGES - len(seen) - len(degrees), 0)
-    wanted = min(highest(coupling), apparent_order(coupling, seen))
+    wanted = highest(coupling)
+    if not any(isinstance(x, Parametric) for row in coupling.rows for x in row):
+        wanted = min(wanted, apparent_order(coupling, seen))
     order = max(1, min(wanted, room // (sum(degrees) or 1)))
     refuse_large(sum(degrees) + len(degrees), SMALLER)
     counts = tuple(d * order + 1 if d else 0 for d in degrees)

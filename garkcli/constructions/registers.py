@@ -17,6 +17,7 @@ from garkcli.errors import MethodError, counted
 from garkcli.exact.display import to_ball, to_decimal
 from garkcli.exact.field import ONE, Algebraic
 from garkcli.exact.matrix import Vector
+from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Method, butcher
@@ -250,9 +251,11 @@ def as_butcher(
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
         off = start - ONE
-        if isinstance(off, fmpq | Algebraic) and not within(off, 100 * grain):
+        is_free = isinstance(off, Parametric) and bool(off)
+        if is_free or (isinstance(off, fmpq | Algebraic) and not within(off, 100 * grain)):
             where = f"stage {i}" if i <= len(made.b) else "the step"
-            message = f"{where} begins at {to_decimal(start, 8)} y, not at y"
+            multiple = f"({start})" if is_free else to_decimal(start, 8)
+            message = f"{where} begins at {multiple} y, not at y"
             cure = "the factors of the registers belong to another scheme, or one is misprinted"
             raise MethodError(message, cure, code="cannot-construct")
 

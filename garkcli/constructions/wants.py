@@ -1,20 +1,23 @@
-"""Requirements on Rosenbrock methods in ``gark design``, and the tableau that each other
+"""Requirements on methods of other kinds in ``gark design``, and the tableau that each other
 requirement is about.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from typing import cast
 
+from garkcli.constructions import nystrom
+from garkcli.constructions.infinitesimal import slow_part
+from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.constructions.rosenbrock import DAE_VIEWS, VIEWS, Rosenbrock, is_rosenbrock, seen
 from garkcli.design.want import Asked, Meaning, Want
 from garkcli.design.wants import WANTS, as_embedded, order_meaning
 from garkcli.errors import MethodError
-from garkcli.exact.field import ONE
+from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import SingularMatrixError
-from garkcli.frozen import replace
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.forms import on_linear_problems
 from garkcli.tableau.tableau import Tableau
 
@@ -63,27 +66,143 @@ def _wants() -> Iterator[Want]:
         yield Want(name, "count", summary, partial(_order, name))
 
 
-OF_ROSENBROCK = {want.key: want for want in _wants()}
-"""Requirements for Rosenbrock methods only, by key."""
-EVERY = {**WANTS, **OF_ROSENBROCK}
-"""All requirements, by key."""
+def _order_of_step(key: str, asked: Asked) -> Meaning:
+    """The conditions of one step of a Nyström method, with b̄ and b or the embedded weights."""
+    tableau = as_embedded(asked, key) if key.startswith(EMBEDDED) else asked.tableau
+    found = nystrom.seen(tableau, _STEPS[key.removeprefix(EMBEDDED)])
+    assert isinstance(found, Tableau)
+    order = cast("int", asked.value)
+    return replace(order_meaning(found, asked), claims=((key, f'">= {order}"'),))
+
+
+_STEPS: dict[str, nystrom.Which] = {
+    "position-order": "in_positions",
+    "velocity-order": "in_velocities",
+}
+"""The tableaus with the conditions of one step, by its claim."""
+
+
+def _of_steps() -> Iterator[Want]:
+    """Each order, of the method and with its embedded weights."""
+    for key, letter in zip(_STEPS, ("q", "q′"), strict=True):
+        yield Want(key, "count", f"the order of the step in {letter}", partial(_order_of_step, key))
+    for key, letter in zip(_STEPS, ("q", "q′"), strict=True):
+        name, summary = EMBEDDED + key, f"the order of the step in {letter}, of embedded weights"
+        yield Want(name, "count", summary, partial(_order_of_step, name))
+
+
+def _slow_part(tableau: Tableau) -> Tableau:
+    """The method if the fast part is 0."""
+    found = slow_part(tableau)
+    assert isinstance(found, Tableau)
+    return found
+
+
+def _slow_order(asked: Asked) -> Meaning:
+    """The conditions of the slow method."""
+    order = cast("int", asked.value)
+    meaning = order_meaning(_slow_part(asked.tableau), asked)
+    return replace(meaning, claims=(("slow-order", f'">= {order}"'),))
+
+
+def _last_stage_is_step(asked: Asked) -> Meaning:
+    """The last row of Ā is b̄ and that of A b, and the last node 1: its g is the first of the next
+    step.
+    """
+    method = Nystrom.of(asked.tableau)
+    rows = [(method.Abar[-1], method.bbar)]
+    rows += [] if method.A is None else [(method.A[-1], method.b)]
+    zeros = [x - y for row, b in rows for x, y in zip(row, b, strict=True)]
+    return Meaning((*zeros, method.c[-1] - ONE))
+
+
+def _row_sums(asked: Asked) -> Meaning:
+    """Σ_j ā_ij = c_i²/2, and Σ_j a_ij = c_i: each stage is right up to order 2.
+
+    E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.14.
+    """
+    method = Nystrom.of(asked.tableau)
+    zeros: list[Number] = []
+    for i, c in enumerate(method.c):
+        zeros.append(sum(method.Abar[i], -c * c / 2))
+        zeros += [] if method.A is None else [sum(method.A[i], -c)]
+    return Meaning(tuple(zeros))
 
 
 def _itself(tableau: Tableau) -> Tableau:
     return tableau
 
 
-_MEANT: dict[str, Callable[[Tableau], Tableau]] = {
-    **dict.fromkeys(("embedded-order", "dense-order", *OF_ROSENBROCK), _itself),
-    **dict.fromkeys(("positive-weights", "R-infinity"), on_linear_problems),
-    **dict.fromkeys(("a-stable", "l-stable", "p-stable", "i-stable"), on_linear_problems),
-    **dict.fromkeys(
-        ("nodes-in-unit-interval", "nodes-ascending"),
-        lambda tableau: Rosenbrock.of(tableau).arrays[0],
+def _nodes(tableau: Tableau) -> Tableau:
+    """The array that has the nodes."""
+    kind = Rosenbrock if is_rosenbrock(tableau) else Nystrom
+    return kind.of(tableau).arrays[0]
+
+
+Meant = Callable[[Tableau], Tableau]
+"""The tableau of a method that a requirement is about."""
+
+
+class OfKind(Frozen):
+    """Requirements on methods of one kind.
+
+    Attributes:
+        name: the name of the kind.
+        has: whether a tableau is of this kind.
+        own: requirements for these methods only, by key.
+        meant: the tableaus that other requirements are about, by key.
+        instead: meanings that replace the usual ones, by key.
+    """
+
+    name: str
+    has: Callable[[Tableau], bool]
+    own: Mapping[str, Want]
+    meant: Mapping[str, Meant]
+    instead: Mapping[str, Callable[[Asked], Meaning]]
+
+
+KINDS = (
+    OfKind(
+        "Rosenbrock",
+        is_rosenbrock,
+        {want.key: want for want in _wants()},
+        {
+            **dict.fromkeys(("embedded-order", "dense-order", "stiffly-accurate"), _itself),
+            **dict.fromkeys(("positive-weights", "R-infinity"), on_linear_problems),
+            **dict.fromkeys(("a-stable", "l-stable", "p-stable", "i-stable"), on_linear_problems),
+            **dict.fromkeys(("nodes-in-unit-interval", "nodes-ascending"), _nodes),
+        },
+        {"stiffly-accurate": _stiffly_accurate},
     ),
-    "stiffly-accurate": _itself,
-}
-"""The tableau of a Rosenbrock method that a requirement is about."""
+    OfKind(
+        "Nyström",
+        is_nystrom,
+        {want.key: want for want in _of_steps()},
+        {
+            **dict.fromkeys(("embedded-order", "dense-order", "dense-continuity"), _itself),
+            **dict.fromkeys(("stiffly-accurate", "consistent"), _itself),
+            **dict.fromkeys(("nodes-in-unit-interval", "nodes-ascending"), _nodes),
+        },
+        {"stiffly-accurate": _last_stage_is_step, "consistent": _row_sums},
+    ),
+    OfKind(
+        "multirate infinitesimal",
+        lambda tableau: tableau.exact_to is not None,
+        {
+            "slow-order": Want(
+                "slow-order", "count", "the order of the slow method alone", _slow_order
+            )
+        },
+        {
+            "embedded-order": _itself,
+            **dict.fromkeys(("nodes-in-unit-interval", "nodes-ascending"), _slow_part),
+        },
+        {},
+    ),
+)
+"""The kinds of methods, besides GARK methods, that have requirements."""
+EVERY = {**WANTS, **{key: want for kind in KINDS for key, want in kind.own.items()}}
+"""All requirements, by key."""
 
 
 def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
@@ -92,15 +211,15 @@ def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
     Raises:
         MethodError: it is not defined for methods of this kind.
     """
-    is_own = is_rosenbrock(tableau)
-    if want.key in OF_ROSENBROCK and not is_own:
-        message = f"design: {want.key} applies to Rosenbrock methods only"
+    own = next((kind for kind in KINDS if kind.has(tableau)), None)
+    owner = next((kind for kind in KINDS if want.key in kind.own), None)
+    if owner is not None and owner is not own:
+        message = f"design: {want.key} is meant of {owner.name} methods"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
-    if not is_own:
+    if own is None or want.key in own.own:
         return want, tableau
-    if want.key not in _MEANT:
-        message = f"design: {want.key} does not apply to Rosenbrock methods"
+    if want.key not in own.meant:
+        message = f"design: {want.key} is not meant of {own.name} methods"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
-    if want.key == "stiffly-accurate":
-        want = Want(want.key, want.kind, want.summary, _stiffly_accurate)
-    return want, _MEANT[want.key](tableau)
+    meaning = own.instead.get(want.key, want.meaning)
+    return replace(want, meaning=meaning), own.meant[want.key](tableau)

@@ -21,6 +21,7 @@ from typing import Any, TypeAlias
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
+from garkcli.errors import NotDecided
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long, times
@@ -189,9 +190,12 @@ class FamilyConditions(Spans):
         """Conditions that generate those of all trees of an order, together with lower ones.
 
         Raises:
-            NotDecided: the time was not enough; they may be requested again.
+            NotDecided: the time was not enough, and they may be requested again; or stages do not
+                stand for exact solutions that far.
             TooManyTerms: they are too long.
         """
+        if order > (self.tableau.exact_to or order):
+            raise NotDecided(is_late=False)
         for l, forest in self.members(order, self.tableau.roots):
             _refuse_long(self._cleared.weights[l], forest.vector)
             value = dot(self._cleared.weights[l], forest.vector)

@@ -79,7 +79,7 @@ class _At:
 
     def space(self, space: StageSpace) -> StageSpace:
         if isinstance(space, PointSpace):
-            return PointSpace(self.vector(space.points))
+            return replace(space, points=self.vector(space.points))
         return space
 
     def matrix(self, rows: Matrix) -> Matrix:

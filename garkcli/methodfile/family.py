@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import fmpq, fmpq_mpoly
 from yaml.nodes import ScalarNode
 
+from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
@@ -134,15 +135,23 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
     Raises MethodFileError with all faults of the file.
     """
     if error.reading is None:  # the file was read in another process
-        return loads_family(error.text, error.source, settings, is_design=False)
-    reader, description = error.reading
-    return _family(reader, description, Wishes(), settings, None)
+        family = loads_family(error.text, error.source, settings, is_design=False)
+    else:
+        reader, description = error.reading
+        family = _family(reader, description, Wishes(), settings, None)
+    if family.tableau.exact_to is not None:
+        message = "a parameter is free, and the fast part is solved exactly"
+        cure = "give it a value: --set NAME=1/2; gark design finds values"
+        raise MethodError(message, cure, code="free-parameters")
+    return family
 
 
 def _refuse_others(tableau: Tableau) -> None:
-    """Raises MethodError for methods that are neither GARK nor Rosenbrock methods."""
-    if not is_rosenbrock(tableau):
-        tableau.demand_fields(_DESIGN)
+    """Refuse methods that are neither GARK methods, with exact fast parts too, nor Rosenbrock or
+    Nyström methods.
+    """
+    if not (is_rosenbrock(tableau) or is_nystrom(tableau)):
+        tableau.demand_fields(_DESIGN, with_flow=True)
 
 
 def refuse_rounded(family: FamilyFile) -> None:

@@ -213,7 +213,7 @@ def _free(reader: Reader, description: Description) -> MethodFileError:
         name = next(iter(reader.numbers.free))
         message = f"a {kind} method needs numbers, and {name} is free"
         cure = f"give it a value: --set {name}=1/2"
-        if description.form == "rosenbrock":
+        if description.form in {"rosenbrock", "nystrom"}:
             cure += "; gark design finds values"
         reader.source.fault(description.node, message, cure, code="free-parameters")
         return reader.source.error()

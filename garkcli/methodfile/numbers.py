@@ -23,11 +23,38 @@ if TYPE_CHECKING:
 
 UNKNOWN = "?"
 """What is in a file for a coefficient that is not known."""
-_MATRICES = {"A", "alpha", "gamma", "dense", "predictor, old", "predictor, new"}
-_LETTERS = {"embedded": "bh", "dense": "bt", "predictor, old": "po", "predictor, new": "pn"}
+_OF_MATRICES = {
+    "A": "a",
+    "C": "C",
+    "Abar": "abar",
+    "alpha": "alpha",
+    "beta": "beta",
+    "gamma": "gamma",
+    "omega": "omega",
+    "dense": "bt",
+    "dense, b": "bt",
+    "dense, bbar": "bbart",
+    "predictor, old": "po",
+    "predictor, new": "pn",
+}
+"""The names of unknowns in matrices, by what messages call these."""
+_OF_ROWS = {
+    "b": "b",
+    "bbar": "bbar",
+    "c": "c",
+    "d": "d",
+    "m": "m",
+    "e": "e",
+    "embedded": "bh",
+    "embedded, b": "bh",
+    "embedded, bbar": "bbarh",
+    "embedded, omega": "omegah",
+    "embedded, gamma": "gammah",
+}
+"""The same in rows."""
+_FORMS = "rosenbrock|transformed|nystrom|shu-osher|multirate|mri|mis|coupling"
 _PLACE = (
-    r"(?:(?P<part>[qp])\.)?(?:rosenbrock, )?"
-    r"(?P<letter>[Abcd]|alpha|gamma|embedded|dense|predictor, (?:old|new))"
+    rf"(?:(?P<part>[qp])\.)?(?:(?:{_FORMS}), )*(?P<array>{'|'.join((*_OF_MATRICES, *_OF_ROWS))})"
     r"(?:\^\{(?P<colours>[0-9,]+)\}|, matrix (?P<matrix>[0-9]+))?(?:, weights)?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
@@ -51,16 +78,22 @@ def name_of_place(where: str) -> str | None:
     'po21'
     >>> name_of_place("predictor, new, matrix 2, row 3, entry 1")
     'pn2_31'
+    >>> name_of_place("multirate, mri, embedded, row 1, entry 2")
+    'bh1_2'
     """
     found = re.fullmatch(_PLACE, where)
     if found is None:
         return None
-    part, letter, colours, matrix, row, entry = found.groups()
+    part, array, colours, matrix, row, entry = found.groups()
+    before = colours or matrix
     # one value in place of a row of one is its only entry
-    indices = [row or "1", entry or "1"] if letter in _MATRICES else [entry or "1"]
-    before = (colours or matrix or "").split(",")
-    of_colours = f"{_together(before)}_" if before != [""] else ""
-    name = _LETTERS.get(letter, letter.lower()) + of_colours + _together(indices)
+    indices = [entry or "1"]
+    if array in _OF_MATRICES:
+        indices = [row or "1", *indices]
+    else:
+        before = before or row
+    of_several = f"{_together(before.split(','))}_" if before else ""
+    name = (_OF_MATRICES | _OF_ROWS)[array] + of_several + _together(indices)
     return f"{part}_{name}" if part else name
 
 
@@ -181,9 +214,7 @@ class Numbers(Mutable):
         """
         name = name_of_place(where)
         if name is None:
-            message = (
-                f"{UNKNOWN} stands for an entry of A, b, c, embedded, dense, predictor, α, γ or d"
-            )
+            message = f"{UNKNOWN} stands for an entry of a tableau, or of weights beside it"
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
-from itertools import chain, product
+from itertools import chain, pairwise, product
 from typing import Any, Literal, TypeAlias
 
 from yaml.nodes import Node
@@ -38,23 +38,32 @@ _OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
 class UnknownLayout(Frozen):
     """A tableau whose entries are zeros, names of unknowns and sums of them.
 
-    ``kind`` is the form of its method file. ``A`` has a matrix for each colour, or α and γ of a
-    Rosenbrock method; ``b`` and ``embedded`` a row for each colour, or one for all of an ark.
+    Attributes:
+        kind: the form of method file that it is.
+        A: a matrix for each colour; α and γ of a Rosenbrock method; Ā of a Nyström method, and A
+            where g sees velocities; α and β of the form of Shu and Osher, a row for each value but
+            the first; Γ⁰ and Γ¹ of a multirate coupling, a row from each node to the next.
+        b: a row of weights for each colour; of an ark one for all; b̄ and b of a Nyström method;
+            none of the form of Shu and Osher and of a coupling.
+        embedded: the same of embedded weights; None where there are none.
+        c: the nodes of a Nyström method and of a coupling, of that with the end of the step.
     """
 
-    kind: Literal["tableau", "ark", "prk", "rosenbrock"]
+    kind: Literal["tableau", "ark", "prk", "rosenbrock", "nystrom", "shu-osher", "multirate"]
     A: tuple[Texts, ...]
     b: Texts
     embedded: Texts | None = None
+    c: TextRow = ()
 
     @property
     def stages(self) -> int:
-        return len(self.b[0])
+        """How many stages it has."""
+        return len(self.b[0] if self.b else self.A[0])
 
     @property
     def unknowns(self) -> tuple[str, ...]:
-        """The names in the layout, row by row."""
-        texts = chain.from_iterable(chain(*self.A, self.b, self.embedded or ()))
+        """The names in it, each once, row by row."""
+        texts = chain.from_iterable(chain([self.c], *self.A, self.b, self.embedded or ()))
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> UnknownLayout:
@@ -85,7 +94,9 @@ def _join(stages: int) -> str:
 def with_embedded(layout: UnknownLayout) -> UnknownLayout:
     """Returns the layout with an unknown for each embedded weight: bh1 beside b1."""
     join, stages = _join(layout.stages), range(1, layout.stages + 1)
-    letters = "ab" if layout.kind == "prk" else "b"
+    if layout.kind == "multirate":
+        return _with_embedded_rows(layout)
+    letters = {"prk": ("a", "b"), "nystrom": ("bbar", "b")}.get(layout.kind, ("b",))
     return replace(layout, embedded=tuple(tuple(f"{x}h{join}{i}" for i in stages) for x in letters))
 
 
@@ -96,7 +107,7 @@ def with_nodes(layout: UnknownLayout) -> UnknownLayout:
     the methods are the same, and nodes are what people choose. The sum d_i of a row of γ is used
     likewise.
     """
-    if layout.kind == "prk":
+    if layout.kind in {"prk", "nystrom", "shu-osher", "multirate"}:
         return layout
     everything = [*layout.b[0], *chain.from_iterable(chain(*layout.A))]
 
@@ -107,7 +118,7 @@ def with_nodes(layout: UnknownLayout) -> UnknownLayout:
             return row
         letter = "d" if first.startswith("gamma") else "c"
         node = f"{letter}{_join(layout.stages)}{i}"
-        return (" - ".join([node, *(x for x in others if x != ZERO)]), *others)
+        return (_rest(node, others), *others)
 
     return replace(
         layout,
@@ -188,7 +199,98 @@ def _low_storage(layout: UnknownLayout) -> UnknownLayout:
     return replace(layout, A=(rows,), b=(tuple(weight(s, j) for j in stages),))
 
 
-def _rosenbrock(layout: UnknownLayout) -> UnknownLayout:
+def _nystrom(layout: Layout) -> Layout:
+    """Ā below the diagonal, the nodes c2, c3, … beside it: c_1 = 0."""
+    join = _join(layout.stages)
+    Abar = tuple(tuple(x.replace("a", "abar", 1) for x in row) for row in _explicit(layout).A[0])
+    bbar = tuple(x.replace("b", "bbar", 1) for x in layout.b[0])
+    c = (ZERO, *(f"c{join}{i}" for i in range(2, layout.stages + 1)))
+    return Layout("nystrom", (Abar,), (bbar, *layout.b), c=c)
+
+
+def _velocities(layout: Layout) -> Layout:
+    """A below the diagonal too, with the nodes as row sums."""
+    if layout.kind != "nystrom":
+        message = "velocities are those of a nystrom shape"
+        raise MethodError(message, "begin with nystrom", code="not-together")
+    plain = _explicit(full_layout(layout.stages)).A[0]
+    rows = [
+        (_rest(node, row[1:]), *row[1:]) if i else row
+        for i, (node, row) in enumerate(zip(layout.c, plain, strict=True))
+    ]
+    return replace(layout, A=(*layout.A, tuple(rows)))
+
+
+def _rest(total: str, others: Iterable[str]) -> str:
+    """A number minus others, without those that are zero."""
+    terms = [x for x in others if x != ZERO]
+    if total == ZERO and terms:
+        return f"-{' - '.join(terms)}"
+    return " - ".join([total, *terms])
+
+
+def _last_stage_is_step(layout: Layout) -> Layout:
+    """The last row of Ā is b̄, that of A b, and the last node 1: g at the new values is the first
+    of the next step.
+    """
+    if layout.stages == 1:
+        message = "stiffly-accurate asks for a last node 1, which one stage does not have"
+        raise MethodError(message, "take two stages", code="not-together")
+    bbar, b = layout.b
+    bbar = (*bbar[:-1], ZERO)
+    if len(layout.A) > 1:
+        b = (_rest("1", b[1:-1]), *b[1:-1], ZERO)  # the sum is the last node
+    rows = (bbar, b)[: len(layout.A)]
+    A = tuple((*matrix[:-1], row) for matrix, row in zip(layout.A, rows, strict=True))
+    return replace(layout, A=A, b=(bbar, b), c=(*layout.c[:-1], "1"))
+
+
+def _shu_osher(layout: Layout) -> Layout:
+    """Row i has the values and slopes before value i + 1; the first entry of α is 1 minus the
+    others.
+    """
+    s, join = layout.stages, _join(layout.stages)
+
+    def named(letter: str, i: int) -> list[str]:
+        return [f"{letter}{join}{i}{join}{j}" for j in range(1, i + 1)]
+
+    rows = range(1, s + 1)
+    alpha = [named("alpha", i)[1:] for i in rows]
+    beta = tuple((*named("beta", i), *(ZERO,) * (s - i)) for i in rows)
+    whole = tuple((_rest("1", x), *x, *(ZERO,) * (s - 1 - len(x))) for x in alpha)
+    return Layout("shu-osher", (whole, beta), ())
+
+
+def _mri(layout: Layout) -> Layout:
+    """Explicit stages, and a forcing that is linear in time; each fast problem of a linear slow
+    solution is right: the rows of Γ⁰ sum to the distance of the nodes, those of Γ¹ to zero.
+
+    A. Sandu, *A class of multirate infinitesimal GARK methods*, SIAM J. Numer. Anal. 57, 2019.
+    """
+    s, join = layout.stages, _join(layout.stages)
+    c = (ZERO, *(f"c{join}{i}" for i in range(2, s + 1)), "1")
+    sums = [_rest(end, [begin]) for begin, end in pairwise(c)]
+    matrices = []
+    for power, totals in enumerate((sums, [ZERO] * s), start=1):
+        rows = []
+        for i, total in enumerate(totals, start=1):
+            others = [f"gamma{power}_{i}{join}{j}" for j in range(2, i + 1)]
+            rows.append((_rest(total, others), *others, *(ZERO,) * (s + 1 - i)))
+        matrices.append(tuple(rows))
+    return Layout("multirate", tuple(matrices), (), c=c)
+
+
+def _with_embedded_rows(layout: Layout) -> Layout:
+    """A coupling with other last rows, in the same way."""
+    s, join = layout.stages, _join(layout.stages)
+    rows = []
+    for power, total in enumerate((_rest("1", [layout.c[-2]]), ZERO), start=1):
+        others = [f"bh{power}_{join}{j}" for j in range(2, s + 1)]
+        rows.append((_rest(total, others), *others, ZERO))
+    return replace(layout, embedded=tuple(rows))
+
+
+def _rosenbrock(layout: Layout) -> Layout:
     alpha = [[x.replace("a", "alpha", 1) for x in row] for row in _explicit(layout).A[0]]
     gamma = [[x.replace("a", "gamma", 1) for x in row] for row in _dirk(layout).A[0]]
     for i, row in enumerate(gamma):
@@ -220,6 +322,8 @@ def _stiffly_accurate_rosenbrock(layout: UnknownLayout) -> UnknownLayout:
 def _stiffly_accurate(layout: UnknownLayout) -> UnknownLayout:
     if layout.kind == "rosenbrock":
         return _stiffly_accurate_rosenbrock(layout)
+    if layout.kind == "nystrom":
+        return _last_stage_is_step(layout)
     if layout.kind == "prk":
         message = "a partitioned shape is not stiffly accurate"
         raise MethodError(message, "leave one of them out", code="not-together")
@@ -326,8 +430,12 @@ SHAPES = {
         TableauShape(
             "rosenbrock", "α below the diagonal, γ too, with gamma on its own", _rosenbrock, True
         ),
-        TableauShape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
-        TableauShape("palindromic", "the same method backwards", _palindromic),
+        Shape("shu-osher", "an explicit method by α and β of Shu and Osher", _shu_osher, True),
+        Shape("nystrom", "a Nyström method for g(q), Ā below the diagonal", _nystrom, True),
+        Shape("velocities", "of a Nyström method for g(q, q′), A below the diagonal", _velocities),
+        Shape("mri", "an explicit coupling of fast problems, linear in time", _mri, True),
+        Shape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
+        Shape("palindromic", "the same method backwards", _palindromic),
     )
 }
 """All shapes by name, in the order of the documentation."""
@@ -347,13 +455,21 @@ def layout_of(stages: int, names: Sequence[str]) -> UnknownLayout:
         if shape.begins and place:
             message = f"{name} comes after {names[0]}"
             raise MethodError(message, f"begin with {name}", code="not-together")
-        if layout.kind == "rosenbrock" and name != "stiffly-accurate":
-            message = f"{name} does not go with rosenbrock"
-            raise MethodError(message, "stiffly-accurate goes with it", code="not-together")
+        if layout.kind in _AFTER and name not in _AFTER[layout.kind]:
+            message = f"the shape {name} does not go with {names[0]}"
+            cure = f"with it goes {' and '.join(_AFTER[layout.kind]) or 'no other shape'}"
+            raise MethodError(message, cure, code="not-together")
         layout = shape.applied(layout)
     return with_nodes(layout)
 
 
+_AFTER: dict[str, tuple[str, ...]] = {
+    "rosenbrock": ("stiffly-accurate",),
+    "nystrom": ("velocities", "stiffly-accurate"),
+    "shu-osher": (),
+    "multirate": (),
+}
+"""The shapes that go with methods of a form of their own."""
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20
 """The largest number of stages; twelve unknowns without structure are too many."""
@@ -388,14 +504,20 @@ UNKNOWN = mapping(
 """The number of stages, and the shape."""
 
 
+ShapedText: TypeAlias = (
+    "d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText | d.NystromText | d.RegistersText"
+    " | d.ConstructionText"
+)
+
+
 class Shaped(Frozen):
     """The tableau for ``unknown``: the form and the coefficients of the equivalent method file, the
     layout, and the place of ``unknown: …`` in the file.
     """
 
     form: d.Form
-    content: d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText
-    layout: UnknownLayout
+    content: ShapedText
+    layout: Layout
     place: Extent
 
 
@@ -425,9 +547,9 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
 
-def _content(
-    at: Reading, layout: UnknownLayout, node: Node
-) -> d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText:
+def _content(at: Reading, layout: Layout, node: Node) -> ShapedText:
+    """The coefficients of a layout."""
+
     def row(texts: TextRow, where: str) -> Row:
         numbered = enumerate(texts, start=1)
         return tuple(at.numbers.written(x, node, f"{where}, entry {j}") for j, x in numbered)
@@ -438,12 +560,13 @@ def _content(
         where = d.of_colour("A", colour)
         matrices.append(tuple(row(x, f"{where}, row {i}") for i, x in numbered))
     weights = [row(x, d.of_colour("b", colour)) for colour, x in enumerate(layout.b)]
-    beside = [
-        d.FurtherText(row(x, d.of_colour("embedded", colour)), node=node)
-        for colour, x in enumerate(layout.embedded or ())
+    embedded = [
+        row(x, d.of_colour("embedded", colour)) for colour, x in enumerate(layout.embedded or ())
     ]
+    beside = [d.FurtherText(x, node=node) for x in embedded]
     further = tuple(beside or [d.NOTHING_FURTHER])
-    further *= len(matrices) // len(further)
+    if layout.kind in {"tableau", "ark", "prk"}:
+        further *= len(matrices) // len(further)
     if layout.kind == "prk":
         parts = zip(matrices, weights, further, strict=True)
         return d.PrkText(*(d.ButcherText(node, "", A, b, None, x) for A, b, x in parts))
@@ -451,6 +574,26 @@ def _content(
         alpha, gamma = matrices
         return d.RosenbrockText(
             node, ((alpha,),), ((gamma,),), tuple(weights[:1]), further=further[:1]
+        )
+    if layout.kind == "multirate":
+        from garkcli.methodfile.constructed.multirate import following_text  # few shapes need it
+
+        rows = tuple(embedded) or None
+        return following_text(node, row(layout.c, "c"), matrices, rows)
+    if layout.kind == "shu-osher":
+        return d.RegistersText(node, layout.kind, tuple(matrices), None, further)
+    if layout.kind == "nystrom":
+        Abar, *more = matrices
+        bbar, b = weights
+        q, v = (x.embedded for x in further) if layout.embedded else (None, None)
+        return d.NystromText(
+            node,
+            Abar,
+            more[0] if more else None,
+            row(layout.c, "c"),
+            bbar,
+            b,
+            (q, v) if layout.embedded else None,
         )
     if layout.kind == "ark":
         return d.ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
@@ -472,6 +615,22 @@ def spelled(layout: UnknownLayout) -> str:
     if layout.kind == "rosenbrock":
         alpha, gamma = (f"{x}: {A}" for x, A in zip(("alpha", "gamma"), matrices, strict=True))
         return "\n  ".join(["rosenbrock:", alpha, gamma, *weights, *beside])
+    if layout.kind == "multirate":
+        keys = [f"c: {listed(layout.c)}", f"gamma: {listed(matrices)}"]
+        if layout.embedded is not None:
+            keys.append(f"embedded: {listed(map(listed, layout.embedded))}")
+        return "\n".join(["multirate:", "  mri:", *(f"    {x}" for x in keys), "  fast: exact"])
+    if layout.kind == "shu-osher":
+        alpha, beta = matrices
+        return "\n  ".join(["shu-osher:", f"alpha: {alpha}", f"beta: {beta}", *beside])
+    if layout.kind == "nystrom":
+        lines = [f"{x}: {A}" for x, A in zip(("Abar", "A"), matrices, strict=False)]
+        bbar, b = (x.removeprefix("b: ") for x in weights)
+        if layout.embedded is not None:
+            of_q, of_v = map(listed, layout.embedded)
+            beside = [f"embedded: {{bbar: {of_q}, b: {of_v}}}"]
+        nodes = f"c: {listed(layout.c)}"
+        return "\n  ".join(["nystrom:", *lines, nodes, f"bbar: {bbar}", f"b: {b}", *beside])
     if layout.kind == "ark":
         return "\n  ".join(["ark:", f"A: {listed(matrices)}", weights[0], *beside])
     return "\n".join([f"A: {matrices[0]}", weights[0], *beside])

@@ -19,7 +19,6 @@ from garkcli.backward.modified import modified_equation
 from garkcli.constructions.composition import Substep, adjoint, in_turn
 from garkcli.constructions.rosenbrock import Rosenbrock, rosenbrock, seen, transformed, weights_for
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.search.residuals import Residuals
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Vector, add, apply, dot
@@ -464,7 +463,6 @@ def test_what_is_for_gark_methods_says_so() -> None:
         lambda: stability_fraction(tableau),
         lambda: usual_oscillator(tableau),
         lambda: usual_oscillator(RODAS3.with_any_matrix),
-        lambda: squared_error(RODAS3.with_old_jacobian, 3, None),
         lambda: bind(RODAS3.on_dae, pendulum),
     ]
     for call in refusing:

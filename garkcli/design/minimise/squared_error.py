@@ -24,7 +24,7 @@ from garkcli.design.conditions import Cleared, Entry, Row, Square
 from garkcli.exact.matrix import apply, dot
 from garkcli.exact.parametric import Parameters
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, SEVERAL, Kind
+from garkcli.ntrees.kind import SEVERAL, Kind
 from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.polynomial_space import PolynomialSpace, convolution
 from garkcli.tableau.stages import StageSpace
@@ -52,7 +52,7 @@ class Tensor(Frozen):
             tuple(_added(a, b) for a, b in rows), _added(self.vw, other.vw), self.ww + other.ww
         )
 
-    def times(self, factor: fmpq) -> Tensor:
+    def times(self, factor: Entry) -> Tensor:
         """A multiple."""
         return Tensor(
             tuple(scaled(row, factor) for row in self.vv), scaled(self.vw, factor), self.ww * factor
@@ -149,9 +149,10 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
         ring: the parameters; None where all entries are numbers.
 
     Raises:
-        MethodError: vertices of a colour count several orders, or the exact solution has none.
+        MethodError: vertices of a colour count no order, or stages stand for exact solutions.
     """
-    if {colour.kind for colour in tableau.colours} != {NOT_ONE, ONE_BRANCH}:
+    is_known = order <= (tableau.exact_to or order)
+    if not is_known or not all(colour.kind.weight for colour in tableau.colours):
         tableau.demand_fields("the sum of squared errors")
     return _Sums(Cleared.of(tableau, ring)).total(order)
 
@@ -172,7 +173,7 @@ class _Branch(Frozen):
     """One tree as it is on a forest.
 
     Attributes:
-        value: (D A 𝒜, D w / order) of it.
+        value: (D A 𝒜, D w / order) of it, with D once for each order.
         symmetry: σ.
     """
 
@@ -195,23 +196,27 @@ class _Sums(OrderByOrder[Tensor]):
         cleared = self.cleared
         E = cleared.E
         total = cleared.one * 0
-        for l, b in enumerate(cleared.weights):
+        for l in cleared.tableau.roots:
+            b, kind = cleared.weights[l], cleared.tableau.colours[l].kind
             x = self.of_trees(l, order)
             # (b v)² − 2 (b v) (E w / order) + (E w / order)²
-            scale = E * fmpq(1, order)
-            total += dot(b, _applied(x.vv, b))
-            total -= dot(b, x.vw) * scale * 2
-            total += x.ww * scale * scale
+            scale = E * _share(kind, order)
+            found = dot(b, _applied(x.vv, b)) - dot(b, x.vw) * scale * 2 + x.ww * scale * scale
+            # its branches have D once for each order
+            total += found * cleared.D ** (2 * (kind.weight - 1))
         power = cleared.D ** (order - 1)
         denominator = E * power
         return Quotient(total, denominator * denominator)
 
     def _image(self, k: int, m: int, order: int, trees: Tensor) -> Tensor:
         block = self.cleared.blocks[k, m]
-        scale = self.cleared.D * fmpq(1, order)
+        kind = self.tableau.colours[m].kind
+        scale = self.cleared.D * _share(kind, order)
         columns = [_applied(block, row) for row in trees.vv]
         vv = tuple(_applied(block, row) for row in zip(*columns, strict=True))
-        return Tensor(vv, scaled(_applied(block, trees.vw), scale), trees.ww * scale * scale)
+        found = Tensor(vv, scaled(_applied(block, trees.vw), scale), trees.ww * scale * scale)
+        more = kind.weight - 1
+        return found.times(self.cleared.D ** (2 * more)) if more else found
 
     def _joined(self, k: int, parts: Iterable[Tensor]) -> Tensor:
         total = self._algebras[k].nothing
@@ -259,10 +264,15 @@ class _Sums(OrderByOrder[Tensor]):
             block = self.cleared.blocks.get((k, m))
             if block is None:
                 continue
-            least, most = _branches(colour.kind, order)
-            for forest in self._all_forests(colour.space, order - 1, order - 1, least, most):
-                v = _applied(block, forest.value.v)
-                yield _Branch(Pair(v, forest.value.w * D * fmpq(1, order)), forest.symmetry)
+            kind, rest = colour.kind, order - colour.kind.weight
+            if rest < 0:
+                continue
+            least, most = _branches(kind, rest)
+            more = D ** (kind.weight - 1)
+            for forest in self._all_forests(colour.space, rest, rest, least, most):
+                v = scaled(_applied(block, forest.value.v), more)
+                w = forest.value.w * (more * D) * _share(kind, order)
+                yield _Branch(Pair(v, w), forest.symmetry)
 
     def _all_forests(
         self, k: int, order: int, largest: int, least: int, most: int
@@ -284,11 +294,19 @@ class _Sums(OrderByOrder[Tensor]):
                         yield _joined(algebra, chosen, forest)
 
 
-def _branches(kind: Kind, order: int) -> tuple[int, int]:
-    """The least and the largest number of branches of the root of a tree."""
-    if order == 1:
+def _share(kind: Kind, order: int) -> fmpq:
+    """What the exact solution makes of the number of a forest, in a tree of an order; zero where
+    the root counts more.
+    """
+    is_exact = kind.is_exact and order >= kind.weight
+    return fmpq(1, kind.integrated(order)) if is_exact else fmpq(0)
+
+
+def _branches(kind: Kind, rest: int) -> tuple[int, int]:
+    """The least and the largest number of branches of a root on which a forest of an order is."""
+    if rest == 0:
         return 0, 0 if kind.allows(0) else -1
-    return 1 if kind.allows(1) else SEVERAL, order if kind.allows(SEVERAL) else 1
+    return 1 if kind.allows(1) else SEVERAL, rest if kind.allows(SEVERAL) else int(kind.allows(1))
 
 
 def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> Iterator[_Branch]:

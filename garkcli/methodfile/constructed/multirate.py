@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from itertools import chain
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
@@ -29,9 +28,8 @@ from garkcli.constructions.infinitesimal import (
 )
 from garkcli.constructions.multirate import Blocks, by_blocks, by_rule, slowest_first
 from garkcli.errors import MethodError, counted
-from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
-from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
@@ -258,8 +256,6 @@ class Infinitesimal(Frozen):
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
         coupling = self.coupling(tableau_of, values)
         values.once(("ends", id(self)), lambda: check_ends(coupling))
-        if self.fast is None:
-            _refuse_parameters(coupling.rows)
         plan_for = plan_for_flow if self.fast is None else plan_for_method
         plan: CollocationPlan = values.once(("plan", id(self)), lambda: plan_for(coupling))
         fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
@@ -287,8 +283,6 @@ class Predictor(Frozen):
                 message = f"{key} has {counted(len(rows[0]), 'column')}, and the slow method "
                 message += f"{counted(slow.stages, 'stage')}"
                 raise MethodError(message, "give a column a slow stage", code="wrong-size")
-        if self.fast is None:
-            _refuse_parameters((*slow.A, *chain.from_iterable(forcing)))
         fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
         plan = values.once(("plan", id(self)), lambda: plan_for_predictor(slow, forcing, fast))
         return predicted(slow, forcing, plan, fast, self.steps)
@@ -298,13 +292,6 @@ def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
     tableau = tableau_of(part)
     message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
     return one_field(tableau, message + "where a method of one vector field is expected")
-
-
-def _refuse_parameters(rows: Iterable[Vector]) -> None:
-    """Raises MethodError if a coefficient has no value."""
-    if any(isinstance(x, Parametric) for x in chain.from_iterable(rows)):
-        message = "a parameter is free, and the fast part is solved exactly"
-        raise MethodError(message, "give it a value: --set NAME=1/2", code="free-parameters")
 
 
 def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
@@ -488,10 +475,27 @@ def _polynomials(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, V
     return coupling
 
 
-def _check_restart(
-    at: PartReader, found: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
-) -> None:
-    """Reports what a method with restarts cannot have."""
+def following_text(
+    node: Node, c: Row, gamma: Sequence[Rows], embedded: Rows | None
+) -> ConstructionText:
+    """The coupling that a shape writes, for exact fast problems.
+
+    Args:
+        node: the place in the file.
+        c: the nodes.
+        gamma: the matrices of 1, τ, …
+        embedded: their rows that lead to the embedded value; None without that.
+    """
+
+    def coupling(_: TableauOf, values: Values) -> Coupling:
+        last = None if embedded is None else (tuple(map(values.vector, embedded)),)
+        return following(values.vector(c), (tuple(map(values.matrix, gamma)),), last)
+
+    return ConstructionText(node, (), Infinitesimal(None, coupling, 1))
+
+
+def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequence[Rows]]) -> None:
+    """Note what a method with restarts cannot have."""
     restart = found["restart"]
     if restart == "merk" and len(matrices) > 1:
         message = "multirate, mri: restart: merk goes with omega, not with omega and gamma"
