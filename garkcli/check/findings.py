@@ -67,7 +67,7 @@ def dense_witness_text(found: DenseWitness, colours: bool | Sequence[str]) -> Re
 
 
 def predictor_witness_text(found: PredictorOrders, *, equal_steps: bool) -> Reason:
-    """Which condition the first stage of least order misses; empty where nothing fails."""
+    """The condition that the first stage of least order misses; empty if nothing fails."""
     missed = found.first_missed(equal_steps=equal_steps)
     if missed is None:
         return NO_REASON

@@ -1,4 +1,4 @@
-"""How well a predictor foresees the stages of a step.
+"""The orders of a predictor.
 
     Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with h = r h_old.
 
@@ -39,14 +39,14 @@ class Missed(Frozen):
 
 
 class StageOrder(Frozen):
-    """How well one stage is predicted.
+    """The order of the prediction of one stage.
 
     Attributes:
         stage: counted from 0.
         order: for every ratio of step sizes.
         equal_steps: for steps of one size.
-        missed: what fails one order above ``order``; None where the search stopped.
-        missed_equal: the same of ``equal_steps``.
+        missed: the condition that fails one order above ``order``; None if the search stopped.
+        missed_equal: the condition that fails one order above ``equal_steps``, likewise.
     """
 
     stage: int
@@ -57,7 +57,7 @@ class StageOrder(Frozen):
 
 
 class PredictorOrders(Frozen):
-    """How well the stages are predicted, those that are implicit."""
+    """The orders of the predictions of all implicit stages."""
 
     stages: tuple[StageOrder, ...]
 
@@ -72,8 +72,8 @@ class PredictorOrders(Frozen):
         return min(x.equal_steps for x in self.stages)
 
     def first_missed(self, *, equal_steps: bool) -> tuple[int, Missed] | None:
-        """The first stage of least order, from 0, with what it misses; None where nothing is known
-        to fail.
+        """The first stage of least order, from 0, and the condition that it misses; None if nothing
+        is known to fail.
         """
         for x in self.stages:
             missed = x.missed_equal if equal_steps else x.missed

@@ -102,7 +102,7 @@ class Further(Frozen):
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """Which of them there are, in words."""
+        """The kinds of weights that exist, in words."""
         named = {
             "embedded weights": self.embedded,
             "dense output": self.dense,

@@ -49,7 +49,7 @@ class Entries(Frozen):
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
         embedded: the embedded weights, one row per colour; or None.
         dense: the coefficients of dense output, for each colour a row per stage; or None.
-        predictor: by the slopes that it weighs, the matrices of 1, r, r², …; none where there is no
+        predictor: the matrices of 1, r, r², … for old and for new slopes; empty without a
             predictor.
     """
 
