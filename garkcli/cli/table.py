@@ -108,6 +108,8 @@ import -v --verbose | Show the method files.
 --pair | Take the symplectic pair of FILE instead, 2N colours.
 --digits N 1..1000
     | Decimals with N digits; by default numbers with simple radicals are exact.
+--transformation
+    | Add the eigenvalues of the inverse of A, and T with its real block form.
 --document | With --format latex: a complete document that compiles.
 -j --jobs N 0..256 jobs default=1
     | The number of processes; 0 is one per processor.
@@ -332,7 +334,7 @@ new: new [PLACE] | a new method file, from a tableau or from families
     only --format --output --quiet --color --help
 tableaux: tableau FILE | the whole tableau, block by block
     = load
-    --conjugate --pair --digits --document --set
+    --conjugate --pair --digits --transformation --document --set
 tableaux: conjugate FILE | the symplectic conjugate, or the symplectic pair
     = conjugate pair symplectic_pair
     --pair --digits --document --set
@@ -387,6 +389,10 @@ tableau conjugate modified conditions trees: --document without --format=latex
     | --document goes with --format latex | add --format latex
 report stability conditions modified converge energy tableau export design: --pair with --conjugate
     | --pair and --conjugate are two methods | ask for one
+tableau: --transformation with --format=yaml
+    | a method file has no place for the transformation | ask for another format
+tableau: --transformation with --format=latex
+    | LaTeX has no transformation | ask for another format
 new: FILE with --output | FILE and -o at once | name one place
 new: --tableau with --family | --tableau and --family at once | give one
 trees: ORDER with --order | the order is given twice | give it once

@@ -42,7 +42,7 @@ def tableau(given: Given, output: Output) -> None:
             f"the embedded weights and the dense output are left out: the {given.which} has none"
         )
     if output.format != "yaml":
-        write_tableau(method, output, given.digits, given.document)
+        write_tableau(method, output, given.digits, given.document, given.transformation)
     elif given.digits is None and method.derivation:
         output.write(_derived_file(method, output))
     else:
@@ -61,16 +61,26 @@ def conjugate(given: Given, output: Output) -> None:
 
 
 def write_tableau(
-    method: GarkMethod, output: Output, digits: int | None = None, is_document: bool = False
+    method: GarkMethod,
+    output: Output,
+    digits: int | None = None,
+    is_document: bool = False,
+    with_transformation: bool = False,
 ) -> None:
     """Writes a tableau as text, JSON or LaTeX.
 
-    ``digits`` are those of all entries; by default entries are exact if the nodes have simple
-    radicals.
+    Args:
+        method: any.
+        output: where to, and in which format.
+        digits: the digits of all entries; None for exact entries where the nodes have simple
+            radicals.
+        is_document: whether LaTeX gets a preamble.
+        with_transformation: whether the eigenvalues of A⁻¹ and its real block form are added.
     """
     from garkcli.report.tableau import REPORT, of_method
 
-    output.stream(REPORT, of_method(method, digits), is_document or None)
+    shown = of_method(method, digits, with_transformation)
+    output.stream(REPORT, shown, is_document or None)
 
 
 def _method_file(method: GarkMethod, digits: int | None) -> str:

@@ -199,6 +199,8 @@ def hbvm(stages: int, options: Options) -> Recipe:
     return Recipe(stages, make)
 
 
+MOST_OF_GAUSS = 500
+"""Most stages of Gauss methods, whose entries are found fast (``tableau.gauss_points``)."""
 _ORDER = "2s - 2"
 STIFF = Reference(
     authors=("E. Hairer", "G. Wanner"),
@@ -231,7 +233,9 @@ JAY = Reference(
     year="2015",
 )
 FAMILIES = (
-    of_stages("gauss", gauss, 1, "2s", "collocation at the Gauss nodes; symplectic", STIFF),
+    of_stages(
+        "gauss", gauss, 1, "2s", "collocation at the Gauss nodes; symplectic", STIFF, MOST_OF_GAUSS
+    ),
     of_stages("radau-ia", radau_ia, 1, "2s - 1", "first node 0, D(s)", STIFF),
     of_stages("radau-iia", radau_iia, 1, "2s - 1", "collocation, last node 1", STIFF),
     of_stages("radau-ib", radau_ib, 2, "2s - 1", "mean of IA and its conjugate; symplectic", SUN),

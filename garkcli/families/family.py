@@ -131,6 +131,7 @@ def of_stages(
     order: str,
     summary: str,
     reference: Reference = Reference(),  # noqa: B008 -- a value that does not change
+    largest: int = MAX_STAGES,
 ) -> Family:
     """A family whose members have any number of stages and no options."""
-    return Family(name, by_stages(make), smallest, MAX_STAGES, order, summary, reference=reference)
+    return Family(name, by_stages(make), smallest, largest, order, summary, reference=reference)

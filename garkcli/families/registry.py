@@ -11,7 +11,7 @@ from garkcli import families
 from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
-from garkcli.families.family import MAX_STAGES, Family, Given, Option, Options, Recipe
+from garkcli.families.family import MAX_STAGES, STAGES, Family, Given, Option, Options, Recipe
 from garkcli.tableau.tableau import Method
 
 NO_OPTIONS: Options = {}
@@ -105,10 +105,11 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
         raise UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure, code="unknown-word")
     size = _size_of(family, size)
     recipe = family.recipe(size, _complete(family, options))
-    if recipe.stages > MAX_STAGES:
+    most = family.largest if family.size == STAGES.name else MAX_STAGES
+    if recipe.stages > most:
         stages = counted(recipe.stages, "stage")
         message = f"{name} with {family.size}: {size} has {stages}"
-        raise UnknownFamily(message, f"at most {MAX_STAGES} are made", code="wrong-value")
+        raise UnknownFamily(message, f"at most {most} are made", code="wrong-value")
     return recipe
 
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import UnknownFamily, did_you_mean, nearest
-from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
+from garkcli.families.collocation import MOST_OF_GAUSS
+from garkcli.families.family import Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
@@ -45,7 +46,7 @@ def _kind_of(option: Option) -> ValueKind:
         return word(lambda: option.words)
     if option.smallest is None:
         return NUMBER
-    return count(option.smallest, MAX_STAGES if option.name == "stages" else None)
+    return count(option.smallest, MOST_OF_GAUSS if option.name == "stages" else None)
 
 
 OPTIONS = {option.name: option for family in FAMILIES.values() for option in family.chosen}

@@ -25,6 +25,7 @@ from garkcli.frozen import replace
 from garkcli.order.meant import as_meant, printed
 from garkcli.order.simplifying import is_symplectic
 from garkcli.page.cells import cell_text, remark
+from garkcli.page.paint import aligned
 from garkcli.page.schema import NUMBER, NUMERAL, Schema, array, nullable
 from garkcli.page.tableau_text import readable
 from garkcli.report.check import COLOURS, colours_of, wrong
@@ -32,6 +33,7 @@ from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.transformation import Transformation, transformation
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (
     Answer,
@@ -67,20 +69,33 @@ class ShownTableau(NamedTuple):
     derivation: Derivation = ""
     is_rounded: bool = False
     method: GarkMethod | None = None
+    transformation: Transformation | None = None
 
     @property
     def readable(self) -> Entries:
         return readable(self.entries) if self.is_rounded else self.entries
 
 
-def of_method(method: GarkMethod, digits: int | None = None) -> ShownTableau:
-    """A method, its entries in decimals if digits are named."""
+def of_method(
+    method: GarkMethod, digits: int | None = None, with_transformation: bool = False
+) -> ShownTableau:
+    """A method, its entries in decimals if digits are named.
+
+    Raises:
+        MethodError: the transformation is requested, and there is none.
+    """
     entries = method.entries
     if digits is not None:
         entries = pointwise.entries(method.tableau, digits).beside(method.further)
         entries = entries.in_decimals(digits)
     is_rounded = method.tolerance is not None
-    return ShownTableau(method.tableau, entries, method.name, method.derivation, is_rounded, method)
+    moved = transformation(method.tableau, digits or USUAL) if with_transformation else None
+    name, derivation = method.name, method.derivation
+    return ShownTableau(method.tableau, entries, name, derivation, is_rounded, method, moved)
+
+
+USUAL = 17
+"""Digits of a transformation if no number is given."""
 
 
 DIGITS = 12
@@ -233,6 +248,30 @@ def drawn(x: ShownTableau, d: Plain) -> list[str]:
     return lines
 
 
+def _moved(x: Transformation | None, d: Plain) -> list[str]:
+    """The eigenvalues, T and its inverse."""
+    if x is None:
+        return []
+    pairs = [f"{a} ± {b}i" for a, b in _rounded(x, x.pairs)]
+    lines = [f"eigenvalues of A⁻¹: {', '.join([*_rounded(x, [x.real])[0], *pairs])}"]
+    for name, matrix in (("T", x.T), ("T⁻¹", x.inverse)):
+        lines += ["", f"{name} =", *(f"    {text}" for text in aligned(_rounded(x, matrix)))]
+    return ["", *d.picture(lines, 0)]
+
+
+def _rounded(x: Transformation, rows: Sequence[Sequence[arb]]) -> list[list[str]]:
+    """The texts of some rows of balls."""
+    return [[y.str(x.digits, radius=False) for y in row] for row in rows]
+
+
+ONE: Kind[Sequence[object]] = Kind(Json(array(NUMERAL)))
+SEVERAL: Kind[Sequence[object]] = Kind(Json(array(array(NUMERAL))))
+MOVED: Section[Transformation] = Section(
+    Row("real", ONE, lambda x: _rounded(x, [x.real])[0]),
+    Row("pairs", SEVERAL, lambda x: _rounded(x, x.pairs)),
+    Row("T", SEVERAL, lambda x: _rounded(x, x.T)),
+    Row("T_inverse", SEVERAL, lambda x: _rounded(x, x.inverse)),
+)
 FLOATS: Section[Entries] = Section(_entries(NUMBER, lambda _, x: _float(x)))
 TABLEAU: Section[ShownTableau] = Section(
     Row("name", TEXT, lambda x: x.name, DATA),
@@ -245,6 +284,8 @@ TABLEAU: Section[ShownTableau] = Section(
     Row("float", part(FLOATS), lambda x: x.entries, DATA),
     itself("tableau", drawing(drawn)),
     itself("decimals", drawing(_decimals), DETAIL, label=""),
+    optional("transformation", part(MOVED), lambda x: x.transformation, DATA),
+    Row("transformed", drawing(_moved), lambda x: x.transformation, label=""),
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"

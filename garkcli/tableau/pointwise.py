@@ -21,6 +21,7 @@ from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, mu
 from garkcli.exact.nodes import Expression
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.embedded import Further
+from garkcli.tableau.gauss_points import gauss_rows, is_gauss
 from garkcli.tableau.polynomial_space import (
     PolynomialSpace,
     coordinates_at_nodes,
@@ -221,6 +222,11 @@ def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
     """All entries as enclosures of width below 10^(−digits)."""
     goal = int(digits * BITS_OF_A_DIGIT) + 8
+    if is_gauss(tableau):
+        with ctx.workprec(goal + 64):
+            c, A, b = gauss_rows(tableau.spaces[0].stages)
+        blocks: tuple[tuple[Block, ...], ...] = ((tuple(map(tuple, A)),),)
+        return Entries((tuple(c),), blocks, (tuple(b),), False, digits, have_radicals=False)
     with ctx.workprec(goal + 64):
         while True:
             enclosed = _numeric(tableau, digits)

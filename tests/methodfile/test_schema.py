@@ -11,7 +11,7 @@ import pytest
 import yaml
 from jsonschema import Draft7Validator
 
-from garkcli.families.family import MAX_STAGES
+from garkcli.families.collocation import MOST_OF_GAUSS
 from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.description import BESIDE, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
@@ -175,7 +175,7 @@ def test_the_schema_knows_the_words_of_the_loader() -> None:
     assert set(of_degree["properties"]) == {"rule", "degree"}
     family, _ = SCHEMA["definitions"]["method"]["oneOf"]
     assert family["properties"]["family"]["enum"] == list(FAMILIES)
-    stages = {"type": "integer", "minimum": 1, "maximum": MAX_STAGES}
+    stages = {"type": "integer", "minimum": 1, "maximum": MOST_OF_GAUSS}
     assert stages.items() <= family["properties"]["stages"].items()
 
 
@@ -203,7 +203,7 @@ def test_stages_are_needed_where_the_loader_needs_them(name: str) -> None:
         "methods: [{family: gauss, stages: 2}]\ndescripton: a slip",
         "methods: [{family: gauss, stages: 2}, {family: rk4}]",
         "methods: [{family: gauss, stages: 2, A: [[1]]}]",
-        "methods: [{family: gauss, stages: 201}]",
+        "methods: [{family: gauss, stages: 501}]",
         "methods: [{A: [[1/2]]}]",
         "methods: [{A: [[1/2]], b: []}]",
         "methods: [{A: [['1/2; 3']], b: [1]}]",
