@@ -337,7 +337,7 @@ tableaux: tableau FILE | the whole tableau, block by block
     --conjugate --pair --digits --transformation --document --set
 tableaux: conjugate FILE | the symplectic conjugate, or the symplectic pair
     = conjugate pair symplectic_pair
-    --pair --digits --document --set
+    --pair --digits --transformation --document --set
 tableaux: convert FILE | the same method in another form, or with fewer stages
     = convert
     --to --stages --digits --recognise --set
@@ -389,9 +389,9 @@ tableau conjugate modified conditions trees: --document without --format=latex
     | --document goes with --format latex | add --format latex
 report stability conditions modified converge energy tableau export design: --pair with --conjugate
     | --pair and --conjugate are two methods | ask for one
-tableau: --transformation with --format=yaml
+tableau conjugate: --transformation with --format=yaml
     | a method file has no place for the transformation | ask for another format
-tableau: --transformation with --format=latex
+tableau conjugate: --transformation with --format=latex
     | LaTeX has no transformation | ask for another format
 new: FILE with --output | FILE and -o at once | name one place
 new: --tableau with --family | --tableau and --family at once | give one

@@ -299,14 +299,14 @@ BESIDE_FORM: tuple[g.KeyRelation, ...] = (
         )
         for key in BESIDE
     ),
-    g.Beside(
+    g.KeyRelation(
         "predictor",
         "predictor belongs beside b of a Butcher tableau, which is missing",
         "gark tableau --format yaml spells the method out, for it",
         needs=("A", "tableau"),
         code="missing-key",
     ),
-    g.Beside(
+    g.KeyRelation(
         "structure",
         "structure does not go with {way}",
         {**_INSIDE, "ark": "use methods, tableau or prk", "": "write absent blocks as null"},

@@ -199,16 +199,16 @@ def _low_storage(layout: UnknownLayout) -> UnknownLayout:
     return replace(layout, A=(rows,), b=(tuple(weight(s, j) for j in stages),))
 
 
-def _nystrom(layout: Layout) -> Layout:
+def _nystrom(layout: UnknownLayout) -> UnknownLayout:
     """Ā below the diagonal, the nodes c2, c3, … beside it: c_1 = 0."""
     join = _join(layout.stages)
     Abar = tuple(tuple(x.replace("a", "abar", 1) for x in row) for row in _explicit(layout).A[0])
     bbar = tuple(x.replace("b", "bbar", 1) for x in layout.b[0])
     c = (ZERO, *(f"c{join}{i}" for i in range(2, layout.stages + 1)))
-    return Layout("nystrom", (Abar,), (bbar, *layout.b), c=c)
+    return UnknownLayout("nystrom", (Abar,), (bbar, *layout.b), c=c)
 
 
-def _velocities(layout: Layout) -> Layout:
+def _velocities(layout: UnknownLayout) -> UnknownLayout:
     """A below the diagonal too, with the nodes as row sums."""
     if layout.kind != "nystrom":
         message = "velocities are those of a nystrom shape"
@@ -229,7 +229,7 @@ def _rest(total: str, others: Iterable[str]) -> str:
     return " - ".join([total, *terms])
 
 
-def _last_stage_is_step(layout: Layout) -> Layout:
+def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
     """The last row of Ā is b̄, that of A b, and the last node 1: g at the new values is the first
     of the next step.
     """
@@ -245,7 +245,7 @@ def _last_stage_is_step(layout: Layout) -> Layout:
     return replace(layout, A=A, b=(bbar, b), c=(*layout.c[:-1], "1"))
 
 
-def _shu_osher(layout: Layout) -> Layout:
+def _shu_osher(layout: UnknownLayout) -> UnknownLayout:
     """Row i has the values and slopes before value i + 1; the first entry of α is 1 minus the
     others.
     """
@@ -258,10 +258,10 @@ def _shu_osher(layout: Layout) -> Layout:
     alpha = [named("alpha", i)[1:] for i in rows]
     beta = tuple((*named("beta", i), *(ZERO,) * (s - i)) for i in rows)
     whole = tuple((_rest("1", x), *x, *(ZERO,) * (s - 1 - len(x))) for x in alpha)
-    return Layout("shu-osher", (whole, beta), ())
+    return UnknownLayout("shu-osher", (whole, beta), ())
 
 
-def _mri(layout: Layout) -> Layout:
+def _mri(layout: UnknownLayout) -> UnknownLayout:
     """Explicit stages, and a forcing that is linear in time; each fast problem of a linear slow
     solution is right: the rows of Γ⁰ sum to the distance of the nodes, those of Γ¹ to zero.
 
@@ -277,10 +277,10 @@ def _mri(layout: Layout) -> Layout:
             others = [f"gamma{power}_{i}{join}{j}" for j in range(2, i + 1)]
             rows.append((_rest(total, others), *others, *(ZERO,) * (s + 1 - i)))
         matrices.append(tuple(rows))
-    return Layout("multirate", tuple(matrices), (), c=c)
+    return UnknownLayout("multirate", tuple(matrices), (), c=c)
 
 
-def _with_embedded_rows(layout: Layout) -> Layout:
+def _with_embedded_rows(layout: UnknownLayout) -> UnknownLayout:
     """A coupling with other last rows, in the same way."""
     s, join = layout.stages, _join(layout.stages)
     rows = []
@@ -290,7 +290,7 @@ def _with_embedded_rows(layout: Layout) -> Layout:
     return replace(layout, embedded=tuple(rows))
 
 
-def _rosenbrock(layout: Layout) -> Layout:
+def _rosenbrock(layout: UnknownLayout) -> UnknownLayout:
     alpha = [[x.replace("a", "alpha", 1) for x in row] for row in _explicit(layout).A[0]]
     gamma = [[x.replace("a", "gamma", 1) for x in row] for row in _dirk(layout).A[0]]
     for i, row in enumerate(gamma):
@@ -430,12 +430,16 @@ SHAPES = {
         TableauShape(
             "rosenbrock", "α below the diagonal, γ too, with gamma on its own", _rosenbrock, True
         ),
-        Shape("shu-osher", "an explicit method by α and β of Shu and Osher", _shu_osher, True),
-        Shape("nystrom", "a Nyström method for g(q), Ā below the diagonal", _nystrom, True),
-        Shape("velocities", "of a Nyström method for g(q, q′), A below the diagonal", _velocities),
-        Shape("mri", "an explicit coupling of fast problems, linear in time", _mri, True),
-        Shape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
-        Shape("palindromic", "the same method backwards", _palindromic),
+        TableauShape(
+            "shu-osher", "an explicit method by α and β of Shu and Osher", _shu_osher, True
+        ),
+        TableauShape("nystrom", "a Nyström method for g(q), Ā below the diagonal", _nystrom, True),
+        TableauShape(
+            "velocities", "of a Nyström method for g(q, q′), A below the diagonal", _velocities
+        ),
+        TableauShape("mri", "an explicit coupling of fast problems, linear in time", _mri, True),
+        TableauShape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
+        TableauShape("palindromic", "the same method backwards", _palindromic),
     )
 }
 """All shapes by name, in the order of the documentation."""
@@ -517,7 +521,7 @@ class Shaped(Frozen):
 
     form: d.Form
     content: ShapedText
-    layout: Layout
+    layout: UnknownLayout
     place: Extent
 
 
@@ -547,7 +551,7 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
 
-def _content(at: Reading, layout: Layout, node: Node) -> ShapedText:
+def _content(at: Reading, layout: UnknownLayout, node: Node) -> ShapedText:
     """The coefficients of a layout."""
 
     def row(texts: TextRow, where: str) -> Row:

@@ -45,13 +45,13 @@ MAX_POWERS = 10
 PREDICTOR = g.mapping(
     g.Key(
         "old: [[], [-1/2, 3/2]]",
-        g.Kind(lambda: {"type": "array", "minItems": 1}),
+        g.ValueKind(lambda: {"type": "array", "minItems": 1}),
         "The weights of the slopes of the last step, row by row; or a matrix each for 1, r, r², …, "
         "with the ratio r of this step size to the last one.",
     ),
     g.Key(
         "new: [[], [1/2]]",
-        g.Kind(lambda: {"type": "array", "minItems": 1}),
+        g.ValueKind(lambda: {"type": "array", "minItems": 1}),
         "The weights of the slopes of this step, of earlier stages alone, in the same way.",
     ),
     form="write predictor: {old: [[], [-1/2, 3/2]]}, a row per stage",
@@ -125,7 +125,7 @@ TABLEAU_KEYS = (
 _PREDICTOR = g.defined("predictor")
 PREDICTOR_KEY = g.Key(
     "predictor: {old: [[], [-1/2, 3/2]]}",
-    g.Kind(_PREDICTOR.schema, inside=PREDICTOR.inside),
+    g.ValueKind(_PREDICTOR.schema, inside=PREDICTOR.inside),
     "Weights that predict the values of implicit stages from the slopes of the last step and of "
     "earlier stages. Write it beside b, for one colour.",
     page="docs/method-file.md#predictor-where-the-stages-begin",
@@ -344,7 +344,7 @@ def _with_predictor(
 
 def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
     """The matrices of a predictor."""
-    found: g.Found | None = PREDICTOR.read(at, node, "predictor")
+    found: g.ReadMapping | None = PREDICTOR.read(at, node, "predictor")
     if found is None or not found:
         return None
     given = {key: _powers(at, found[key], f"predictor, {key}", stages) for key in found}

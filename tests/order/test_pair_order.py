@@ -285,7 +285,7 @@ def test_many_blocks_are_not_looked_at() -> None:
     """Thirteen methods have 156 blocks: more than the limit, which is said."""
     method = of_file((gauss(1),) * 13, "collocation")
     found = list(rule_reasons(analysis(method), method.rules))
-    assert found == ["whether 156 blocks keep the order is not looked at (limit 150)"]
+    assert found == ["156 blocks were not examined for the order (limit 150)"]
 
 
 @in_whole

@@ -92,7 +92,7 @@ HOMONYMS = {
     ("converge", "steps", "error"): "at the end",
     ("sweep", "best", "error"): "error coefficients",
     ("check", "files", "colours"): "by their names",
-    ("list-methods", "colours"): "How many",
+    ("list-methods", "colours"): "number of colours",
     ("check", "files", "witness", "order"): "vertices",
     ("check", "files", "order"): "order conditions",
     ("check", "files", "order", "fact", "where"): "parameter",

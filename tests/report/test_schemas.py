@@ -83,6 +83,9 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     ],
     "modified-energy": [("energy", COLLOCATION, "--pair", "--modified", "--t-end", "1")],
     "design-search": [("design", FAMILY, "--order", "3", "--search", "4")],
+    "design-curve": [
+        ("design", FAMILY, "--order", "2", "--search", "3", "--front", "error", "coefficients")
+    ],
     "design": [
         (FAMILY,),
         (FAMILY, "--order", "4"),

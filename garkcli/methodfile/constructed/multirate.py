@@ -494,7 +494,9 @@ def following_text(
     return ConstructionText(node, (), Infinitesimal(None, coupling, 1))
 
 
-def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequence[Rows]]) -> None:
+def _check_restart(
+    at: PartReader, found: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
+) -> None:
     """Note what a method with restarts cannot have."""
     restart = found["restart"]
     if restart == "merk" and len(matrices) > 1:
