@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
 
 UNKNOWN = "?"
-"""What is in a file for a coefficient that is not known."""
+"""The sign of an unknown coefficient."""
 _OF_MATRICES = {
     "A": "a",
     "C": "C",
@@ -51,7 +51,7 @@ _OF_ROWS = {
     "embedded, omega": "omegah",
     "embedded, gamma": "gammah",
 }
-"""The same in rows."""
+"""The letters of unknowns in rows of a file, by key."""
 _FORMS = "rosenbrock|transformed|nystrom|shu-osher|multirate|mri|mis|coupling"
 _PLACE = (
     rf"(?:(?P<part>[qp])\.)?(?:(?:{_FORMS}), )*(?P<array>{'|'.join((*_OF_MATRICES, *_OF_ROWS))})"

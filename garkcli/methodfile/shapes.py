@@ -25,7 +25,8 @@ from garkcli.methodfile.grammar import (
     word,
 )
 from garkcli.methodfile.nodes import Extent, extent, shortened
-from garkcli.methodfile.numbers import Reading, Row
+from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.values import Values
 
 TextRow: TypeAlias = tuple[str, ...]
 Texts: TypeAlias = tuple[TextRow, ...]
@@ -45,7 +46,7 @@ class UnknownLayout(Frozen):
             the first; Γ⁰ and Γ¹ of a multirate coupling, a row from each node to the next.
         b: a row of weights for each colour; of an ark one for all; b̄ and b of a Nyström method;
             none of the form of Shu and Osher and of a coupling.
-        embedded: the same of embedded weights; None where there are none.
+        embedded: the same of embedded weights; None without any.
         c: the nodes of a Nyström method and of a coupling, of that with the end of the step.
     """
 
@@ -57,7 +58,6 @@ class UnknownLayout(Frozen):
 
     @property
     def stages(self) -> int:
-        """How many stages it has."""
         return len(self.b[0] if self.b else self.A[0])
 
     @property
@@ -580,10 +580,7 @@ def _content(at: Reading, layout: UnknownLayout, node: Node) -> ShapedText:
             node, ((alpha,),), ((gamma,),), tuple(weights[:1]), further=further[:1]
         )
     if layout.kind == "multirate":
-        from garkcli.methodfile.constructed.multirate import following_text  # few shapes need it
-
-        rows = tuple(embedded) or None
-        return following_text(node, row(layout.c, "c"), matrices, rows)
+        return _coupling(node, row(layout.c, "c"), matrices, tuple(embedded) or None)
     if layout.kind == "shu-osher":
         return d.RegistersText(node, layout.kind, tuple(matrices), None, further)
     if layout.kind == "nystrom":
@@ -638,3 +635,17 @@ def spelled(layout: UnknownLayout) -> str:
     if layout.kind == "ark":
         return "\n  ".join(["ark:", f"A: {listed(matrices)}", weights[0], *beside])
     return "\n".join([f"A: {matrices[0]}", weights[0], *beside])
+
+
+def _coupling(
+    node: Node, c: Row, gamma: Sequence[Rows], embedded: Rows | None
+) -> d.ConstructionText:
+    """The coupling of exact fast problems by the matrices of 1, τ, …, and their embedded rows."""
+    from garkcli.constructions.infinitesimal import Coupling, following  # few shapes need it
+    from garkcli.methodfile.constructed.couplings import Infinitesimal
+
+    def coupling(_: object, values: Values) -> Coupling:
+        last = None if embedded is None else (tuple(map(values.vector, embedded)),)
+        return following(values.vector(c), (tuple(map(values.matrix, gamma)),), last)
+
+    return d.ConstructionText(node, (), Infinitesimal(None, coupling, 1))

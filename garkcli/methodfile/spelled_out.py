@@ -39,7 +39,7 @@ DENSE = g.mapping(
     ),
     form=FORM_OF_DENSE,
 )
-"""What is under ``dense``."""
+"""The keys under ``dense``."""
 MAX_POWERS = 10
 """Most matrices of a predictor, one for each power of r."""
 PREDICTOR = g.mapping(
@@ -57,7 +57,7 @@ PREDICTOR = g.mapping(
     form="write predictor: {old: [[], [-1/2, 3/2]]}, a row per stage",
     rules=(g.Ways("slopes are", ("old", "new"), "no weights", "give old or new", is_one=False),),
 )
-"""What is under ``predictor``."""
+"""The keys under ``predictor``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
@@ -121,7 +121,7 @@ TABLEAU_KEYS = (
         also=("bi", "binterp", "b_theta"),
     ),
 )
-"""What a Butcher tableau has, wherever it is."""
+"""The keys of a Butcher tableau, wherever it is."""
 _PREDICTOR = g.defined("predictor")
 PREDICTOR_KEY = g.Key(
     "predictor: {old: [[], [-1/2, 3/2]]}",
@@ -354,7 +354,7 @@ def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
 
 
 def _powers(at: Reading, node: Node, where: str, stages: int) -> tuple[Rows, ...]:
-    """The matrices of 1, r, r², …, or that of 1 alone; none where one has a fault."""
+    """The matrices of 1, r, r², …, or the matrix of 1 alone; empty if one has a fault."""
     is_one = depth_of_lists(node) < 3
     items = [node] if is_one else at.source.items(node, where)
     if len(items) > MAX_POWERS:

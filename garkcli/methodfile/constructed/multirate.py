@@ -4,24 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.constructions.infinitesimal import (
-    CollocationPlan,
     Coupling,
     Powers,
-    check_ends,
     following,
     generalized,
-    infinitesimal,
     interpolation,
     mis_coupling,
     of_step_time,
-    plan_for_flow,
-    plan_for_method,
     plan_for_predictor,
     predicted,
     restarted,
@@ -32,6 +27,7 @@ from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile import grammar as g
+from garkcli.methodfile.constructed.couplings import Infinitesimal, TableauOf, method_of_part
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText, further_of
 from garkcli.methodfile.load import NO_SETTINGS, built, described
@@ -39,7 +35,6 @@ from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.forms import one_field
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
 
@@ -69,7 +64,6 @@ RESTARTS = {
 _BLOCKS = ("fast-slow", "slow-fast")
 _NAMES = ("lambda", "M")
 """The number of a small step, from 1, and the number of small steps, in coupling matrices."""
-TableauOf: TypeAlias = Callable[[PartText], Tableau]
 
 _SMALL_STEPS = g.ValueKind(MATRIX.schema, g.as_it_is)
 _COUPLING = g.mapping(
@@ -242,26 +236,6 @@ _KEYS = g.mapping(
 )
 
 
-class Infinitesimal(Frozen):
-    """Makes a multirate infinitesimal method.
-
-    ``fast`` is None for the exact solution; ``coupling`` makes the coupling of the slow stages;
-    ``steps`` is the number of small steps between two slow stages.
-    """
-
-    fast: PartText | None
-    coupling: Callable[[TableauOf, Values], Coupling]
-    steps: int
-
-    def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
-        coupling = self.coupling(tableau_of, values)
-        values.once(("ends", id(self)), lambda: check_ends(coupling))
-        plan_for = plan_for_flow if self.fast is None else plan_for_method
-        plan: CollocationPlan = values.once(("plan", id(self)), lambda: plan_for(coupling))
-        fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
-        return infinitesimal(coupling, plan, fast, self.steps)
-
-
 class Predictor(Frozen):
     """Makes a method with a step-predictor.
 
@@ -276,22 +250,16 @@ class Predictor(Frozen):
     steps: int
 
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
-        slow = _method(tableau_of, self.slow, "slow")
+        slow = method_of_part(tableau_of, self.slow, "slow")
         forcing = tuple(map(values.matrix, self.forcing.values())) or (interpolation(slow),)
         for key, rows in zip(self.forcing, forcing, strict=False):
             if len(rows[0]) != slow.stages:
                 message = f"{key} has {counted(len(rows[0]), 'column')}, and the slow method "
                 message += f"{counted(slow.stages, 'stage')}"
                 raise MethodError(message, "give a column a slow stage", code="wrong-size")
-        fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
+        fast = None if self.fast is None else method_of_part(tableau_of, self.fast, "fast")
         plan = values.once(("plan", id(self)), lambda: plan_for_predictor(slow, forcing, fast))
         return predicted(slow, forcing, plan, fast, self.steps)
-
-
-def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
-    tableau = tableau_of(part)
-    message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
-    return one_field(tableau, message + "where a method of one vector field is expected")
 
 
 def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
@@ -300,7 +268,7 @@ def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
     def coupling(tableau_of: TableauOf, values: Values) -> Coupling:
         row = _embedded_of(part)
         embedded = None if row is None else values.vector(row)
-        return mis_coupling(_method(tableau_of, part, "mis"), embedded)
+        return mis_coupling(method_of_part(tableau_of, part, "mis"), embedded)
 
     return coupling
 
@@ -386,8 +354,8 @@ def _coupled(at: PartReader, found: g.ReadMapping) -> Make:
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
-        slow = _method(tableau_of, found["slow"], "slow")
-        fast = _method(tableau_of, found["fast"], "fast")
+        slow = method_of_part(tableau_of, found["slow"], "slow")
+        fast = method_of_part(tableau_of, found["fast"], "fast")
         if coupling == SLOWEST_FIRST:
             return slowest_first(slow, fast, steps)
         if isinstance(coupling, str):
@@ -473,25 +441,6 @@ def _polynomials(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, V
         return replace(made, matrices=tuple(powers.values()), restart=restart)
 
     return coupling
-
-
-def following_text(
-    node: Node, c: Row, gamma: Sequence[Rows], embedded: Rows | None
-) -> ConstructionText:
-    """The coupling that a shape writes, for exact fast problems.
-
-    Args:
-        node: the place in the file.
-        c: the nodes.
-        gamma: the matrices of 1, τ, …
-        embedded: their rows that lead to the embedded value; None without that.
-    """
-
-    def coupling(_: TableauOf, values: Values) -> Coupling:
-        last = None if embedded is None else (tuple(map(values.vector, embedded)),)
-        return following(values.vector(c), (tuple(map(values.matrix, gamma)),), last)
-
-    return ConstructionText(node, (), Infinitesimal(None, coupling, 1))
 
 
 def _check_restart(
