@@ -21,19 +21,19 @@ NAMES = {
         "tableau.garkmethod": "GarkMethod",
         "tableau.tableau": "Tableau",
     },
-    "What is true of it": {
+    "Properties": {
         "api.methods": "find_order is_symplectic analyse simplifying find_property",
         "api.asserting": "find_orders assert_order",
         "api.calls": "find_stability two_springs claims_of prove_method prove_method_exists",
         "report.calls": "certificate",
     },
-    "Methods from it": {"api.methods": "conjugate pair symplectic_pair reduced"},
+    "Derived methods": {"api.methods": "conjugate pair symplectic_pair reduced"},
     "Trees": {
         "ntrees.tree": "Tree",
         "ntrees.notation": "parse_tree",
         "api.trees": "format_tree trees count_trees conditions all_conditions elementary_weight",
     },
-    "On problems": {
+    "Problems and runs": {
         "api.problems": "problem hamiltonian",
         "api.files": "load_problem loads_problem",
         "problems.oscillator": "Oscillator",
@@ -46,7 +46,7 @@ NAMES = {
         "api.design": "find_parameters minimise search_methods found_methods stable_values",
         "report.calls": "run_sweep",
     },
-    "To others": {
+    "Output and exchange": {
         "report.rendering": "render",
         "plots.calls": "plot",
         "bridges.calls": "export",

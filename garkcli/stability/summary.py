@@ -75,7 +75,7 @@ class Colours(Frozen):
 
 
 def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
-    """Returns the joint stability of at least two colours that all see one another.
+    """Returns the joint stability of at least two colours, each coupled to every other.
 
     ``ratios`` are further r_2/r_1 for the additive radius.
     """
@@ -195,7 +195,7 @@ class Stability(Shown, Frozen):
     Attributes:
         tableau: the method.
         linear: R for all colours together, then for each colour alone where there are several;
-            empty if colours drive positions or momenta only, or do not see one another.
+            empty if colours drive positions or momenta only, or are not coupled.
         oscillator: the method on the harmonic oscillator; None if it has no split.
         algebraic: algebraic stability; None if it is not defined.
         tolerance: the rounding within which it holds; None for exact methods.

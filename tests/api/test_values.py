@@ -112,7 +112,7 @@ def test_colours_count_from_one() -> None:
     for key in (0, 3, (0, 1)):
         with pytest.raises(KeyError, match="count from 1, the last is 2"):
             VERLET.b[key]
-    with pytest.raises(KeyError, match=r"no pair .* is \(2, 2\)"):
+    with pytest.raises(KeyError, match=r"not a pair .* is \(2, 2\)"):
         VERLET.A[0]
     tree = garkcli.parse_tree("[[]_2]_1")
     assert (repr(tree), tree.colour) == ("<Tree [[]_2]_1>", 1)
@@ -163,7 +163,7 @@ def test_what_names_nothing_is_refused() -> None:
         garkcli.converge("rk4", steps="1/4")
     with pytest.raises(MethodError, match="steps: there is none"):
         garkcli.converge("rk4", "pendulum", steps=[])
-    with pytest.raises(GarkError, match=r"shares .* are no pairs"):
+    with pytest.raises(GarkError, match=r"shares .* are not pairs"):
         garkcli.Oscillator(1, [1, 2])  # type: ignore[list-item]
     with pytest.raises(GarkError, match="did you mean 'order'"):
         garkcli.claims_of("rk4", ["ordr"])

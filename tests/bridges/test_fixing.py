@@ -185,7 +185,7 @@ def test_what_has_no_patch(tmp_path: Path) -> None:
     wrong = SOLVER.replace("[0, 0, 1, 0]", "[0, 0, 2, 0]")
     (tmp_path / "m.py").write_text(wrong, encoding="utf-8")
     (tmp_path / "below").mkdir()
-    assert "is no file" in refused(gark("audit", "-", "--fix", stdin=wrong))
+    assert "is not a file" in refused(gark("audit", "-", "--fix", stdin=wrong))
     for more in (["--format", "json"], ["-o", "x.json"]):
         run = gark("audit", "m.py", "--fix", *more, cwd=tmp_path)
         assert "--fix writes a patch, not json" in refused(run)

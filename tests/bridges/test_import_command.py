@@ -72,7 +72,7 @@ def test_a_constructor_that_cannot_be_read() -> None:
     text = "void f() { ARKodeButcherTable_Create(n, 2, 1, c, A, b, d); }"
     run = gark("import", "-", "--from", "c", stdin=text)
     assert run.code == 2
-    assert "<stdin>:1: f is no method" in run.err
+    assert "<stdin>:1: f is not a method" in run.err
     assert "the number of stages is not written out" in run.err
 
 

@@ -99,7 +99,7 @@ def test_ranges(text: str, found: NumberRange) -> None:
 @pytest.mark.parametrize("text", ["", "four", ">", "4..", "-1", "4 5", "٤"])
 def test_what_is_no_range(text: str) -> None:
     """It is refused, with the option that it was given to."""
-    with pytest.raises(UsageProblem, match="no number and no range"):
+    with pytest.raises(UsageProblem, match="neither a number nor a range"):
         read_range(text)
     run = gark("list", "methods", "--order", text)
     assert run.code == 2

@@ -74,7 +74,7 @@ def test_methods_are_searched_by_what_is_known_of_them() -> None:
     assert catalogue.search("no such word in any reference") == []
     with pytest.raises(UsageProblem, match="did you mean 'stages'"):
         catalogue.search(stage=4)
-    with pytest.raises(UsageProblem, match="no range"):
+    with pytest.raises(UsageProblem, match="nor a range"):
         catalogue.search(order="many")
 
 

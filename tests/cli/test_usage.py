@@ -27,7 +27,7 @@ from tests.whole import in_whole
         ("check", "name a file, a folder, or a method of the catalogue"),
         ("tableau", "name a file, or a method of the catalogue"),
         ("check rk4 -format json", "several letters begin with --"),
-        ("check rk4 --max-order five", "'five' is no whole number"),
+        ("check rk4 --max-order five", "'five' is not a whole number"),
         ("check rk4 --format jsn", "did you mean 'json'?"),
         ("conditions rk4 3", "an order is --order 3"),
         ("export rk4", "gark list exports shows"),

@@ -129,7 +129,7 @@ def test_the_order_that_observations_are_held_against() -> None:
     words = by_word()
     assert words["visible order"] is not words["predicted order"]
     assert "for every problem" in words["predicted order"].text
-    assert "that the problem can show" in words["visible order"].text
+    assert "observed on the problem" in words["visible order"].text
     for told in (words["agree"].text, field_text(("converge", "agrees"))):
         assert "visible" in told
         assert "predicted" not in told

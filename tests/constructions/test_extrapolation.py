@@ -107,7 +107,7 @@ def test_free_parameters() -> None:
         ("{of: heun, sequence: [2, 2]}", "2 appears twice"),
         ("{of: heun, sequence: [2]}", "two numbers are needed"),
         ("{of: heun, sequence: harmonc, order: 3}", "is not known"),
-        ("{of: heun, sequence: [1, 2], order: 3}", "say the order"),
+        ("{of: heun, sequence: [1, 2], order: 3}", "determine the order"),
         ("{of: {A: [[0]], b: [2]}, order: 3}", "order 0"),
         ("{of: rk4, order: 30, sequence: romberg}", "limit 200"),
         ("{of: {family: gauss, stages: 7}, order: 16}", "no simple|without simple"),

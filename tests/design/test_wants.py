@@ -307,7 +307,7 @@ def test_nothing_goes_by_what_is_not_worked_out(options: list[str], tmp_path: Pa
     order = ["--order", "3"] if "--search" in options else []
     done = gark("design", str(path), "--seconds", "0.001", *options, *order)
     assert done.code == 2
-    assert "the demand pair-order under design was not worked out" in done.err
+    assert "the demand pair-order under design was not worked" in done.err
     told = gark("design", str(path), "--seconds", "0.001")
     assert told.code == 3
     assert "the conditions of pair-order under design" in " ".join(told.out.split())

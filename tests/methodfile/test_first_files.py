@@ -343,7 +343,7 @@ ONE_FAULT = {
     "a slash of fractions": (
         "A: [[0, 0], [1⁄2, 0]]\nb: [0, 1]",
         "⁄2",
-        "no place in a number",
+        "is not allowed in a number",
         "use the sign /",
     ),
     "rows parted by semicolons": (

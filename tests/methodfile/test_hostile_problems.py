@@ -94,7 +94,7 @@ REFUSED = {
         one(f"({'7' * 150}*x/1e150)**60"),
         "hamiltonian: a coefficient of about 9000 digits",
     ),
-    "attribute": (one("x.__class__"), "the sign '.' has no place"),
+    "attribute": (one("x.__class__"), "the sign '.' is not allowed"),
     "mass matrix": (
         problem(
             "a,b,c,d,e",

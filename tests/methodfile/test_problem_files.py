@@ -191,7 +191,7 @@ def test_momenta_of_a_lagrangian() -> None:
             [(4, 17, "parameters: a: log of -1 is not a real number")],
         ),
         (ONE + "parameters: {a: x}", [(4, 17, "parameters: a: 'x' is not a parameter")]),
-        (ONE + "parameters: {'a b': 1}", [(4, 21, "parameters: 'a b' is no name")]),
+        (ONE + "parameters: {'a b': 1}", [(4, 21, "parameters: 'a b' is not a name")]),
         (
             ONE + "parameters: {a: yes}",
             [(4, 17, "parameters: a: 'yes' is not a number: YAML reads it as bool")],
@@ -218,7 +218,7 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE.replace("[x]", "[x, x]"), [(1, 16, "variables: 'x' is named twice")]),
         (ONE.replace("[x]", "[]"), [(1, 12, "variables is empty")]),
         (ONE.replace("[x]", "[[x]]"), [(1, 13, "variables: a single value is expected here")]),
-        (ONE.replace("[x]", "'x, y'"), [(1, 13, "variables: 'x, y' is no name")]),
+        (ONE.replace("[x]", "'x, y'"), [(1, 13, "variables: 'x, y' is not a name")]),
         (ONE.replace("[x]", f"[{'x' * 31}]"), [(1, 13, "is longer than 30 characters")]),
         (
             ONE.replace("cos(x)", "cos(z)"),
@@ -270,7 +270,7 @@ def test_momenta_of_a_lagrangian() -> None:
         (ONE.replace("px: 0", "px: !!str 0"), []),
         (
             ONE.replace("px: 0", "px: !x 0"),
-            [(3, 21, "initial: px: the tag '!x' has no place here")],
+            [(3, 21, "initial: px: the tag '!x' is not allowed here")],
         ),
     ],
 )

@@ -102,7 +102,7 @@ def test_stiffness_takes_the_place_of_the_parameter() -> None:
         (HEAD + "rhs: {x: y}\n" + TAIL + "invariants: {I: 2}\n", [(4, 17, "is constant")]),
         (
             HEAD + "rhs: {x: y, y: -x}\nexact: {x: sin(t), y: sin(t)}\n",
-            [(3, 12, "no solution: at t = 2/3 its derivative is 0.785887")],
+            [(3, 12, "not a solution: at t = 2/3 its derivative is 0.785887")],
         ),
         (
             "variables: y\nrhs: -y\nexact: {y: exp(-t)}\ninitial: {y: 2}\n",

@@ -192,8 +192,8 @@ def test_a_student_who_copies_decimals_writes_no_number() -> None:
 @pytest.mark.parametrize(
     ("tolerance", "message", "cure"),
     [
-        ("{embeded: 1e-12}", "called 'embeded'", "did you mean 'embedded'?"),
-        ("{3: 1e-12}", "called '3'", "one of: others, embedded, dense, 1"),
+        ("{embeded: 1e-12}", "no part 'embeded'", "did you mean 'embedded'?"),
+        ("{3: 1e-12}", "no part '3'", "one of: others, embedded, dense, 1"),
         ("{others: 2}", "between 0 and 1 is expected, not '2'", "for instance 1e-13"),
         ("{others: 1e-9, dense: 1e-9}", "dense has no rounded number", "leave it out"),
         ("{embedded: digit}", "not 'digit'", "digits, for a unit"),

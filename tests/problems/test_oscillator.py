@@ -27,7 +27,7 @@ def test_default_is_read_from_its_own_text(terms: int) -> None:
     ("text", "said"),
     [
         ("1:0", "1 pairs for 2 terms"),
-        ("1:0,1", "'1' is no pair"),
+        ("1:0,1", "'1' is not a pair"),
         ("1:0,1:1", "kinetic shares sum to 2"),
         ("1:0,0:1/2", "potential shares sum to 1/2"),
         ("1:0,0:x", "'x' has no value"),
@@ -77,7 +77,7 @@ def test_structure_has_to_see_what_the_field_depends_on() -> None:
     """Colour 2 without A^{2,1} cannot have ½p² in colour 1, whose positions it needs."""
     A = ((HALF,),)
     blind = spelled_out([[A, A], [None, A]], [(ONE,), (ONE,)], [None, None])
-    with pytest.raises(UsageProblem, match="colour 2 depends on what colour 1 drives"):
+    with pytest.raises(UsageProblem, match="colour 2 depends on variables driven by colour 1"):
         check_structure(blind, Oscillator.default(2, ONE))
     check_structure(blind, Oscillator(ONE, ((ZERO, ZERO), (ONE, ONE))))
 

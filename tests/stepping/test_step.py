@@ -274,7 +274,7 @@ def test_failing_step_says_where() -> None:
         (RECTANGULAR, "generic", r"H\{1\} of generic depends on q"),
         (SEMI, "generic", r"H\{2\} of generic depends on p"),
         (with_linear(pair(coupled(2, 3)), ["V1"]), "generic", "colour V1 to be linear"),
-        (HEUN, "generic", "colour 2 depends on what colour 1 drives"),
+        (HEUN, "generic", "colour 2 depends on variables driven by colour 1"),
     ],
 )
 def test_problem_has_to_fit_the_structure(tableau: Tableau, name: str, said: str) -> None:
@@ -311,7 +311,7 @@ def test_unknown_problem() -> None:
     [
         (RECTANGULAR, "split-oscillator", "unbranched"),
         (RECTANGULAR, "kepler", "velocities do not branch"),
-        (pair(coupled(2, 3)), "generic", "at most 7 branches"),
+        (pair(coupled(2, 3)), "generic", "up to degree 7"),
         (RK4, "pendulum", "velocities do not branch"),
     ],
 )

@@ -152,7 +152,7 @@ def test_damaged_rows_are_refused(line: str, tmp_path: Path) -> None:
     path = tmp_path / "rows.jsonl"
     good = json.dumps(row_like("b", 1))
     path.write_text(f"{good}\n{line}\n", encoding="utf-8")
-    with pytest.raises(UsageProblem, match="line 2: this is no row"):
+    with pytest.raises(UsageProblem, match="line 2: this is not a row"):
         RowStore(str(path), is_resumed=True)
 
 
@@ -200,7 +200,7 @@ def test_rows_of_others(spec: Path, tmp_path: Path) -> None:
     rows = tmp_path / "other.jsonl"
     rows.write_text("nothing\n", encoding="utf-8")
     no_row = gark("sweep", str(spec), "--resume", "--rows", str(rows))
-    assert (no_row.code, "line 1: this is no row" in no_row.err) == (2, True)
+    assert (no_row.code, "line 1: this is not a row" in no_row.err) == (2, True)
     gone = gark("sweep", str(spec), "--rows", str(tmp_path / "no" / "rows"))
     assert (gone.code, "cannot be written" in gone.err) == (2, True)
 
@@ -414,7 +414,7 @@ FAULTS = {
     "methods: [{family: gauss, stages: 2}]\n": "columns missing",
     "methods: [{family: gaus, stages: 2}]\ncolumns: [order]\n": "'gaus' is not known",
     "methods: [{family: lobatto-iiia, stages: 1}]\ncolumns: [order]\n": "no member of",
-    "methods: [{family: gauss, stages: 3..1}]\ncolumns: [order]\n": "no range",
+    "methods: [{family: gauss, stages: 3..1}]\ncolumns: [order]\n": "not a range",
     "methods: [{family: gauss, stages: 2}]\ncolumns: [ordr]\n": "'ordr' is not known",
     "methods: [{family: gauss, stages: 2}]\ntransfer: collocation\ncolumns: [order]\n": (
         "one method has no transfer"
@@ -429,7 +429,7 @@ FAULTS = {
         "a rational number is expected"
     ),
     "methods: [{family: gauss, stages: 2}]\ncolumns: [order]\nwhere: {order: many}\n": (
-        "no condition"
+        "not a condition"
     ),
     "methods: [{family: gauss, stages: 2}]\ncolumns: [order]\nwhere: {error: 1e400}\n": (
         "beyond the numbers of a column"
