@@ -64,7 +64,7 @@ def family_of(given: AnyFamily, is_free: bool = True) -> Family:
 
 
 def exact_family_of(given: AnyFamily, what: str, is_free: bool = True) -> Family:
-    """Returns the same if its coefficients are exact.
+    """Returns the family for an argument whose coefficients are exact.
 
     ``what`` is named in the message. Raises MethodError for rounded coefficients.
     """

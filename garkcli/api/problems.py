@@ -127,7 +127,7 @@ def split_for(problem: Problem, tableau: Tableau) -> Problem:
 
 
 def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Problem:
-    """Returns the same for steps in numbers, not by exact step maps."""
+    """Returns the problem for an argument, to be stepped in numbers, not by exact step maps."""
     found = problem_for(given, tableau, seed)
     if isinstance(found, Problem):
         return found
@@ -136,7 +136,7 @@ def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Pro
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
-    """Returns the same for Hamiltonian problems."""
+    """Returns the Hamiltonian problem for an argument; raises UsageProblem for others."""
     found = _to_step(OSCILLATOR, tableau, seed) if given == OSCILLATOR else None
     found = found or to_step(given, tableau, seed)
     if isinstance(found, Hamiltonian):

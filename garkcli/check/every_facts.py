@@ -169,7 +169,7 @@ def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list
 
 
 def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
-    """Returns the same with one coordinate for each stage.
+    """Returns the answer and the polynomials, with one coordinate for each stage.
 
     Raises TypeError unless there are simple nodes, or one parameter.
     """
@@ -294,7 +294,7 @@ def _roots(same: Sequence[RealRoot], name: str) -> Reason:
 
 
 def _others(everything: Sized) -> str:
-    """Returns how many are not listed."""
+    """Returns the number of values that are not listed, in words; empty for none."""
     more = len(everything) - MOST
     return f" and {more} more" if more > 0 else ""
 

@@ -56,7 +56,7 @@ def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> 
 
 
 def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
-    """Returns the same for an irreducible polynomial."""
+    """Returns ``can_vanish`` of an irreducible polynomial."""
     used = unknowns_of(p)
     names = [ring.names[k] for k in used]
     has_roots = any(name not in ranges for name in names)
@@ -324,7 +324,7 @@ class EveryFamily(Frozen):
         return self.printed(self.tableau)
 
     def printed(self, tableau: Tableau) -> Tableau | None:
-        """Returns the same for a tableau derived from this one, such as the conjugate."""
+        """Returns ``in_points`` of a tableau derived from this one, such as the conjugate."""
         if all(isinstance(x, PointSpace) for x in tableau.spaces):
             return tableau
         if len(self.family.parameters) != len(self.ring.names):

@@ -84,8 +84,8 @@ def _float_unit(value: Number, unit: fmpq) -> fmpq:
 
 
 def at_full_length(printed: Printed) -> list[fmpq]:
-    """Returns the same with errors of at most the median in places or digits: zeros at the end are
-    often dropped, and a wrong or superfluous digit makes a number long or short.
+    """Returns the errors, at most the median in places or digits: zeros at the end are often
+    dropped, and a wrong or superfluous digit makes a number long or short.
     """
     own = left_open(printed)
     with ctx.workprec(64):
@@ -100,7 +100,7 @@ def at_full_length(printed: Printed) -> list[fmpq]:
 
 
 def approximant_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
-    """Returns the same for the source of a solver, where integers are exact.
+    """Returns the errors of numbers in the source of a solver, where integers are exact.
 
     ``given`` has the errors of numbers computed from printed ones. A fraction with a long
     denominator q may be an approximant of an irrational number, as those of Kennedy and Carpenter
@@ -122,7 +122,7 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
 
 
 def careless_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
-    """Returns the same for careless rounding of decimals: ``CARELESS`` units of the last place.
+    """Returns the errors after careless rounding of decimals: ``CARELESS`` units of the last place.
 
     Fractions, and decimals no longer than floats, may have been computed in floats and may be wrong
     by as many units of these; longer decimals by many units of quadruple precision. A decimal that

@@ -86,7 +86,7 @@ def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
 def write_method(
     tableau: Tableau, name: str, tolerance: Written | None, further: Further = NOTHING
 ) -> str:
-    """Returns the same with decimals for rounded coefficients."""
+    """Returns the method file of a tableau, with decimals for rounded coefficients."""
     text = to_text if tolerance is None else _decimal_text
     return write_tableau_file(tableau, name, tolerance, text=text, further=further)
 

@@ -53,7 +53,7 @@ def rounded(ball: Any, digits: int = 4) -> str:
 
 
 def scientific(ball: Any, digits: int = 3) -> str:
-    """Returns the same, always with an exponent, so that columns are compared by their ends.
+    """Returns a few digits, always with an exponent, so that columns are compared by their ends.
 
     >>> scientific(arb(2) / 300), scientific(arb(12)), scientific(arb(0))
     ('6.67e-3', '1.20e1', '0')
@@ -82,7 +82,7 @@ def scientific(ball: Any, digits: int = 3) -> str:
 
 
 def for_programs(ball: Any, digits: int = 6) -> str:
-    """Returns the same as a number that programs can read: a bound becomes its power of ten, and an
+    """Returns a few digits that programs can read: a bound becomes its power of ten, and an
     infinite number is empty.
 
     >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15)), for_programs(arb(-1).sqrt())

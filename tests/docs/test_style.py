@@ -51,7 +51,8 @@ REFUSED = {
 }
 """Patterns that no text has, by their names in the tables of the style page."""
 OPENINGS = re.compile(
-    r"(?:what|that|the same|those|of|which|how|who|whose|by (?:how much|what|which)|so many|where)\b",
+    r"(?:what|that|the same|those|of|which|how|who|whose|by (?:how much|what|which)|so many|where"
+    r"|(?:returns|yields) the same (?:as|for|if|in|with))\b",
     re.IGNORECASE,
 )
 """First words of a docstring or comment that leave its subject to be guessed."""
