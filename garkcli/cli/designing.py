@@ -55,7 +55,7 @@ def design(given: Given, output: Output) -> int:
     order proved, proved to exist, or numerical and not proved. The same seed gives the same methods
     everywhere.
 
-    Exit code: 1 no value has the order or stability asked for, 3 a search found nothing, which
+    Exit code: 1 no value has the wanted order or stability, 3 a search found nothing, which
     proves nothing.
     """
     from garkcli.design.member import refuse_levels
@@ -535,7 +535,7 @@ def _proof(found: FoundFile) -> int:
 def sweep(given: Given, output: Output) -> None:
     """Many methods side by side: families, stages, transfer rules, values of parameters.
 
-    SPEC names the methods, the criteria, which methods to keep and what is better; see
+    SPEC names the methods, the criteria, which methods to keep and which are better; see
     docs/sweep.md. Each criterion is decided exactly. Rows are written one by one, and --resume
     continues an interrupted sweep.
     """

@@ -25,7 +25,7 @@ def export(given: Given, output: Output) -> None:
     """A method for other codes: SciPy, SUNDIALS, PETSc, C, JSON and others.
 
     The head of the file says which orders gark proved. Decimals are correctly rounded. gark refuses
-    what a target cannot hold, with the reason.
+    a method that the target cannot represent, with the reason.
     """
     from garkcli.api.anymethod import refuse_rounded
     from garkcli.bridges.own_arrays import own_kind
@@ -71,16 +71,15 @@ def _refuse_other_ending(path: str, bridge: Bridge) -> None:
 
 @declared("import", (*FORMATS, "yaml"))
 def import_(given: Given, output: Output) -> int:
-    """Methods out of other people's sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
+    """Methods from other sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
 
     SOURCE is a file, a folder (all files in it of the formats that gark reads), or - for standard
     input; gark executes nothing in it. Each table becomes a method file that claims the orders
-    which its source declares, true or not, and without a declaration those that it has. --as-found
-    claims what is true. Decimals of many digits count as rounded, and the file says within which
-    tolerance.
+    declared by its source, true or not, or its true orders without a declaration or with
+    --as-found. Decimals of many digits count as rounded, and the file has their tolerance.
 
-    Exit code: 0 methods were found, 1 one is not what its source declares, so that gark check
-    fails its file (not with --as-found), 2 there is none.
+    Exit code: 0 methods were found, 1 the declared order of one is wrong, so that gark check fails
+    its file (not with --as-found), 2 no method was found.
     """
     from garkcli.bridges.collecting import collected
     from garkcli.bridges.sources import source_files
@@ -224,12 +223,12 @@ def audit(given: Given, output: Output) -> int:
     """The tables in a solver's source tree compared with their declared orders.
 
     PATH is a folder (all files in it of the formats that gark import reads), a file, or - for
-    standard input; gark executes nothing in it. Of every table: does it have the order and embedded
-    order that the source declares, are its nodes its row sums and what does it cost if not, is the
-    sum of its weights 1? The format auto is github in GitHub Actions and text elsewhere.
+    standard input; gark executes nothing in it. For every table: does it have the declared order
+    and embedded order; are its nodes the row sums, and if not, which order is lost; do its weights
+    sum to 1? The format auto is github in GitHub Actions and text elsewhere.
 
     Exit code: 0 nothing is wrong, 1 a finding is an error, or with --strict a likely table was not
-    read, 2 there is no table, or none that can be read.
+    read, 2 no table was found or could be read.
     """
     from garkcli.bridges.audit import audited
     from garkcli.bridges.sources import source_files

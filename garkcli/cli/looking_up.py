@@ -50,9 +50,9 @@ def certificate(given: Given, output: Output) -> None:
     """A proof of the orders of a method that can be checked without gark.
 
     The exact tableau, its conjugate and pair, trees that span all trees of each order, and a tree
-    that fails; of rounded coefficients what proves that a method within the tolerance has the
-    order. tools/referee.py of the source distribution, one short file of plain Python, decides
-    the orders again from it; --format coq is for the proof assistant Coq, and for exact methods.
+    that fails; for rounded coefficients a proof that a method within the tolerance has the order.
+    tools/referee.py of the source distribution, one short file of plain Python, decides the orders
+    again from it; --format coq is for the proof assistant Coq, and for exact methods.
     """
     from garkcli.api.calls import prove_method, prove_method_exists
     from garkcli.report.certificate import REPORT
@@ -143,7 +143,7 @@ def list_(given: Given, output: Output) -> None:
     one of these lists; methods, those of the catalogue; or exports, the targets of gark export.
 
     gark lists a method if every option holds and its name, an alias, its title or its reference has
-    every WORD; --no-... takes methods of which the property is known to fail.
+    every WORD; --no-... selects methods without the property, if that is known.
     """
     from garkcli.report import list_methods, listing
 

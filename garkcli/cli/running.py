@@ -64,13 +64,14 @@ def converge(given: Given, output: Output) -> int:
     its counterpart for separable, semi-separable and Nyström methods: these see every tree, others
     may show a higher order.
 
-    Rosenbrock methods step with the exact Jacobian, or with what --jacobian takes for it.
+    Rosenbrock methods step with the exact Jacobian, or with the matrix of --jacobian.
 
     Several FILEs, directories or patterns are compared in one table and one plot; with --work by
-    what their errors cost.
+    the cost of their errors.
 
-    Exit code: 0 every observed order is that of the method on this problem, 1 one is not, or a step
-    fails, 2 a file cannot be read, or is not for this problem, 3 an order is undecided.
+    Exit code: 0 every observed order is that of the method on this problem, 1 one differs, or a
+    step fails, 2 a file cannot be read, or the method does not fit the problem, 3 an order is
+    undecided.
     """
     paths = given.files_meant(output)
     if given.problem is None and (given.omega or given.split):

@@ -25,7 +25,7 @@ def stability(given: Given, output: Output) -> None:
 
     The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator with
     its stable intervals, P-stability and phase lag; algebraic stability; the SSP coefficient. With
-    free parameters R(z), and for which values the method is stable.
+    free parameters R(z), and the values for which the method is stable.
     """
     from garkcli.methodfile.naming import called
     from garkcli.report.stability import REPORT

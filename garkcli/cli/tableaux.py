@@ -53,8 +53,8 @@ def tableau(given: Given, output: Output) -> None:
 def conjugate(given: Given, output: Output) -> None:
     """The symplectic conjugate of a method: gark tableau --conjugate.
 
-    --format yaml writes a method file; the conjugate of that is the original, exactly. Where the
-    nodes have no simple radicals the file says `conjugate: true` instead of entries.
+    --format yaml writes a method file; its conjugate is the original, exactly. If the nodes
+    have no simple radicals, the file has `conjugate: true` instead of entries.
     """
     given.which = given.which or "conjugate"
     tableau(given, output)
@@ -282,8 +282,8 @@ def convert(given: Given, output: Output) -> None:
     """A method in another form, as a method file.
 
     Name, reference, tolerance, embedded weights and dense output stay. So do the claims that hold
-    of the result; a note names the others. The pair is another method: its file claims of it what
-    FILE claims of the pair. --to reduced writes the smallest equivalent method, without claims:
+    for the result; a note names the others. The file of the pair has the claims of FILE about the
+    pair. --to reduced writes the smallest equivalent method, without claims:
     stages that do not influence the step are removed, and equal ones merged.
     """
     if given.to == REDUCED:
