@@ -8,7 +8,7 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
-from garkcli.errors import HasFreeParameters, MethodFileError
+from garkcli.errors import HasFreeParameters, MethodError, MethodFileError, Remark
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
@@ -54,7 +54,11 @@ def check_method(
     reach = max(limit, highest_order(method.claims) + 1)
     if not method.tableau.is_gark:
         return _check_other_kind(method, reach, want_constants)
-    analysis = analyse(method.tableau, reach, method.tolerance, method.further)
+    try:
+        analysis = analyse(method.tableau, reach, method.tolerance, method.further)
+    except MethodError as error:  # it has too many stages
+        fault = Remark(error.message, error.help, code=error.code)
+        return Outcome(method.source, method.name, faults=(fault,), text=method.text)
     claims = verify(method.claims, analysis)
     remark = remark_of(method, analysis)
     return Outcome(

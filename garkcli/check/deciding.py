@@ -15,6 +15,8 @@ from garkcli.check.analysis import (
     nonautonomous,
 )
 from garkcli.doing import doing
+from garkcli.errors import MethodError
+from garkcli.families.family import MAX_STAGES
 from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
@@ -22,6 +24,7 @@ from garkcli.order.meant import meant, printed
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -80,6 +83,10 @@ def analyse(
     for exact coefficients.
     """
     tableau.demand_fields("this analysis")
+    if any(isinstance(x, PolynomialSpace) and x.stages > MAX_STAGES for x in tableau.spaces):
+        message = f"this analysis of a family is for at most {MAX_STAGES} stages"
+        cure = "gark tableau and gark export take more of gauss"
+        raise MethodError(message, cure, code="too-many")
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if further and method is tableau else None
     order = order_of(method, limit, spans)

@@ -8,6 +8,7 @@ import pytest
 from flint import fmpq, fmpq_poly
 
 from garkcli.errors import UnknownFamily
+from garkcli.families.collocation import MOST_OF_GAUSS
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, diagonal_method
 from garkcli.order.certificate import find_order
@@ -336,6 +337,7 @@ def test_unknown_families() -> None:
         diagonal_method("gauss")
     with pytest.raises(UnknownFamily, match="does not exist"):
         diagonal_method("rk4", 3)
-    with pytest.raises(UnknownFamily, match=f"at most {MAX_STAGES}"):
-        diagonal_method("gauss", MAX_STAGES + 1)
+    for name, most in (("radau-iia", MAX_STAGES), ("gauss", MOST_OF_GAUSS)):
+        with pytest.raises(UnknownFamily, match=f"at most {most}"):
+            diagonal_method(name, most + 1)
     assert diagonal_method("rk4").stages == 4

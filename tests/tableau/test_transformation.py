@@ -133,6 +133,12 @@ def test_others_are_no_gauss_methods() -> None:
     assert not is_gauss(replace(tableau, colours=(other,)))
 
 
+def test_check_has_a_limit() -> None:
+    run = gark("check", "gauss-201")
+    assert run.code == 2
+    assert "for at most 200 stages" in run.out + run.err
+
+
 def test_five_hundred_stages() -> None:
     """Nodes, weights and matrix to 40 digits meet B, C and symplecticity."""
     entries = pointwise.numeric_entries(of_gauss(500), 40)
