@@ -145,7 +145,7 @@ def findings_of(command: str) -> Mapping[str, FindingKind]:
     """Returns the kinds of findings of a command by their codes.
 
     >>> list(findings_of("check"))
-    ['unreadable', 'claim', 'undecided', 'no-claim']
+    ['unreadable', 'claim', 'undecided', 'no-claim', 'loses-pair-order']
     """
     kinds = {}
     for code, entry in read("findings")[command].items():

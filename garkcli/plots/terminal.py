@@ -36,7 +36,7 @@ def drawn(panel: Panel, spelt: Callable[[str], str] = str, columns: int = COLUMN
 
     >>> from garkcli.plots.scene import Axis
     >>> squares = [(x, x * x) for x in range(-3, 4)]
-    >>> shapes = [Rule((0, 0), (0, 9)), Curve(0, squares, has_dots=True)]
+    >>> shapes = [RuledLine((0, 0), (0, 9)), Curve(0, squares, has_dots=True)]
     >>> panel = Panel("", "", Axis("x", -3, 3), Axis("x squared", 0, 9), shapes, height=96)
     >>> print("\n".join(drawn(panel, columns=22)))
       x squared

@@ -80,6 +80,10 @@ RUNS = [
     (("modified", VERLET), ("text", "json", "markdown", "latex")),
     (("certificate", VERLET), ("json", "text", "markdown", "latex", "coq")),
     (("design", FREE), ("text", "json", "markdown", "latex")),
+    (
+        ("design", FREE, "--order", "2", "--search", "3", "--front", "error", "coefficients"),
+        ("csv",),
+    ),
     (("sweep", SWEEP, "--rows", os.devnull), ("text", "json", "markdown", "latex", "jsonl", "csv")),
     (("schema",), ("json",)),
     (("schema", "--report"), ("json",)),

@@ -98,7 +98,7 @@ def test_reports() -> None:
         (("rk4", "--at", "2k"), "--at 2k"),
         (("rk4", "--at", "sqrt(2)+i"), "a rational number is expected"),
         (("rk4", "--at", "1+"), "--at 1+"),
-        (("methods/rectangular.gark.yaml", "--at", "1"), "R(z) has no meaning"),
+        (("methods/rectangular.gark.yaml", "--at", "1"), "R(z) is not defined"),
         (
             ("methods/three-colours.gark.yaml", "--at", "1", "--slow", "1", "--fast", "1"),
             "--at does not go with --slow",
@@ -115,5 +115,5 @@ def test_what_is_refused(arguments: tuple[str, ...], message: str) -> None:
 def test_python_says_which_is_none() -> None:
     with pytest.raises(GarkError, match=r"at\[1\]: "):
         find_stability("rk4", at=["1", "i2"])
-    with pytest.raises(GarkError, match="no list"):
+    with pytest.raises(GarkError, match="is not a list"):
         find_stability("rk4", at="1")
