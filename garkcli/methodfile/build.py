@@ -307,7 +307,7 @@ class Builder(Generic[V]):
     # few files are of these kinds: what makes them is imported on use
 
     def _predictor(self, text: d.PredictorText | None) -> Predictor | None:
-        """The predictor of a method of one colour."""
+        """Returns the predictor of a method of one colour; None without one."""
         if text is None:
             return None
         from garkcli.order.predictor import check_predictor

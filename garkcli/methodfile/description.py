@@ -72,10 +72,8 @@ def of_colour(letter: str, l: int) -> str:
 class PredictorText(Frozen):
     """Weights that predict stages.
 
-    Attributes:
-        node: the place in the file.
-        old: the matrices of 1, r, r², … for the slopes of the last step.
-        new: the same for those of this step; zeros follow the shorter of both.
+    ``old`` and ``new`` have the matrices of 1, r, r², … for the slopes of the last step and of this
+    one; zeros follow the shorter of both.
     """
 
     node: Node
@@ -85,13 +83,9 @@ class PredictorText(Frozen):
 
 class FurtherText(Frozen):
     """Further weights of one colour, or None: embedded ones, one for each stage, and for dense
-    output the coefficients of θ, θ², … for each stage.
+    output the coefficients of θ, θ², … for each stage; ``predictor`` predicts the stages.
 
-    Attributes:
-        embedded: one per stage.
-        dense: of dense output, the coefficients of θ, θ², … a stage.
-        node: where the first of them is.
-        predictor: of the stages.
+    ``node`` is that of the first of them.
     """
 
     embedded: Row | None = None

@@ -147,8 +147,8 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
 
 
 def _refuse_others(tableau: Tableau) -> None:
-    """Refuse methods that are neither GARK methods, with exact fast parts too, nor Rosenbrock or
-    Nyström methods.
+    """Raises MethodError for methods that are neither GARK methods, perhaps with exact fast parts,
+    nor Rosenbrock or Nyström methods.
     """
     if not (is_rosenbrock(tableau) or is_nystrom(tableau)):
         tableau.demand_fields(_DESIGN, with_flow=True)

@@ -39,15 +39,16 @@ _OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
 class UnknownLayout(Frozen):
     """A tableau whose entries are zeros, names of unknowns and sums of them.
 
-    Attributes:
-        kind: the form of method file that it is.
-        A: a matrix for each colour; α and γ of a Rosenbrock method; Ā of a Nyström method, and A
-            where g sees velocities; α and β of the form of Shu and Osher, a row for each value but
-            the first; Γ⁰ and Γ¹ of a multirate coupling, a row from each node to the next.
-        b: a row of weights for each colour; of an ark one for all; b̄ and b of a Nyström method;
-            none of the form of Shu and Osher and of a coupling.
-        embedded: the same of embedded weights; None without any.
-        c: the nodes of a Nyström method and of a coupling, of that with the end of the step.
+    ``kind`` is the form of its method file.
+
+    ``A`` has a matrix for each colour, or the matrices of another form: α and γ of a Rosenbrock
+    method; Ā of a Nyström method, and A if g depends on velocities; α and β of Shu and Osher, a row
+    for each value except the first; Γ⁰ and Γ¹ of a multirate coupling, a row for each step from one
+    node to the next.
+
+    ``b`` and ``embedded`` have a row for each colour, or one for all of an ark; b̄ and b of a
+    Nyström method; none for Shu and Osher and for couplings. ``c`` has the nodes of a Nyström
+    method, or those of a coupling and the end of the step.
     """
 
     kind: Literal["tableau", "ark", "prk", "rosenbrock", "nystrom", "shu-osher", "multirate"]
@@ -62,7 +63,7 @@ class UnknownLayout(Frozen):
 
     @property
     def unknowns(self) -> tuple[str, ...]:
-        """The names in it, each once, row by row."""
+        """The names in the layout, row by row."""
         texts = chain.from_iterable(chain([self.c], *self.A, self.b, self.embedded or ()))
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
@@ -200,7 +201,7 @@ def _low_storage(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _nystrom(layout: UnknownLayout) -> UnknownLayout:
-    """Ā below the diagonal, the nodes c2, c3, … beside it: c_1 = 0."""
+    """Returns Ā below the diagonal, and the nodes 0, c2, c3, …"""
     join = _join(layout.stages)
     Abar = tuple(tuple(x.replace("a", "abar", 1) for x in row) for row in _explicit(layout).A[0])
     bbar = tuple(x.replace("b", "bbar", 1) for x in layout.b[0])
@@ -209,7 +210,7 @@ def _nystrom(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _velocities(layout: UnknownLayout) -> UnknownLayout:
-    """A below the diagonal too, with the nodes as row sums."""
+    """Adds A below the diagonal, whose row sums are the nodes."""
     if layout.kind != "nystrom":
         message = "velocities are those of a nystrom shape"
         raise MethodError(message, "begin with nystrom", code="not-together")
@@ -222,7 +223,7 @@ def _velocities(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _rest(total: str, others: Iterable[str]) -> str:
-    """A number minus others, without those that are zero."""
+    """Returns the text of a number minus others; zeros are left out."""
     terms = [x for x in others if x != ZERO]
     if total == ZERO and terms:
         return f"-{' - '.join(terms)}"
@@ -230,8 +231,8 @@ def _rest(total: str, others: Iterable[str]) -> str:
 
 
 def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
-    """The last row of Ā is b̄, that of A b, and the last node 1: g at the new values is the first
-    of the next step.
+    """Sets the last row of Ā to b̄, that of A to b, and the last node to 1: the last stage of a step
+    is the first of the next.
     """
     if layout.stages == 1:
         message = "stiffly-accurate asks for a last node 1, which one stage does not have"
@@ -246,8 +247,8 @@ def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _shu_osher(layout: UnknownLayout) -> UnknownLayout:
-    """Row i has the values and slopes before value i + 1; the first entry of α is 1 minus the
-    others.
+    """Returns α and β, whose row i combines the values and slopes before value i + 1; the first
+    entry in each row of α is 1 minus the others.
     """
     s, join = layout.stages, _join(layout.stages)
 
@@ -262,8 +263,8 @@ def _shu_osher(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _mri(layout: UnknownLayout) -> UnknownLayout:
-    """Explicit stages, and a forcing that is linear in time; each fast problem of a linear slow
-    solution is right: the rows of Γ⁰ sum to the distance of the nodes, those of Γ¹ to zero.
+    """Returns an explicit coupling with a forcing that is linear in time. Linear slow solutions are
+    exact: the rows of Γ⁰ sum to the differences of the nodes, those of Γ¹ to zero.
 
     A. Sandu, *A class of multirate infinitesimal GARK methods*, SIAM J. Numer. Anal. 57, 2019.
     """
@@ -281,7 +282,7 @@ def _mri(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _with_embedded_rows(layout: UnknownLayout) -> UnknownLayout:
-    """A coupling with other last rows, in the same way."""
+    """Adds embedded last rows to a coupling, with the row sums of the last ones."""
     s, join = layout.stages, _join(layout.stages)
     rows = []
     for power, total in enumerate((_rest("1", [layout.c[-2]]), ZERO), start=1):
@@ -300,7 +301,7 @@ def _rosenbrock(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _stiffly_accurate_rosenbrock(layout: UnknownLayout) -> UnknownLayout:
-    """The last row of β = α + γ is b, and the last node 1.
+    """Sets the last row of β = α + γ to b, and the last node to 1.
 
     E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, VI.4.
     """
@@ -552,7 +553,7 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
 
 
 def _content(at: Reading, layout: UnknownLayout, node: Node) -> ShapedText:
-    """The coefficients of a layout."""
+    """Returns the coefficients of a layout as in a method file."""
 
     def row(texts: TextRow, where: str) -> Row:
         numbered = enumerate(texts, start=1)
@@ -640,7 +641,7 @@ def spelled(layout: UnknownLayout) -> str:
 def _coupling(
     node: Node, c: Row, gamma: Sequence[Rows], embedded: Rows | None
 ) -> d.ConstructionText:
-    """The coupling of exact fast problems by the matrices of 1, τ, …, and their embedded rows."""
+    """Returns the coupling of exact fast problems by the matrices of 1, τ, … and embedded rows."""
     from garkcli.constructions.infinitesimal import Coupling, following  # few shapes need it
     from garkcli.methodfile.constructed.couplings import Infinitesimal
 

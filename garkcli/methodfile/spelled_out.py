@@ -1,5 +1,5 @@
-"""YAML nodes to methods that are spelled out: Butcher tableaus and the form ``tableau``; and to
-further weights: ``embedded`` and ``dense``, which are beside b in every form, and ``predictor``.
+"""Methods that are spelled out, as Butcher tableaus or in the form ``tableau``, and the further
+weights ``embedded`` and ``dense``, which are beside b in every form, and ``predictor``.
 """
 
 from __future__ import annotations
@@ -343,7 +343,7 @@ def _with_predictor(
 
 
 def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
-    """The matrices of a predictor."""
+    """Returns the matrices of a predictor."""
     found: g.ReadMapping | None = PREDICTOR.read(at, node, "predictor")
     if found is None or not found:
         return None
@@ -354,7 +354,7 @@ def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
 
 
 def _powers(at: Reading, node: Node, where: str, stages: int) -> tuple[Rows, ...]:
-    """The matrices of 1, r, r², …, or the matrix of 1 alone; empty if one has a fault."""
+    """Returns the matrices of 1, r, r², …, or that of 1 alone; none after a fault."""
     is_one = depth_of_lists(node) < 3
     items = [node] if is_one else at.source.items(node, where)
     if len(items) > MAX_POWERS:

@@ -36,15 +36,8 @@ def write_tableau_file(
 ) -> str:
     """Returns a method file with every block of ``tableau`` spelled out.
 
-    Args:
-        tableau: over point spaces, every entry exact.
-        name: what the file calls the method.
-        tolerance: the rounding of its coefficients, or None; by keys of ``tolerance`` where it is
-            not the same for all.
-        note: a comment above it.
-        text: how a coefficient is written.
-        parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
-        further: embedded weights, dense output and a predictor, written beside b.
+    The tableau has point spaces and exact entries. ``note`` is a comment at the top, ``text``
+    writes a coefficient, ``parameters`` has a text such as ``tau: free`` for each parameter.
     """
     tableau.demand_fields("a method file")
     lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]

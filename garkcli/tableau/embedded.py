@@ -54,13 +54,14 @@ class DenseOutput(Frozen):
 
 
 class Predictor(Frozen):
-    """Weights that predict the stages of a step from slopes that are known before they are solved:
-    Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with the slopes k_j of the last step, K_j of
-    the stages of this one that are known, and the ratio r of this step size h to the last one.
+    """Weights that predict the stages of a step:
+    Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with the slopes k_j of the last step, those K_j
+    of the stages of this step that are solved before, and the ratio r of this step size h to the
+    last one.
 
     Attributes:
-        old: the matrices p of 1, r, r², …, shape (s, s) each.
-        new: the matrices q, as many.
+        old: the matrices of 1, r, r², … in p, each of shape (s, s).
+        new: those in q, equally many.
     """
 
     old: tuple[Matrix, ...]
@@ -73,7 +74,7 @@ class Predictor(Frozen):
 
     @property
     def parts(self) -> Iterator[tuple[str, tuple[Matrix, ...]]]:
-        """``old`` and ``new`` with their matrices, without what is zero."""
+        """``old`` and ``new`` with their matrices, unless all are zero."""
         for name, matrices in (("old", self.old), ("new", self.new)):
             if any(x for matrix in matrices for row in matrix for x in row):
                 yield name, matrices
@@ -83,7 +84,7 @@ class Predictor(Frozen):
         return _matrix_at(self.old, ratio), _matrix_at(self.new, ratio)
 
     def changed(self, change: Callable[[Matrix], Matrix]) -> Predictor:
-        """Every matrix replaced by what ``change`` makes of it."""
+        """The predictor with ``change`` applied to every matrix."""
         return Predictor(tuple(map(change, self.old)), tuple(map(change, self.new)))
 
 
@@ -218,10 +219,10 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """The inverse of ``as_colours``: the tableau and its further weights, without a predictor,
-    which is for the stages as they were.
+    """Returns the tableau and its further weights, the inverse of ``as_colours``.
 
-    ``further`` are the original weights, which tell the kinds.
+    ``further`` are the original weights, which tell the kinds. A predictor is left out: it belongs
+    to the original stages.
     """
     if not further.rows:
         return tableau, replace(further, predictor=None)

@@ -21,9 +21,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def is_gauss(tableau: Tableau) -> bool:
-    """Whether a tableau is that of a Gauss method: its nodes are those, and its matrix and weights
-    integrate polynomials.
-    """
+    """Whether a tableau is that of a Gauss method: a collocation method with Gauss nodes."""
     if tableau.size > 1 or not has_gauss_nodes(tableau.spaces[0]):
         return False
     space, colour, block = tableau.spaces[0], tableau.colours[0], tableau.block(0, 0)

@@ -4,8 +4,8 @@ Newton's method for the stages of an implicit method then solves one real system
 eigenvalue γ and one complex system for each pair α ± iβ, whose block is [[α, −β], [β, α]].
 
 E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, IV.8. Columns of T are as in
-their programs RADAU5 and RADAU: those of real eigenvalues have the length 1 and a positive last
-entry; of a pair u + iv belongs to α − iβ, β > 0, with the last entries 1 and 0.
+their programs RADAU5 and RADAU: a column of a real eigenvalue has length 1 and a positive last
+entry; the columns u and v of a pair, where u + iv belongs to α − iβ with β > 0, end in 1 and 0.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ class Transformation(Frozen):
 
     Attributes:
         real: the real eigenvalues γ, ascending.
-        pairs: α and β > 0 of each pair α ± iβ, α ascending.
+        pairs: α and β > 0 of each pair α ± iβ, by ascending α.
         T: T, row by row; the columns of real eigenvalues come first.
         inverse: T⁻¹, row by row.
         digits: the decimal digits that are correct.
@@ -46,8 +46,8 @@ def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
     """The transformation of a method of one colour, in balls of width below 10^(−digits).
 
     Raises:
-        MethodError: there is none: A has no inverse, or a multiple eigenvalue; or the method has
-            several colours or too many stages.
+        MethodError: A has no inverse or a multiple eigenvalue, or the method has several colours or
+            too many stages.
     """
     stages = tableau.spaces[0].stages
     if tableau.size > 1 or tableau.block(0, 0) is None:
@@ -68,7 +68,7 @@ def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
 
 
 def _of_matrix(A: arb_mat) -> Transformation | None:
-    """The transformation at the current precision; None if that is too low, or there is none."""
+    """The transformation at the current precision; None if it does not exist, or was not found."""
     try:
         values, vectors = acb_mat(A.inv()).eig(right=True)
     except (ZeroDivisionError, ValueError):

@@ -446,7 +446,7 @@ def _polynomials(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, V
 def _check_restart(
     at: PartReader, found: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
 ) -> None:
-    """Note what a method with restarts cannot have."""
+    """Reports what a method with restarts cannot have."""
     restart = found["restart"]
     if restart == "merk" and len(matrices) > 1:
         message = "multirate, mri: restart: merk goes with omega, not with omega and gamma"

@@ -38,7 +38,7 @@ class Opened(Frozen):
 Open: TypeAlias = Callable[[str], Opened]
 """Reads a method of the catalogue.
 
-Raises MethodFileError if there is none of that name, or it refers to other files.
+Raises MethodFileError for an unknown name, or a method that is made from itself.
 """
 Written: TypeAlias = Callable[[Node, str], Description | None]
 """Reads a method in this file; the text names it in messages."""
@@ -125,7 +125,7 @@ class PartReader(Reading):
     def _of_catalogue(self, name: str, why: str) -> PartText:
         """Returns a method of the catalogue, its coefficients added to those of this file.
 
-        Raises MethodFileError if there is none of that name, or it refers to other files.
+        Raises MethodFileError for an unknown name, or a family with free parameters.
         """
         opened = self._open(name)
         if opened.numbers.free:
