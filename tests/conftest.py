@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.methodfile import composing
+from garkcli.grammar import composing
 from tests.whole import IS_WHOLE, at_most, few_cases
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.

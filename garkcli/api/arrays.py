@@ -9,9 +9,9 @@ from typing import Any, SupportsIndex
 
 from garkcli.errors import MethodError
 from garkcli.exact.given import number_text
+from garkcli.grammar.editing import quoted
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.writer import quoted
 
 SOURCE = "<arrays>"
 """The name of the file in error messages."""

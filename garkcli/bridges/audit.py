@@ -22,8 +22,8 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.folders import no_one
 from garkcli.methodfile.printed import SLACK
-from garkcli.methodfile.reading import no_one
 from garkcli.order.tolerance import within
 from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import FoundTable

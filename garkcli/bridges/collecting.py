@@ -20,7 +20,7 @@ from garkcli.bridges.subject import Subject
 from garkcli.errors import MethodFileError, Remark
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.reading import no_one
+from garkcli.methodfile.folders import no_one
 from garkcli.page.plaintext import plain_line
 from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import FoundTable

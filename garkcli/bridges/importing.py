@@ -15,7 +15,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import Literal
-from garkcli.methodfile.writer import quoted
+from garkcli.grammar.editing import quoted
 from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Row, Rows
 

@@ -9,7 +9,7 @@ from pathlib import PurePath
 from garkcli.bridges.readers.registry import suffixes
 from garkcli.errors import UsageProblem, printable
 from garkcli.files import STDIN, NotAFile, leads_away, read_bytes
-from garkcli.methodfile.reading import no_one
+from garkcli.methodfile.folders import no_one
 from garkcli.sources.found import MAX_CHARACTERS
 
 STDIN_NAME = "<stdin>"

@@ -19,12 +19,13 @@ from garkcli.comparison.comparison import form_of
 from garkcli.constructions.derivatives import Derivatives
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal, to_text
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.nodes import one_line
+from garkcli.grammar.reading import read_text
 from garkcli.methodfile.expectations import AtLeast
+from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.nodes import one_line
-from garkcli.methodfile.reading import SUFFIX, read_text
 from garkcli.methodfile.shelves import key_of
-from garkcli.methodfile.source import METHOD_FILE
 from garkcli.ntrees.count import count_trees
 from garkcli.order.constants import error_constants
 from garkcli.order.meant import as_meant, with_further

@@ -101,7 +101,6 @@ def claim_meaning(key: str) -> Meaning:
 def _keys(kind: str) -> Sense:
     """Returns the keys of a kind of files, found by their paths and their own names."""
     keys = keys_of(kind)
-    files, _ = KINDS[kind]
 
     def mean(path: str) -> Meaning:
         key = keys[path]
@@ -109,7 +108,12 @@ def _keys(kind: str) -> Sense:
         if isinstance(key.default, bool):
             default = default.lower()
         return Meaning(
-            f"key of {files}", path, key.text, default=default, example=key.example, source=key.page
+            f"key of {KINDS[kind].files}",
+            path,
+            key.text,
+            default=default,
+            example=key.example,
+            source=key.page,
         )
 
     names = {path: (path.rpartition(".")[2],) if x.is_word else () for path, x in keys.items()}

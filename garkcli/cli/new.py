@@ -64,9 +64,9 @@ def of_tableau_text(name: str, text: str) -> str:
 
     Raises MethodError if it is not a tableau.
     """
+    from garkcli.glossary.key import METHOD_FILE
+    from garkcli.grammar.reading import read_text
     from garkcli.methodfile.pasted import read_pasted
-    from garkcli.methodfile.reading import read_text
-    from garkcli.methodfile.source import METHOD_FILE
     from garkcli.methodfile.template import of_tableau
 
     if text == "-" or text.startswith("@"):

@@ -12,8 +12,8 @@ from garkcli.files import STDIN, is_elsewhere, is_inside, read_bytes
 from garkcli.frozen import Frozen, field, replace
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import Files, KeyMeaning
-    from garkcli.methodfile.grammar import ValueKind
+    from garkcli.glossary.key import FileKind, KeyMeaning
+    from garkcli.grammar.keys import ValueKind
 
 OWN = ".gark.toml"
 SHARED = "pyproject.toml"
@@ -126,15 +126,16 @@ def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
 
 
 def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Project:
+    from garkcli.glossary.key import PROJECT_FILE
+    from garkcli.grammar.keys import FILE
+    from garkcli.grammar.source import Source
+    from garkcli.grammar.tables import read_settings
     from garkcli.methodfile.finding import fixed_part
-    from garkcli.methodfile.grammar import FILE
-    from garkcli.methodfile.project_file import read_settings
-    from garkcli.methodfile.source import Source
 
     file = os.path.relpath(path)
     where = FILE if os.path.basename(path) == OWN else "[tool.gark]"
     # no line of a file elsewhere is shown
-    source = Source(file, "" if is_elsewhere(path) else text)
+    source = Source(file, "" if is_elsewhere(path) else text, PROJECT_FILE)
     found = read_settings(source, table, _kind(), where)
     # dots take back the name before them, a pattern too: test the path that gark reads
     paths = {os.path.normpath(os.path.join(folder, x)): x for x in found.get("paths", ())}
@@ -182,13 +183,13 @@ def project_schema() -> dict[str, Any]:
     >>> project_schema()["type"]
     'object'
     """
-    from garkcli.methodfile.grammar import file_schema
+    from garkcli.grammar.keys import file_schema
 
     return file_schema("gark project file", "What gark check does in a project.", _kind())
 
 
-def told(files: Files) -> Iterator[KeyMeaning]:
-    from garkcli.methodfile.grammar import told
+def told(kind: FileKind) -> Iterator[KeyMeaning]:
+    from garkcli.grammar.keys import told
 
-    for key in told(_kind().inside(), files.page):
+    for key in told(_kind().inside(), kind.page):
         yield replace(key, example=key.example.replace(": ", " = ", 1))

@@ -17,15 +17,10 @@ from garkcli.exact.display import plain_decimal, to_ball, to_text
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
+from garkcli.grammar.editing import number_text, quoted, row_text
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import is_transformed
-from garkcli.methodfile.writer import (
-    number_text,
-    quoted,
-    row_text,
-    tolerance_of_file,
-    tolerance_text,
-)
+from garkcli.methodfile.writer import tolerance_of_file, tolerance_text
 from garkcli.order.meant import as_meant, with_further
 from garkcli.tableau.embedded import Further, from_colours
 from garkcli.tableau.garkmethod import GarkMethod

@@ -4,24 +4,72 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import NamedTuple
 
 from garkcli.frozen import Frozen
 from garkcli.upward import answered
 
 
-class Files(NamedTuple):
-    """A kind of file and its page."""
+class FileKind(Frozen):
+    """A kind of file.
+
+    Attributes:
+        name: its name.
+        files: the name of all such files.
+        page: the page about it.
+        keys: the keys that distinguish it from other files.
+        smallest: the smallest file, in words.
+        start: how to begin one.
+        use: the command that uses it.
+        is_imported: whether ``gark import`` makes it of files in other formats.
+    """
 
     name: str
+    files: str
     page: str
+    keys: tuple[str, ...] = ()
+    smallest: str = ""
+    start: str = ""
+    use: str = ""
+    is_imported: bool = False
 
 
+METHOD_FILE = FileKind(
+    "method file",
+    "method files",
+    "docs/method-file.md",
+    (
+        *("gark", "methods", "tableau", "ark", "prk", "A", "b", "unknown"),
+        *("compose", "adjoint", "extrapolate", "splitting", "multirate"),
+    ),
+    "the smallest file has A and b, or methods",
+    "start with A: and b:, or with methods:",
+    "gark check FILE reads it",
+    is_imported=True,
+)
+PROBLEM_FILE = FileKind(
+    "problem file",
+    "problem files",
+    "docs/problem-file.md",
+    ("variables", "hamiltonian", "lagrangian", "rhs"),
+    "the smallest file has variables, hamiltonian and initial",
+    "start with variables:",
+    "give it beside a method file: gark converge METHOD --problem FILE",
+)
+SWEEP_FILE = FileKind(
+    "sweep file",
+    "spec files of gark sweep",
+    "docs/sweep.md",
+    ("columns", "methods", "files", "where", "best", "pareto"),
+    "the smallest file has methods or files, and columns",
+    "start with methods:",
+    "gark sweep FILE runs it",
+)
+PROJECT_FILE = FileKind("project file", ".gark.toml and [tool.gark]", "docs/ci.md")
 KINDS = {
-    "method": Files("method files", "docs/method-file.md"),
-    "problem": Files("problem files", "docs/problem-file.md"),
-    "sweep": Files("spec files of gark sweep", "docs/sweep.md"),
-    "project": Files(".gark.toml and [tool.gark]", "docs/ci.md"),
+    "method": METHOD_FILE,
+    "problem": PROBLEM_FILE,
+    "sweep": SWEEP_FILE,
+    "project": PROJECT_FILE,
 }
 
 

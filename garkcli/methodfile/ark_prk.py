@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from yaml.nodes import Node, SequenceNode
-
 from garkcli.errors import counted
 from garkcli.frozen import replace
+from garkcli.grammar.keys import Key, ReadMapping, ValueKind, defined, mapping
+from garkcli.grammar.nodes import Node, SequenceNode, key_nodes
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.grammar import Key, ReadMapping, ValueKind, defined, mapping
-from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Reading, Rows
 
 _FORM_OF_PRK = "give q: {A, b} and p: {A, b}"

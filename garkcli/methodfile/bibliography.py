@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from types import SimpleNamespace
 from typing import Any
 
-from yaml.nodes import MappingNode, Node, SequenceNode
-
 from garkcli.errors import MAX_WORD
-from garkcli.methodfile.grammar import TEXT, Key, ReadMapping, Schema, ValueKind, mapping, word
-from garkcli.methodfile.nodes import one_line, shortened
-from garkcli.methodfile.source import Source
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.keys import TEXT, Key, ReadMapping, Schema, ValueKind, mapping, word
+from garkcli.grammar.nodes import MappingNode, Node, SequenceNode, one_line, shortened
+from garkcli.grammar.source import Source
 from garkcli.reference import WORKS, Reference
 
 _BETWEEN_PEOPLE = r",\s+and\s+|,\s*|\s+and\s+|\s*&\s*"
@@ -176,7 +175,7 @@ def aliases_of(text: str, name: str) -> tuple[str, ...]:
     >>> aliases_of("aliases: [DOPRI5, RK45]", "a file")
     ('DOPRI5', 'RK45')
     """
-    found: tuple[str, ...] | None = _value_of(Source(name, text), "aliases", ALIASES)
+    found: tuple[str, ...] | None = _value_of(Source(name, text, METHOD_FILE), "aliases", ALIASES)
     return found or ()
 
 
@@ -189,7 +188,7 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
     >>> reference_of("reference: Runge 1895", "a file")
     ('Runge 1895', None)
     """
-    source = Source(name, text)
+    source = Source(name, text, METHOD_FILE)
     found: tuple[str, Reference | None] | None = _value_of(source, "reference", REFERENCE)
     source.close()
     return found or ("", None)

@@ -8,7 +8,6 @@ from itertools import chain, permutations
 from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 
 from flint import fmpq
-from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO, Number
@@ -16,9 +15,10 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
+from garkcli.grammar.nodes import Node
+from garkcli.grammar.source import Source
 from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import Entry, Numbers, Row
-from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
 from garkcli.order.meant import AnyTableau, meant

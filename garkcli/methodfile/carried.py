@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TypeAlias
-
-import yaml
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from collections.abc import Mapping, Sequence
 
 from garkcli.errors import MethodFileError, Remark
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.editing import block_mapping, block_text, mapping_under, with_values
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode
+from garkcli.grammar.source import Source
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.description import BESIDE
-from garkcli.methodfile.nodes import extent
-from garkcli.methodfile.source import Source
-
-_WIDTH = 110
 
 
 def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
@@ -25,7 +21,7 @@ def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
     >>> lines_of(euler, ["description", "reference"])
     'reference: L. Euler 1768\n'
     """
-    return _lines([x for x in _entries(method) if x[0].value in keys])
+    return block_text([x for x in _entries(method) if x[0].value in keys])
 
 
 def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
@@ -40,7 +36,7 @@ def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
                 for name, value in claims.value
                 if name.value in names
             ]
-            return _lines([(key, _mapping(kept))]) if kept else ""
+            return block_text([(key, block_mapping(kept))]) if kept else ""
     return ""
 
 
@@ -50,31 +46,22 @@ def parameter_names(text: str, source: str) -> list[str]:
     >>> parameter_names("{parameters: {t: free}, A: [[t]], b: [1]}", "it")
     ['t']
     """
-    root = Source(source, text).compose()
-    parameters = None if root is None else _mapping_under(root, "parameters")
+    root = Source(source, text, METHOD_FILE).compose()
+    parameters = None if root is None else mapping_under(root, "parameters")
     return [] if parameters is None else [str(name.value) for name, _ in parameters.value]
 
 
 def is_transformed(method: MethodFile) -> bool:
     """Returns whether a Rosenbrock method is written in transformed form, as in programs."""
-    root = Source(method.source, method.text).compose()
-    form = None if root is None else _mapping_under(root, "rosenbrock")
-    return form is not None and _mapping_under(form, "transformed") is not None
+    root = Source(method.source, method.text, METHOD_FILE).compose()
+    form = None if root is None else mapping_under(root, "rosenbrock")
+    return form is not None and mapping_under(form, "transformed") is not None
 
 
 def _entries(method: MethodFile) -> list[tuple[Node, Node]]:
-    root = Source(method.source, method.text).compose()
+    root = Source(method.source, method.text, METHOD_FILE).compose()
     assert root is not None
     return list(root.value)
-
-
-def _mapping(entries: list[tuple[Node, Node]]) -> MappingNode:
-    return MappingNode("tag:yaml.org,2002:map", entries, flow_style=False)
-
-
-def _lines(entries: list[tuple[Node, Node]]) -> str:
-    mapping = _mapping(entries)
-    return str(yaml.serialize(mapping, allow_unicode=True, width=_WIDTH)) if entries else ""
 
 
 _DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
@@ -90,7 +77,7 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     kept = [(key, x) for key, x in kept if key.value != "tolerance" or x.value]
     title: tuple[Node, Node] = (_scalar("name"), _scalar(name))
     added: tuple[Node, Node] = (_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true"))
-    return _lines([title, *kept, *([] if method.is_conjugate else [added])])
+    return block_text([title, *kept, *([] if method.is_conjugate else [added])])
 
 
 def _without_further(node: Node) -> Node:
@@ -108,11 +95,6 @@ def _scalar(text: str) -> ScalarNode:
     return ScalarNode("tag:yaml.org,2002:str", text)
 
 
-INDENT = "  "
-Edit: TypeAlias = tuple[int, int, str]
-"""A place in a text and its new content."""
-
-
 def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
     r"""Returns the text of a method file with other claims.
 
@@ -127,86 +109,14 @@ def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
       order: 1
     <BLANKLINE>
     """
-    root = Source(source, text).compose()
+    root = Source(source, text, METHOD_FILE).compose()
     assert isinstance(root, MappingNode)
-    expect = _mapping_under(root, "expect")
-    if expect is None or not expect.value:
-        return _with_block(source, text, root, expect, claims)
-    edits = [*_replacements(text, expect, claims), *_additions(text, expect, claims)]
-    # from the last to the first: places before an edit stay where they are
-    for start, end, new in sorted(edits, reverse=True):
-        text = text[:start] + new + text[end:]
-    return text
-
-
-def _mapping_under(root: MappingNode, name: str) -> MappingNode | None:
-    found = (x for key, x in root.value if key.value == name and isinstance(x, MappingNode))
-    return next(found, None)
-
-
-def _with_block(
-    source: str, text: str, root: MappingNode, empty: Node | None, claims: Mapping[str, str]
-) -> str:
-    """Returns a file without claims, with the claims added at the end."""
-    if root.flow_style or empty is not None:
+    edited = with_values(text, root, "expect", claims)
+    if edited is None:
         fault = Remark(
             "the claims have no place in this file",
             "write keys below one another, without braces, and no expect: {}",
             code="no-place-for-claims",
         )
         raise MethodFileError(source, [fault], text)
-    if not claims:
-        return text
-    # below the last key and comment, before ... of YAML, as far in as the keys are
-    end = root.end_mark.index
-    before, after = text[:end], text[end:]
-    line_end = _line_end(text)
-    margin = " " * root.start_mark.column
-    lines = ["expect:", *(f"{INDENT}{key}: {value}" for key, value in claims.items())]
-    block = "".join(margin + line + line_end for line in lines)
-    return before + ("" if before.endswith("\n") else line_end) + block + after
-
-
-def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
-    """Yields the edits for claims that are in the file."""
-    for key, node in expect.value:
-        value = claims.get(key.value)
-        is_plain = isinstance(node, ScalarNode)
-        if value is None or (is_plain and node.value == value.strip('"')):
-            continue
-        start, _ = extent(text, node, node)
-        yield start, _end(text, node), value
-
-
-def _additions(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
-    """Yields the edits for new claims after the last one, in braces or on lines below it."""
-    there = {key.value for key, _ in expect.value}
-    new = [f"{key}: {x}" for key, x in claims.items() if key not in there]
-    first, _ = expect.value[0]
-    _, last = expect.value[-1]
-    end = _end(text, last)
-    if not new:
-        return
-    if expect.flow_style:
-        yield end, end, "".join(f", {x}" for x in new)
-        return
-    margin = _line_end(text) + " " * first.start_mark.column
-    line_end = text.find(_line_end(text), end)
-    place = len(text) if line_end < 0 else line_end
-    yield place, place, "".join(margin + x for x in new)
-
-
-def _line_end(text: str) -> str:
-    return "\r\n" if "\r\n" in text else "\n"
-
-
-def _end(text: str, node: Node) -> int:
-    """Returns the end of a value; that of a block list is the end of its last entry, before
-    comments below it.
-    """
-    while isinstance(node, SequenceNode) and node.value:
-        if node.flow_style:
-            break
-        node = node.value[-1]
-    _, end = extent(text, node, node)
-    return end
+    return edited

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from yaml.nodes import Node
-
 from garkcli.errors import counted
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node
 from garkcli.methodfile import description as d
-from garkcli.methodfile import grammar as g
 from garkcli.methodfile import spelled_out
 from garkcli.methodfile.numbers import Reading, Row, Rows
 from garkcli.methodfile.parameters import ROW

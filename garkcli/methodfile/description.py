@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 from flint import fmpq
-from yaml.nodes import Node
 
 from garkcli.frozen import Frozen, FrozenBut
+from garkcli.grammar.nodes import Node
+from garkcli.grammar.source import Source
 from garkcli.methodfile.numbers import Entry, Row, Rows
-from garkcli.methodfile.source import Source
 from garkcli.reference import ZANNA, Reference, Work
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Method, Tableau

@@ -4,28 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-
 from garkcli.errors import UnknownFamily, did_you_mean, nearest
 from garkcli.families.collocation import MOST_OF_GAUSS
 from garkcli.families.family import Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
+from garkcli.grammar.keys import Key, OfSchema, Schema, ValueKind, count, entries_in, mapping, word
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, keys_of, shortened
+from garkcli.grammar.source import Entries
 from garkcli.methodfile import description as d
-from garkcli.methodfile.grammar import (
-    Key,
-    OfSchema,
-    Schema,
-    ValueKind,
-    count,
-    entries_in,
-    mapping,
-    word,
-)
-from garkcli.methodfile.nodes import keys_of, shortened
 from garkcli.methodfile.numbers import Entry, Reading, Row
 from garkcli.methodfile.parameters import NUMBER
-from garkcli.methodfile.source import Entries
 from garkcli.methodfile.spelled_out import (
     BUTCHER,
     are_too_many,

@@ -7,17 +7,16 @@ from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
-from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
+from garkcli.grammar.keys import FLAG, Key, ValueKind, mapping
+from garkcli.grammar.nodes import Node, ScalarNode, SequenceNode, is_null, shortened
+from garkcli.grammar.source import Source
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.grammar import FLAG, Key, ValueKind, mapping
-from garkcli.methodfile.nodes import is_null, shortened
-from garkcli.methodfile.source import Source
 from garkcli.properties.definitions import ORDERS, definition, every_definition
 from garkcli.properties.registry import KEYS
 

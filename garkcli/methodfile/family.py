@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq, fmpq_mpoly
-from yaml.nodes import ScalarNode
 
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
 from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.grammar.nodes import Extent, ScalarNode, extent, one_line
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.description import (
     ClaimText,
@@ -25,7 +25,6 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
-from garkcli.methodfile.nodes import Extent, extent, one_line
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family

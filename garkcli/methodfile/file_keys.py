@@ -10,14 +10,13 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING
 
-from yaml.nodes import SequenceNode
-
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import SequenceNode
+from garkcli.grammar.source import Home
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import EXPECT
 from garkcli.methodfile.parameters import DEFINITIONS, PARAMETERS
-from garkcli.methodfile.source import Home
 from garkcli.methodfile.spelled_out import (
     BUTCHER,
     DENSE,
@@ -29,7 +28,7 @@ from garkcli.methodfile.spelled_out import (
 )
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import Files
+    from garkcli.glossary.key import FileKind
     from garkcli.glossary.key import KeyMeaning as Entry
 
 _PAGE = "docs/method-file.md#"
@@ -89,7 +88,7 @@ KEYS = {
         PREDICTOR_KEY,
         g.Key(
             "transfer: collocation",
-            g.later("transfers", "TRANSFER"),
+            g.later("garkcli.methodfile.transfers", "TRANSFER"),
             "The rules for the off-diagonal blocks between the methods: one rule for all of them, "
             "weights of several rules with the sum 1, or a default with exceptions.",
             page=_PAPER,
@@ -103,34 +102,34 @@ KEYS = {
         ),
         g.Key(
             "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[0, 1], [0, 1]]}",
-            g.later("ark_prk", "ARK"),
+            g.later("garkcli.methodfile.ark_prk", "ARK"),
             "An additive method: colours that share their stage values, such as an IMEX pair.",
             page=f"{_PAGE}ark-additive-rungekutta-shared-stages",
         ),
         g.Key(
             "prk: {q: {A: [[0], [1]], b: [1]}, p: {A: [[1/2, 0]], b: [1/2, 1/2]}}",
-            g.later("ark_prk", "PRK"),
+            g.later("garkcli.methodfile.ark_prk", "PRK"),
             "A partitioned method: one tableau for the positions q, one for the momenta p.",
             page=f"{_PAGE}prk-partitioned-rungekutta-written-as-the-paper-prints-the-rectangular-"
             "method",
         ),
         g.Key(
             "shu-osher: {alpha: [[1], [1/2, 1/2]], beta: [[1], [0, 1/2]]}",
-            g.later("registers", "SHU_OSHER"),
+            g.later("garkcli.methodfile.registers", "SHU_OSHER"),
             "An explicit method in the form of Shu and Osher.",
             page=f"{_PAGE}shu-osher-and-low-storage-as-programs-print-them",
             also=("shu_osher", "shuosher"),
         ),
         g.Key(
             "low-storage: {form: 2N, A: [0, -1], B: [1, 1/2]}",
-            g.later("registers", "LOW_STORAGE"),
+            g.later("garkcli.methodfile.registers", "LOW_STORAGE"),
             "An explicit method as codes with few registers print it: 2N, 2R, 3R, 2C, 2S, 3S*.",
             page=f"{_PAGE}shu-osher-and-low-storage-as-programs-print-them",
             also=("low_storage", "lowstorage"),
         ),
         g.Key(
             "rosenbrock: {alpha: [[0, 0], [1, 0]], gamma: [[1/2, 0], [-1, 1/2]], b: [1/2, 1/2]}",
-            g.later("rosenbrock", "ROSENBROCK"),
+            g.later("garkcli.methodfile.rosenbrock", "ROSENBROCK"),
             "A Rosenbrock or W-method: linear systems with the Jacobian, or another matrix, in "
             "place of nonlinear ones.",
             page=f"{_PAGE}rosenbrock-rosenbrock-and-w-methods",
@@ -138,51 +137,51 @@ KEYS = {
         ),
         g.Key(
             "nystrom: {Abar: [[], [1/2]], c: [0, 1], bbar: [1/2, 0], b: [1/2, 1/2]}",
-            g.later("nystrom", "NYSTROM"),
+            g.later("garkcli.methodfile.nystrom", "NYSTROM"),
             "A Nyström method for q″ = g(q, q′), or g(q) without A.",
             page=f"{_PAGE}nystrom-nyström-methods",
             also=("rkn", "rkng"),
         ),
         g.Key(
             "nprk: {a: [[], [[], [1]]], b: [[], [1]]}",
-            g.later("nprk", "NPRK"),
+            g.later("garkcli.methodfile.nprk", "NPRK"),
             "A nonlinearly partitioned method for F(y, y).",
             page=f"{_PAGE}nprk-nonlinearly-partitioned-methods",
         ),
         g.Key(
             "derivatives: {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}",
-            g.later("derivatives", "DERIVATIVES"),
+            g.later("garkcli.methodfile.derivatives", "DERIVATIVES"),
             "A multiderivative method: it uses f, f′f, …, the derivatives along the solution.",
             page=f"{_PAGE}derivatives-multiderivative-methods",
             also=("multiderivative", "tdrk"),
         ),
         g.Key(
             "compose: {of: rk4, steps: [1/2, 1/2]}",
-            g.later("constructed.compose", "KIND"),
+            g.later("garkcli.methodfile.constructed.compose", "KIND"),
             "Substeps of methods, one after the other, the first one first.",
             page=_MADE,
         ),
         g.Key(
             "adjoint: explicit-euler",
-            g.later("constructed.compose", "ADJOINT"),
+            g.later("garkcli.methodfile.constructed.compose", "ADJOINT"),
             "The adjoint of a method: the inverse of its step with −h.",
             page=_MADE,
         ),
         g.Key(
             "extrapolate: {of: {family: gauss, stages: 1}, order: 6}",
-            g.later("constructed.extrapolate", "KIND"),
+            g.later("garkcli.methodfile.constructed.extrapolate", "KIND"),
             "Several numbers of equal substeps of a method, combined so that powers of h cancel.",
             page=_MADE,
         ),
         g.Key(
             "splitting: {a: [1/2, 1/2], b: [1]}",
-            g.later("constructed.splitting", "KIND"),
+            g.later("garkcli.methodfile.constructed.splitting", "KIND"),
             "The parts of a problem flow in turn, each by its exact flow or by a method.",
             page=_MADE,
         ),
         g.Key(
             "multirate: {slow: kutta, fast: kutta, steps: 4}",
-            g.later("constructed.multirate", "KIND"),
+            g.later("garkcli.methodfile.constructed.multirate", "KIND"),
             "Small steps of a fast method within one step of a slow one; colour 1 is the fast "
             "part.",
             page=f"{_PAGE}multirate-small-steps-of-one-method-within-one-of-another",
@@ -210,13 +209,13 @@ KEYS = {
         ),
         g.Key(
             "unknown: {stages: 3, shape: sdirk}",
-            g.later("shapes", "UNKNOWN"),
+            g.later("garkcli.methodfile.shapes", "UNKNOWN"),
             "A tableau of unknowns, by its stages and its shape, for gark design.",
             page="docs/design.md",
         ),
         g.Key(
             "design: {order: 3, l-stable: true}",
-            g.later("wishes", "DESIGN"),
+            g.later("garkcli.methodfile.wishes", "DESIGN"),
             "The demands on methods that gark design seeks, for all colours or for some of them.",
             page="docs/design.md",
         ),
@@ -229,7 +228,7 @@ KEYS = {
         ),
         g.Key(
             "tolerance: 1e-13",
-            g.later("tolerance", "KIND"),
+            g.later("garkcli.methodfile.tolerance", "KIND"),
             "The largest error of each rounded coefficient; zeros, short fractions and roots are "
             "exact. Write one number for all, a number for each place, or digits: then every "
             "decimal is off by one unit of its last digit at most.",
@@ -363,10 +362,10 @@ def method_file_schema() -> g.Schema:
                     g.mapping(*(KEYS[key] for key in KEYS_OF_METHOD), rules=rules).schema(),
                 ]
             },
-            "rule": g.later("transfers", "RULE").schema(),
+            "rule": g.later("garkcli.methodfile.transfers", "RULE").schema(),
         },
     )
 
 
-def told(files: Files) -> Iterable[Entry]:
-    return g.told(KEYS.values(), files.page)
+def told(kind: FileKind) -> Iterable[Entry]:
+    return g.told(KEYS.values(), kind.page)

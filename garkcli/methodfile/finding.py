@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 
 from garkcli.files import STDIN, leads_away
+from garkcli.methodfile.folders import files_below, no_one, within
 from garkcli.methodfile.naming import PREFIX, expanded, is_both
-from garkcli.methodfile.reading import files_below, no_one, within
 
 _MAGIC = frozenset("*?[")
 

@@ -6,7 +6,6 @@ from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import Any
 
 from flint import arb, ctx, fmpq
-from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
 from garkcli.exact.enclosing import midpoint
@@ -14,11 +13,11 @@ from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, val
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import names_in, size_of
 from garkcli.frozen import Frozen, Mutable, field
-from garkcli.methodfile.nodes import is_null, shortened, unquoted
+from garkcli.grammar.nodes import Node, is_null, shortened, unquoted
+from garkcli.grammar.source import Entries, Source
+from garkcli.grammar.spellings import explained, is_misread
 from garkcli.methodfile.numbers import MAX_SIZE
 from garkcli.methodfile.problem_keys import ProblemText
-from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.spellings import explained, is_misread
 from garkcli.problems.expr import Expr, Invariants, Place, Vector, rational
 from garkcli.problems.translate import Translator
 from garkcli.transfer import LOG10_2

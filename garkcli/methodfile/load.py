@@ -12,17 +12,18 @@ from garkcli.doing import doing
 from garkcli.errors import HasFreeParameters, MethodFileError, Remark
 from garkcli.files import STDIN
 from garkcli.frozen import replace
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.nodes import one_line
+from garkcli.grammar.source import Source
 from garkcli.methodfile.bibliography import reference_of
 from garkcli.methodfile.build import Builder, MethodFile, V, part_of
 from garkcli.methodfile.description import Description, Form, left_behind, rules_of_blocks, works_of
 from garkcli.methodfile.finding import find_files
+from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.naming import is_both, read_argument
-from garkcli.methodfile.nodes import one_line
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.reading import SUFFIX
-from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.meant import remember, remember_digits, remembered, remembered_digits
 from garkcli.reference import Work
@@ -228,7 +229,7 @@ def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Read
 
     Raises MethodFileError if the file does not describe a method.
     """
-    reading = Source(source, text)
+    reading = Source(source, text, METHOD_FILE)
     reader = Reader(reading, settings)
     description = reader.read()
     if description is None:

@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING
 from garkcli.errors import MAX_WORD, MethodFileError, Remark, nearest, printable
 from garkcli.files import STDIN
 from garkcli.frozen import fields
-from garkcli.methodfile.reading import read_text
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.reading import read_text
 from garkcli.methodfile.shelves import (
     Found,
     Shelf,
@@ -29,7 +30,6 @@ from garkcli.methodfile.shelves import (
     own_folders,
     package,
 )
-from garkcli.methodfile.source import METHOD_FILE
 
 if TYPE_CHECKING:
     from garkcli.reference import Reference

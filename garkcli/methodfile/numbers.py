@@ -6,17 +6,15 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-
 from garkcli.errors import ExpressionError, LimitExceeded, counted
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, names_in, size_of, substitute
 from garkcli.frozen import Frozen, Mutable, field, replace
-from garkcli.methodfile import spellings
-from garkcli.methodfile.nodes import shortened
-from garkcli.methodfile.source import Entries, Source
+from garkcli.grammar import spellings
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, shortened
+from garkcli.grammar.source import Entries, Source
 
 if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial

@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from typing import Any
 
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-
 from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import roots_in
-from garkcli.methodfile.grammar import Key, ReadMapping, Schema, ValueKind, defined, mapping
-from garkcli.methodfile.nodes import key_nodes, shortened, unquoted
+from garkcli.grammar.keys import Key, ReadMapping, Schema, ValueKind, defined, mapping
+from garkcli.grammar.nodes import (
+    MappingNode,
+    Node,
+    ScalarNode,
+    SequenceNode,
+    key_nodes,
+    shortened,
+    unquoted,
+)
 from garkcli.methodfile.numbers import UNKNOWN, Between, Free, Numbers
 
 NUMBER = defined("number", lambda at, node, where: at.numbers.entry(node, where))

@@ -9,14 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.doing import doing
 from garkcli.exact.formula import RESERVED
 from garkcli.frozen import Frozen, replace
+from garkcli.glossary.key import PROBLEM_FILE
+from garkcli.grammar.keys import FILE, entries_in
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, one_line, shortened
+from garkcli.grammar.reading import read_text
+from garkcli.grammar.source import Entries, Source
 from garkcli.methodfile.formulas import FormulaReader, bad_name
-from garkcli.methodfile.grammar import FILE, entries_in
-from garkcli.methodfile.nodes import one_line, shortened
 from garkcli.methodfile.problem_keys import (
     DEFAULT_T_END,
     FORM,
@@ -28,9 +30,7 @@ from garkcli.methodfile.problem_keys import (
     ProblemText,
     Side,
 )
-from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.sides import SidesMaker
-from garkcli.methodfile.source import PROBLEM_FILE, Entries, Source
 from garkcli.methodfile.terms import HamiltonianMaker
 from garkcli.problems.vectorfield import TIME
 

@@ -9,15 +9,15 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
-from yaml.nodes import Node
 
 from garkcli.exact.formula import RESERVED
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import Files
+    from garkcli.glossary.key import FileKind
     from garkcli.glossary.key import KeyMeaning as Entry
 
 
@@ -198,5 +198,5 @@ def _told_anew(key: str, kind: g.ValueKind) -> g.Schema:
     return replace(KEYS[key], kind=kind).schema()
 
 
-def told(files: Files) -> Iterable[Entry]:
-    return g.told(KEYS.values(), files.page)
+def told(kind: FileKind) -> Iterable[Entry]:
+    return g.told(KEYS.values(), kind.page)

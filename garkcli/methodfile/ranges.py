@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from flint import fmpq
-from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError
 from garkcli.exact.cells import between
@@ -12,8 +11,9 @@ from garkcli.exact.nodes import Literal
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
+from garkcli.grammar.nodes import Node
+from garkcli.grammar.source import Source
 from garkcli.methodfile.numbers import Between, Entry
-from garkcli.methodfile.source import Source
 
 
 def between_roots(source: Source, ends: tuple[Entry, Entry], node: Node, where: str) -> Between:

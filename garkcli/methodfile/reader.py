@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, cast
 
-from yaml.nodes import MappingNode, Node, ScalarNode
-
 from garkcli.errors import did_you_mean
 from garkcli.frozen import replace
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.keys import FILE, entries_in
+from garkcli.grammar.nodes import Extent, MappingNode, Node, ScalarNode, extent, key_of, keys_of
+from garkcli.grammar.source import Entries, Source
 from garkcli.methodfile import description as d
 from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
-from garkcli.methodfile.grammar import FILE, entries_in
-from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
 from garkcli.methodfile.numbers import Numbers, Reading
 from garkcli.methodfile.parameters import refuse_unknown_settings
-from garkcli.methodfile.source import Entries, Source
 from garkcli.methodfile.spelled_out import tableau, tableau_of
 
 if TYPE_CHECKING:
@@ -264,7 +263,7 @@ class Reader(Reading):
         from garkcli.methodfile.naming import read_argument
 
         text, found = read_argument(f"catalogue:{name}")
-        source = Source(found, text)
+        source = Source(found, text, METHOD_FILE)
         if found in self._inside:
             message, cure = f"{found} is made from itself", "name another method"
             source.fault(None, message, cure, code="made-from-itself")

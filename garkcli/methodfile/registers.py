@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from yaml.nodes import Node, ScalarNode, SequenceNode
-
 from garkcli.errors import counted
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node, ScalarNode, SequenceNode
 from garkcli.methodfile import description as d
-from garkcli.methodfile import grammar as g
 from garkcli.methodfile import spelled_out
 from garkcli.methodfile.numbers import Reading
 from garkcli.methodfile.parameters import MATRIX, ROW

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sized
 
-from yaml.nodes import Node, ScalarNode
-
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node, ScalarNode, is_null
 from garkcli.methodfile import description as d
-from garkcli.methodfile import grammar as g
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Entry, Reading, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, NUMBER, ROW
 

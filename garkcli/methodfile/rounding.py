@@ -22,10 +22,10 @@ from garkcli.exact.nodes import (
 )
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
+from garkcli.grammar.source import Source
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.numbers import Entry, Numbers
 from garkcli.methodfile.printed import is_long_fraction
-from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.tableau.box import Box, rational_or_ball, to_points
 from garkcli.tableau.embedded import as_colours

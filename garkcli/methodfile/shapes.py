@@ -9,12 +9,9 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import chain, pairwise, product
 from typing import Any, Literal, TypeAlias
 
-from yaml.nodes import Node
-
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile import description as d
-from garkcli.methodfile.grammar import (
+from garkcli.grammar.keys import (
     FLAG,
     Key,
     ReadMapping,
@@ -24,7 +21,8 @@ from garkcli.methodfile.grammar import (
     one_or_more,
     word,
 )
-from garkcli.methodfile.nodes import Extent, extent, shortened
+from garkcli.grammar.nodes import Extent, Node, extent, shortened
+from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import Reading, Row, Rows
 from garkcli.methodfile.values import Values
 

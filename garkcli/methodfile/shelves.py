@@ -18,9 +18,10 @@ from msgspec import json
 
 from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import Frozen
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.reading import decoded, read_text
 from garkcli.methodfile.bibliography import aliases_of
-from garkcli.methodfile.reading import SUFFIX, decoded, files_below, read_text
-from garkcli.methodfile.source import METHOD_FILE
+from garkcli.methodfile.folders import SUFFIX, files_below
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint

@@ -7,16 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence, Sized
 from typing import TypeAlias
 
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-
 from garkcli.errors import counted
 from garkcli.frozen import replace
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, is_null
+from garkcli.grammar.source import Entries, Home
 from garkcli.methodfile import description as d
-from garkcli.methodfile import grammar as g
-from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import UNKNOWN, Reading, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
-from garkcli.methodfile.source import Entries, Home
 
 Weights: TypeAlias = tuple[Row, ...]
 Names: TypeAlias = tuple[str, str, str]
@@ -144,7 +142,7 @@ def with_coefficients(*keys: g.Key, form: str) -> g.ValueKind:
 def _elsewhere() -> Mapping[str, str | Home]:
     """Returns advice about keys in a Butcher tableau that belong elsewhere."""
     # declared where this tableau is a part of files
-    return {**g.declared("file_keys", "elsewhere")(), **_SAID_BY_B}
+    return {**g.declared("garkcli.methodfile.file_keys", "elsewhere")(), **_SAID_BY_B}
 
 
 TABLEAU = with_coefficients(

@@ -14,18 +14,18 @@ from types import SimpleNamespace
 from typing import Any
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
 from garkcli.frozen import Frozen
-from garkcli.methodfile import grammar as g
+from garkcli.glossary.key import SWEEP_FILE
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, one_line, shortened, unquoted
+from garkcli.grammar.reading import read_text
+from garkcli.grammar.source import Source
 from garkcli.methodfile.expectations import claims
-from garkcli.methodfile.nodes import one_line, shortened, unquoted
-from garkcli.methodfile.reading import read_text
-from garkcli.methodfile.source import SWEEP_FILE, Source
 from garkcli.methodfile.sweep_methods import (
     METHODS,
     NAME,

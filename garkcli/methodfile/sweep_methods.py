@@ -9,8 +9,6 @@ from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
-from yaml.nodes import Node, ScalarNode, SequenceNode
-
 from garkcli.deadline import checked
 from garkcli.errors import ExpressionError, UnknownFamily
 from garkcli.exact.expression import parse
@@ -19,14 +17,14 @@ from garkcli.exact.rewriting import substitute
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, recipe_of
 from garkcli.frozen import Frozen
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node, ScalarNode, SequenceNode, keys_of, shortened
+from garkcli.grammar.source import Source
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
-from garkcli.methodfile.nodes import keys_of, shortened
 from garkcli.methodfile.numbers import UNKNOWN
 from garkcli.methodfile.parameters import SIGNS
-from garkcli.methodfile.source import Source
 from garkcli.methodfile.transfers import ALL_RULES, OF_DEGREE
 from garkcli.transfer import RULES
 

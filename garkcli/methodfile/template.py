@@ -8,9 +8,9 @@ from typing import TypeAlias
 
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen
+from garkcli.grammar.editing import quoted
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.pasted import Pasted
-from garkcli.methodfile.writer import quoted
 
 HEAD = (
     "# gark check FILE proves the claims under expect; gark claims FILE --write",

@@ -8,16 +8,15 @@ from itertools import chain
 from typing import Any, TypeAlias
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node
 
 from garkcli.errors import LimitExceeded, did_you_mean
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression
 from garkcli.frozen import FrozenBut
+from garkcli.grammar.keys import Key, Schema, ValueKind
+from garkcli.grammar.nodes import MappingNode, Node, key_nodes, shortened
 from garkcli.methodfile import description as d
-from garkcli.methodfile.grammar import Key, Schema, ValueKind
-from garkcli.methodfile.nodes import key_nodes, shortened
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.printed import coarsest_unit, fewest_digits, unit_of

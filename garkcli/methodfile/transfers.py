@@ -6,11 +6,17 @@ import re
 from collections.abc import Mapping, Sequence
 from itertools import permutations
 
-from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
-
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import (
+    MappingNode,
+    Node,
+    ScalarNode,
+    SequenceNode,
+    key_nodes,
+    keys_of,
+    shortened,
+)
 from garkcli.methodfile import description as d
-from garkcli.methodfile import grammar as g
-from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
 from garkcli.methodfile.numbers import UNKNOWN, Reading, name_of_place
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.transfer import MAX_DEGREE, PAIR_RULES, RULES, SUMMARIES

@@ -7,28 +7,18 @@ from functools import partial
 from itertools import chain
 from typing import Any
 
-from yaml.nodes import MappingNode, Node
-
 from garkcli.deadline import until
 from garkcli.design.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.frozen import Frozen, fields
+from garkcli.grammar.keys import FLAG, Key, ReadMapping, ValueKind, by_name, count, either, mapping
+from garkcli.grammar.nodes import MappingNode, Node
+from garkcli.grammar.source import Source
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.family_values import FamilyValues
-from garkcli.methodfile.grammar import (
-    FLAG,
-    Key,
-    ReadMapping,
-    ValueKind,
-    by_name,
-    count,
-    either,
-    mapping,
-)
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
-from garkcli.methodfile.source import Source
 
 MOST = 60
 FORM = "write design: {order: 3, stiffly-accurate: true}"

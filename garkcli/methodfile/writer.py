@@ -13,6 +13,7 @@ from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.frozen import replace
+from garkcli.grammar.editing import quoted, row_text
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.garkmethod import GarkMethod
@@ -288,19 +289,3 @@ def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
 
 def _row(numbers: Sequence[Number], text: NumberText) -> str:
     return row_text(map(text, numbers))
-
-
-def row_text(numbers: Iterable[str]) -> str:
-    return f"[{', '.join(map(number_text, numbers))}]"
-
-
-def number_text(number: str) -> str:
-    """Returns a number for a list in brackets, in which the comma of root(x, n) needs quotes."""
-    return quoted(number) if "," in number else number
-
-
-def quoted(text: str) -> str:
-    """Returns a text in quotes, with escapes for nonprintable characters."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    inside = "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
-    return f'"{inside}"'

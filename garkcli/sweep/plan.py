@@ -11,9 +11,9 @@ from itertools import accumulate
 from typing import Any, Literal, TypeAlias, cast
 
 from garkcli.frozen import Frozen
-from garkcli.glossary.key import Files, KeyMeaning
-from garkcli.methodfile.grammar import file_schema
-from garkcli.methodfile.grammar import told as entries_of
+from garkcli.glossary.key import FileKind, KeyMeaning
+from garkcli.grammar.keys import file_schema
+from garkcli.grammar.keys import told as entries_of
 from garkcli.methodfile.sweep_file import count_methods, file_of, read_sweep
 from garkcli.methodfile.sweep_methods import Template
 from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
@@ -161,9 +161,9 @@ def sweep_schema() -> dict[str, Any]:
     )
 
 
-def told(files: Files) -> Iterable[KeyMeaning]:
+def told(kind: FileKind) -> Iterable[KeyMeaning]:
     """The keys of spec files."""
-    return entries_of(file_of(_kinds()).inside(), files.page)
+    return entries_of(file_of(_kinds()).inside(), kind.page)
 
 
 def _kinds() -> dict[str, str]:

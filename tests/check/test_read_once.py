@@ -8,7 +8,7 @@ import pytest
 
 from garkcli.check.check_file import check_file
 from garkcli.errors import HasFreeParameters
-from garkcli.methodfile import source
+from garkcli.grammar import source
 from garkcli.methodfile.family import family_of
 from garkcli.methodfile.load import loads
 

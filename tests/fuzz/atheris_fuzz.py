@@ -72,7 +72,7 @@ def targets(atheris: Any) -> Mapping[str, Callable[[bytes], None]]:
         from garkcli.exact.domain import Domain
         from garkcli.exact.expression import parse
         from garkcli.exact.rewriting import substitute
-        from garkcli.methodfile import composing
+        from garkcli.grammar import composing
         from garkcli.methodfile.load import loads
     composing.MAX_NODES = NODES
     files, values = seeds(), {"tau": parse("1/2")}

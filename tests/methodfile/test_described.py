@@ -70,10 +70,10 @@ def test_keys_of_projects_are_toml() -> None:
 
 def test_every_key_is_a_word() -> None:
     """Keys are found by their paths and by their own names, also in files of other kinds."""
-    for kind, (files, _) in KINDS.items():
+    for kind, files in KINDS.items():
         for path in keys_of(kind):
             name = path.rpartition(".")[2]
             is_word = keys_of(kind)[path].is_word and len(name) > 1
             for word in (path, name) if is_word else (path,):
                 found = {(x.kind, x.name) for x in explain(word)}
-                assert (f"key of {files}", path) in found, word
+                assert (f"key of {files.files}", path) in found, word

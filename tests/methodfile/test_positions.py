@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from garkcli.errors import MethodFileError, Remark
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.source import Source
 from garkcli.methodfile.load import load, loads
-from garkcli.methodfile.source import Source
 from garkcli.page.paint import Paint
 from garkcli.report import remarks
 from tests.whole import in_whole
@@ -180,7 +181,7 @@ def test_every_block_that_cannot_be_made_is_reported() -> None:
 
 def test_faults_of_one_place_keep_the_order_they_were_met_in() -> None:
     """What a file is told does not depend on the hash seed of the run."""
-    source = Source("m", "")
+    source = Source("m", "", METHOD_FILE)
     messages = [f"fault {n}" for n in range(40)]
     for message in messages:
         source.fault(None, message, code="doubled")

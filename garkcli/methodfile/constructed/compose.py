@@ -6,13 +6,12 @@ from collections.abc import Callable, Iterator, Sequence
 from math import prod
 from typing import Any, TypeAlias
 
-from yaml.nodes import Node
-
 from garkcli.constructions.composition import Substep, adjoint, composed
 from garkcli.constructions.schemes import MAX_ORDER, OTHER_NAMES, SCHEMES, Scheme
 from garkcli.exact.domain import MAX_DEGREE
 from garkcli.exact.expression import read_decimal
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.numbers import Entry

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from flint import fmpq
-from yaml.nodes import Node, SequenceNode
 
 from garkcli.constructions.composition import extrapolated
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
 from garkcli.families.extrapolated import SEQUENCES, sequence
 from garkcli.frozen import Frozen
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import Node, SequenceNode
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.values import Values as Numbers

@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.constructions.infinitesimal import (
     Coupling,
@@ -26,7 +25,8 @@ from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
 from garkcli.methodfile.constructed.couplings import Infinitesimal, TableauOf, method_of_part
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText, further_of

@@ -6,16 +6,16 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
-from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import MethodFileError
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen
+from garkcli.grammar.keys import defined
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
+from garkcli.grammar.source import Source
 from garkcli.methodfile.build import part_of
 from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
-from garkcli.methodfile.grammar import defined
 from garkcli.methodfile.numbers import Numbers, Reading
-from garkcli.methodfile.source import Source
 
 if TYPE_CHECKING:
     from garkcli.methodfile.tolerance import Tolerance

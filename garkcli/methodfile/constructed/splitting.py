@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
-from yaml.nodes import MappingNode, Node, SequenceNode
-
 from garkcli.constructions.composition import drift_and_kick, split
 from garkcli.constructions.schemes import SPLITTINGS
 from garkcli.exact.expression import read_decimal
-from garkcli.methodfile import grammar as g
+from garkcli.grammar import keys as g
+from garkcli.grammar.nodes import MappingNode, Node, SequenceNode
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.numbers import Entry

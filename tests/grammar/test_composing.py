@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.methodfile import reading
-from garkcli.methodfile.source import METHOD_FILE
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar import reading
 
 
 @pytest.mark.parametrize("said", [0, 3, 10_000])

@@ -1,15 +1,15 @@
-"""The texts of files within limits, and the method files in a folder."""
+"""The texts of files within limits."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable
 from itertools import islice
 
 from garkcli.errors import MethodFileError, Remark, nearest, printable
-from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, leads_away, read_bytes
-from garkcli.methodfile.source import MAX_BYTES, FileKind
+from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, read_bytes
+from garkcli.glossary.key import FileKind
+from garkcli.grammar.source import MAX_BYTES
 
 MOST_COMPARED = 1_000
 """The number of files in a folder with which a missing name is compared."""
@@ -107,42 +107,3 @@ def decoded(name: str, data: bytes) -> str:
         line = data[: error.start].count(b"\n") + 1
         fault = Remark("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")
         raise MethodFileError(name, [fault]) from None
-
-
-SUFFIX = ".gark.yaml"
-
-
-def no_one(told: object) -> None:
-    """The default listener, which ignores messages."""
-    del told
-
-
-def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
-    """Returns all method files below a folder, and folders that cannot be read, sorted.
-
-    Links to folders are not followed. Links out of the folder are left out; ``told`` is called with
-    a message.
-    """
-    found: list[str] = []
-
-    def keep(error: OSError) -> None:
-        found.append(error.filename)
-
-    for place, _, names in os.walk(folder, onerror=keep):
-        found += [os.path.join(place, name) for name in names if name.endswith(SUFFIX)]
-    # slow to import, and of no use to a check of one file
-    from pathlib import Path
-
-    # as pathlib writes them: without ./ before
-    return within(sorted(str(Path(path)) for path in found), folder, told)
-
-
-def within(paths: list[str], folder: str, told: Callable[[str], None]) -> list[str]:
-    """Returns the paths that are not links out of a folder; ``told`` is called for the others."""
-    kept = []
-    for path in paths:
-        if os.path.lexists(path) and leads_away(path, folder):
-            told(f"{printable(path)} is left out: it is a link out of {printable(folder or '.')}")
-        else:
-            kept.append(path)
-    return kept

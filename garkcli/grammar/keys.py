@@ -15,7 +15,7 @@ from msgspec import json
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.frozen import Frozen
-from garkcli.methodfile.source import Cures, Entries, Home, Source
+from garkcli.grammar.source import Cures, Entries, Home, Source
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import KeyMeaning as Entry
@@ -492,16 +492,16 @@ def defined(name: str, read: Read = as_it_is) -> ValueKind:
     return ValueKind(lambda: {"$ref": f"#/definitions/{name}"}, read)
 
 
-def declared(room: str, name: str) -> Any:
-    """Returns a declaration from a module of this package, which is imported."""
-    return getattr(import_module(f"garkcli.methodfile.{room}"), name)
+def declared(module: str, name: str) -> Any:
+    """Returns a declaration from a module, which is imported."""
+    return getattr(import_module(module), name)
 
 
-def later(room: str, name: str) -> ValueKind:
+def later(module: str, name: str) -> ValueKind:
     """Returns the kind declared in a module that is imported when it is needed."""
 
     def kind() -> ValueKind:
-        found: ValueKind = declared(room, name)
+        found: ValueKind = declared(module, name)
         return found
 
     return ValueKind(

@@ -9,8 +9,8 @@ from itertools import chain
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
 from garkcli.errors import ExpressionError, UndefinedValue
-from garkcli.methodfile.nodes import shortened
-from garkcli.methodfile.source import Source
+from garkcli.grammar.nodes import shortened
+from garkcli.grammar.source import Source
 
 
 def is_triangle(lengths: Sequence[int]) -> bool:

@@ -18,8 +18,10 @@ from garkcli.errors import (
     printable,
 )
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.composing import composed, cure_of_foreign, folded_place, position
-from garkcli.methodfile.nodes import keys_of, meant_key, shortened
+from garkcli.glossary.key import KINDS, FileKind
+from garkcli.grammar.composing import composed, folded_place, position
+from garkcli.grammar.foreign import cure_of_foreign
+from garkcli.grammar.nodes import keys_of, meant_key, shortened
 
 Place: TypeAlias = tuple[int, int]
 """Line and column, from 1."""
@@ -70,50 +72,6 @@ def _elsewhere(others: Sequence[Place]) -> str:
     return f" (also at {places}{more})"
 
 
-class FileKind(Frozen):
-    """A kind of file.
-
-    ``keys`` distinguish it from other files; the texts name it, describe the smallest file and its
-    start, its page and the command that uses it.
-    """
-
-    name: str
-    keys: tuple[str, ...]
-    smallest: str
-    start: str
-    page: str
-    use: str
-
-
-METHOD_FILE = FileKind(
-    "method file",
-    (
-        *("gark", "methods", "tableau", "ark", "prk", "A", "b", "unknown"),
-        *("compose", "adjoint", "extrapolate", "splitting", "multirate"),
-    ),
-    "the smallest file has A and b, or methods",
-    "start with A: and b:, or with methods:",
-    "docs/method-file.md",
-    "gark check FILE reads it",
-)
-PROBLEM_FILE = FileKind(
-    "problem file",
-    ("variables", "hamiltonian", "lagrangian", "rhs"),
-    "the smallest file has variables, hamiltonian and initial",
-    "start with variables:",
-    "docs/problem-file.md",
-    "give it beside a method file: gark converge METHOD --problem FILE",
-)
-SWEEP_FILE = FileKind(
-    "sweep file",
-    ("columns", "methods", "files", "where", "best", "pareto"),
-    "the smallest file has methods or files, and columns",
-    "start with methods:",
-    "docs/sweep.md",
-    "gark sweep FILE runs it",
-)
-
-
 MAX_BYTES = 1_000_000
 """The largest file that is read."""
 _MOST_DIGITS = 6
@@ -158,7 +116,7 @@ _PYTHON = "tag:yaml.org,2002:python"
 class Source:
     """A file that is being read."""
 
-    def __init__(self, name: str, text: str, kind: FileKind = METHOD_FILE) -> None:
+    def __init__(self, name: str, text: str, kind: FileKind) -> None:
         self.name = name
         self.text = text
         self.kind = kind
@@ -270,16 +228,14 @@ class Source:
         keys, own = keys_of(root) - {"gark"}, set(self.kind.keys)
         others = (
             kind
-            for kind in (METHOD_FILE, PROBLEM_FILE, SWEEP_FILE)
+            for kind in KINDS.values()
             if keys & (set(kind.keys) - own) and not keys & (own - set(kind.keys))
         )
         return max(others, key=lambda kind: len(keys.intersection(kind.keys)), default=None)
 
     def _foreign(self, is_yaml: bool) -> str:
-        """Returns the cure for a file that is not YAML in place of a method file."""
-        if self.kind is not METHOD_FILE:
-            return ""
-        return cure_of_foreign(self.text, self.name, is_yaml)
+        """Returns the cure for a file of another format in place of one that it may hold."""
+        return cure_of_foreign(self.text, self.name, is_yaml) if self.kind.is_imported else ""
 
     def mapping(
         self,

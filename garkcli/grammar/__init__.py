@@ -1,0 +1,1 @@
+"""A grammar of YAML files: keys declared once, values with positions, all faults at once."""
