@@ -68,10 +68,10 @@ from garkcli.errors import UsageProblem as UsageProblem
 from garkcli.errors import ZeroWeight as ZeroWeight
 from garkcli.methodfile.build import MethodFile as MethodFile
 from garkcli.methodfile.file_keys import method_file_schema as method_file_schema
-from garkcli.methodfile.problem_keys import problem_file_schema as problem_file_schema
 from garkcli.ntrees.notation import parse_tree as parse_tree
 from garkcli.ntrees.tree import Tree as Tree
 from garkcli.plots.calls import plot as plot
+from garkcli.problems.files.keys import problem_file_schema as problem_file_schema
 from garkcli.problems.oscillator import Oscillator as Oscillator
 from garkcli.report.calls import certificate as certificate
 from garkcli.report.calls import cite as cite

@@ -11,9 +11,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial, reduce
 from typing import TypeAlias
 
-from flint import fmpq
-
 from garkcli.errors import BlockTooLarge, counted
+from garkcli.exact.display import LOG10_2
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, add, multiply, outer, scale, transpose
 from garkcli.frozen import Frozen
@@ -23,7 +22,6 @@ from garkcli.tableau.forms import gark
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
 
-LOG10_2 = fmpq(30103, 100000)
 MAX_WORK = 100_000_000
 """Most bits in a block by interpolation, each entry as long as their common denominator; such a
 block is decided on in about a minute, with all simplifying conditions.

@@ -17,11 +17,11 @@ from garkcli.errors import MethodError
 from garkcli.families.registry import FAMILIES
 from garkcli.methodfile import family
 from garkcli.methodfile import load as methods
-from garkcli.methodfile import problem as problems
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile
 from garkcli.methodfile.naming import is_catalogued
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.problems.files import load as problems
 from garkcli.problems.problem import Problem
 from garkcli.reference import Work
 

@@ -9,8 +9,8 @@ from flint import fmpq
 
 from garkcli.api.numbers import Number, Whole, rational_or_none, whole
 from garkcli.errors import MethodError, UsageProblem
-from garkcli.methodfile.problem import load_problem
 from garkcli.problems import builtin
+from garkcli.problems.files.load import load_problem
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, parse_shares, terms_of
 from garkcli.problems.problem import Problem

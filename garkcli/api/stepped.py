@@ -11,10 +11,10 @@ from garkcli.constructions.nprk import additive, is_nprk
 from garkcli.constructions.nystrom import Nystrom, Which, is_nystrom, seen
 from garkcli.convergence.result import MAX_ORDER
 from garkcli.errors import UsageProblem
-from garkcli.methodfile.problem import load_problem
 from garkcli.order.deciding import order_of
 from garkcli.order.meant import AnyTableau, keep, meant, printed
 from garkcli.problems import builtin
+from garkcli.problems.files.load import load_problem
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem

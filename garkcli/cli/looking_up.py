@@ -319,7 +319,7 @@ def schema(given: Given, output: Output) -> None:
     """
     from garkcli.cli.project import project_schema
     from garkcli.methodfile.file_keys import method_file_schema
-    from garkcli.methodfile.problem_keys import problem_file_schema
+    from garkcli.problems.files.keys import problem_file_schema
     from garkcli.report.schemas import report_schema
     from garkcli.sweep.plan import sweep_schema
 

@@ -180,8 +180,8 @@ class Problems:
 
     def __init__(self, given: Given) -> None:
         from garkcli.convergence.convergence import check_steps, usual_time
-        from garkcli.methodfile.problem import load_problem
         from garkcli.problems.builtin import GENERIC, is_path, problem
+        from garkcli.problems.files.load import load_problem
         from garkcli.problems.oscillator import Oscillator
 
         self._given = given

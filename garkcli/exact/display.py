@@ -17,6 +17,7 @@ _SMALL = fmpq(1, 1000)
 
 BITS_OF_A_DIGIT = 3.33
 """Bits of a decimal digit, log2(10) rounded up."""
+LOG10_2 = fmpq(30103, 100000)
 DIGITS_OF_A_BIT = 0.302
 """Decimal digits of a bit, log10(2) rounded up."""
 

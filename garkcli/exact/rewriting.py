@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from flint import fmpq
 
-from garkcli.errors import UndefinedValue, did_you_mean
+from garkcli.errors import LimitExceeded, UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT
 from garkcli.exact.nodes import (
     AlgebraicRoot,
@@ -22,12 +22,26 @@ from garkcli.exact.nodes import (
 )
 from garkcli.frozen import replace
 
+MAX_SIZE = 2_000
+"""Most operations in a number or formula of a file, with parameters expanded."""
+
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
     """The number of nodes, a name counting ``sizes[name]``, or 1 if it is unknown."""
     if isinstance(expression, Name):
         return sizes.get(expression.name, 1)
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
+
+
+def check_size(expression: Expression, sizes: Mapping[str, int], text: str) -> None:
+    """Refuses an expression that is too long; ``text`` is what it was read from.
+
+    Raises:
+        LimitExceeded: it has more than ``MAX_SIZE`` operations.
+    """
+    if size_of(expression, sizes) > MAX_SIZE:
+        message = f"more than {MAX_SIZE} operations, with the parameters written out"
+        raise LimitExceeded(message, "write it shorter", 0, len(text))
 
 
 def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:

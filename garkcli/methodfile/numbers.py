@@ -10,7 +10,7 @@ from garkcli.errors import ExpressionError, LimitExceeded, counted
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.exact.rewriting import depth_of, names_in, size_of, substitute
+from garkcli.exact.rewriting import check_size, depth_of, names_in, size_of, substitute
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.grammar import spellings
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, shortened
@@ -106,8 +106,6 @@ def _together(indices: Sequence[str]) -> str:
     return ("_" if any(len(index) > 1 for index in indices) else "").join(indices)
 
 
-MAX_SIZE = 2_000
-"""The largest number of operations in a coefficient, with parameters expanded."""
 MAX_DEPTH = 200
 """The deepest nesting of a coefficient, with parameters expanded."""
 _SHOWN_ROWS = 5  # most further rows of another length that are reported
@@ -263,9 +261,7 @@ class Numbers(Mutable):
             return self._read[text]
         parsed = parse(text)
         self.used.update(x.name for x in names_in(parsed))
-        if size_of(parsed, self._sizes) > MAX_SIZE:
-            message = f"more than {MAX_SIZE} operations, with the parameters written out"
-            raise LimitExceeded(message, "write it shorter", 0, len(text))
+        check_size(parsed, self._sizes, text)
         if depth_of(parsed, self._depths) > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
             raise LimitExceeded(message, "give the parameter its value", 0, len(text))

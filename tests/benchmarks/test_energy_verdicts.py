@@ -12,7 +12,7 @@ from flint import fmpq
 from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.methodfile.load import load, loads
-from garkcli.methodfile.problem import loads_problem
+from garkcli.problems.files.load import loads_problem
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import StepFailed
 from tests.benchmarks.measuring import ROOT

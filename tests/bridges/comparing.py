@@ -25,7 +25,7 @@ from garkcli.bridges.trials import STEPS, Trial, trial_of
 from garkcli.convergence.convergence import converge
 from garkcli.exact.display import to_ball
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.problem import loads_problem
+from garkcli.problems.files.load import loads_problem
 
 UNIT = 2.0**-53
 OPERATIONS = 16

@@ -21,7 +21,7 @@ from garkcli.bridges.structure import table
 from garkcli.bridges.trials import SEPARABLE, STEPS, TRIALS, WHOLE, Trial
 from garkcli.convergence.convergence import converge
 from garkcli.methodfile.load import load, loads
-from garkcli.methodfile.problem import load_problem
+from garkcli.problems.files.load import load_problem
 from tests.bridges.test_hostile_names import HOSTILE, named
 from tests.cli.harness import ROOT, gark
 from tests.whole import in_whole

@@ -9,8 +9,8 @@ from garkcli.convergence import reference as module
 from garkcli.convergence.reference import ReferenceSolution, magnitude, reference
 from garkcli.doing import telling
 from garkcli.errors import UsageProblem
-from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.files.load import loads_problem
 from garkcli.stepping.integrator import StepFailed
 from tests.listener import Listener
 from tests.whole import in_whole, sample

@@ -13,9 +13,9 @@ from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.convergence.linear_solver import hamiltonian_of, linear_solver
 from garkcli.errors import MethodError
 from garkcli.methodfile.load import load, loads
-from garkcli.methodfile.problem import loads_problem
 from garkcli.order.certificate import find_order
 from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.files.load import loads_problem
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stepping.integrator import bind, integrate
 from garkcli.stepping.linearly_implicit import Taken

@@ -20,8 +20,8 @@ from garkcli.cli.project import find_project
 from garkcli.methodfile.description import FORMS
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.problem import loads_problem
 from garkcli.methodfile.shelves import GROUP
+from garkcli.problems.files.load import loads_problem
 from tests.cli.harness import ROOT
 from tests.docs.blocks import Block, blocks, pages
 from tests.docs.transcripts import NOT_RUN, PROGRAMS, steps

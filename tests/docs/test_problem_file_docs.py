@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from garkcli.exact.formula import FUNCTIONS, parse_formula
-from garkcli.methodfile.formulas import PLACES
-from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.problem_keys import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
+from garkcli.problems.files.formulas import PLACES
+from garkcli.problems.files.keys import KEYS, MAX_INVARIANTS, MAX_TERMS, MAX_VARIABLES
+from garkcli.problems.files.load import loads_problem
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "problem-file.md"

@@ -26,7 +26,7 @@ def hostile_files() -> Mapping[str, str]:
 
 def hostile_problems() -> Mapping[str, str]:
     """Every hostile problem file by name."""
-    from tests.methodfile.test_hostile_problems import READ, REFUSED
+    from tests.problems.files.test_hostile import READ, REFUSED
 
     return {**{name: text for name, (text, _) in REFUSED.items()}, **READ}
 

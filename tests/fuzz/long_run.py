@@ -36,7 +36,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from garkcli.check.deciding import analyse
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.problem import loads_problem
+from garkcli.problems.files.load import loads_problem
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.hostile import hostile_files, hostile_problems
 from tests.fuzz.inputs import method_file, radical_file, seeds

@@ -26,8 +26,8 @@ from garkcli.methodfile.description import FORMS, STRUCTURES
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.problem import loads_problem
 from garkcli.methodfile.transfers import ALL_RULES
+from garkcli.problems.files.load import loads_problem
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
 from tests.fuzz.long_run import Cases, run

@@ -19,8 +19,8 @@ from garkcli.errors import UsageProblem
 from garkcli.longtime.history import MAX_STEPS, InvariantHistory, LongRun, whole_run
 from garkcli.longtime.longtime import long_run, usual
 from garkcli.methodfile.load import load, loads
-from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.files.load import loads_problem
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.problems.problem import quantities_function

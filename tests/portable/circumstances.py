@@ -57,7 +57,14 @@ RECORDED = (
     "tests/cli/test_snapshots.py",
 )
 """Everything that compares with a recorded text."""
-FILES = ("tests/methodfile", "tests/docs", "tests/cli", "tests/integration")
+FILES = (
+    "tests/grammar",
+    "tests/methodfile",
+    "tests/problems/files",
+    "tests/docs",
+    "tests/cli",
+    "tests/integration",
+)
 """Everything that reads or writes YAML."""
 PACKAGED = (
     "tests/docs",
@@ -92,7 +99,10 @@ PROCESSES = (
     "tests/sweep",
 )
 """Everything that starts and stops processes."""
-ELSEWHERE = ("tests/cli", "tests/crew", "tests/methodfile", "tests/page", "tests/sweep")
+ELSEWHERE = (
+    *("tests/cli", "tests/crew", "tests/grammar", "tests/methodfile", "tests/page"),
+    *("tests/problems/files", "tests/sweep"),
+)
 """Everything that asks for something of the system, which may not be there."""
 
 Environment = Callable[[Path], dict[str, str]]

@@ -11,8 +11,8 @@ from flint import arb, fmpq, fmpq_mat
 from garkcli import converge, find_order, loads
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import UsageProblem
-from garkcli.methodfile.problem import load_problem
 from garkcli.problems.builtin import PROBLEMS, problem
+from garkcli.problems.files.load import load_problem
 from garkcli.problems.generic import generic_rhs
 from garkcli.problems.righthandside import RightHandSide, solution, steepness
 from garkcli.problems.stiff import reaction_diffusion, shared

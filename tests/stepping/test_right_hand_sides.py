@@ -9,8 +9,8 @@ from flint import arb, ctx, fmpq
 
 from garkcli import converge, integrate, loads
 from garkcli.errors import UsageProblem
-from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import problem
+from garkcli.problems.files.load import loads_problem
 from garkcli.problems.problem import Problem
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.tableau import Tableau

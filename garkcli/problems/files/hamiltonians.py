@@ -12,8 +12,9 @@ from flint import arb, ctx, fmpq
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.frozen import replace
-from garkcli.methodfile.expansion import too_long
-from garkcli.methodfile.formulas import (
+from garkcli.problems.expr import Place, Vector
+from garkcli.problems.files.expansion import too_long
+from garkcli.problems.files.formulas import (
     BITS,
     PLACES,
     FormulaReader,
@@ -22,8 +23,7 @@ from garkcli.methodfile.formulas import (
     named,
     nearby,
 )
-from garkcli.methodfile.problem_keys import ProblemText
-from garkcli.problems.expr import Place, Vector
+from garkcli.problems.files.keys import ProblemText
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian

@@ -12,15 +12,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.errors import MethodFileError
-from garkcli.methodfile.formulas import BITS, nearby
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.problem import load_problem, loads_problem
 from garkcli.problems.builtin import hamiltonian
+from garkcli.problems.files.formulas import BITS, nearby
+from garkcli.problems.files.load import load_problem, loads_problem
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import quantities_function
 from garkcli.problems.righthandside import RightHandSide
 
-PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
+PROBLEMS = Path(__file__).resolve().parents[3] / "problems"
 ONE = "variables: [x]\nhamiltonian: px**2/2 - cos(x)\ninitial: {x: 1, px: 0}\n"
 
 

@@ -18,8 +18,9 @@ from garkcli.grammar.keys import FILE, entries_in
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, one_line, shortened
 from garkcli.grammar.reading import read_text
 from garkcli.grammar.source import Entries, Source
-from garkcli.methodfile.formulas import FormulaReader, bad_name
-from garkcli.methodfile.problem_keys import (
+from garkcli.problems.files.formulas import FormulaReader, bad_name
+from garkcli.problems.files.hamiltonians import HamiltonianMaker
+from garkcli.problems.files.keys import (
     DEFAULT_T_END,
     FORM,
     KEYS,
@@ -30,8 +31,7 @@ from garkcli.methodfile.problem_keys import (
     ProblemText,
     Side,
 )
-from garkcli.methodfile.sides import SidesMaker
-from garkcli.methodfile.terms import HamiltonianMaker
+from garkcli.problems.files.sides import SidesMaker
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:

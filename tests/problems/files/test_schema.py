@@ -11,14 +11,14 @@ import yaml
 from jsonschema import Draft7Validator
 
 from garkcli.errors import MethodFileError
-from garkcli.methodfile.problem import loads_problem
-from garkcli.methodfile.problem_keys import KEYS, problem_file_schema
+from garkcli.problems.files.keys import KEYS, problem_file_schema
+from garkcli.problems.files.load import loads_problem
 from tests.cli.harness import gark
 from tests.docs.test_problem_file_docs import FILES
 
 SCHEMA = problem_file_schema()
 VALIDATOR = Draft7Validator(SCHEMA)
-PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
+PROBLEMS = Path(__file__).resolve().parents[3] / "problems"
 RIGHT = [*FILES, *(path.read_text(encoding="utf-8") for path in sorted(PROBLEMS.glob("*.yaml")))]
 GOOD: dict[str, Any] = {
     "variables": ["x"],

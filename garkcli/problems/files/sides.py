@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.methodfile.formulas import FormulaReader, FormulaTerm, Maker, named, nearby
-from garkcli.methodfile.problem_keys import STIFFNESS, ProblemText, Side
+from garkcli.problems.files.formulas import FormulaReader, FormulaTerm, Maker, named, nearby
+from garkcli.problems.files.keys import STIFFNESS, ProblemText, Side
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.errors import MethodFileError
-from garkcli.methodfile.expansion import _fraction, too_long
-from garkcli.methodfile.problem import loads_problem
+from garkcli.problems.files.expansion import _fraction, too_long
+from garkcli.problems.files.load import loads_problem
 from tests.whole import at_most
 
 v, x, y = sympy.symbols("v x y")

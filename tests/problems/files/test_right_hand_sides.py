@@ -9,7 +9,7 @@ import sympy
 from flint import fmpq
 
 from garkcli.errors import MethodFileError
-from garkcli.methodfile.problem import loads_problem
+from garkcli.problems.files.load import loads_problem
 from garkcli.problems.righthandside import RightHandSide
 
 HEAD = "variables: [x, y]\n"

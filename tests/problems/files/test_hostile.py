@@ -12,10 +12,10 @@ from random import Random
 import pytest
 
 from garkcli.errors import MethodFileError
-from garkcli.methodfile.problem import loads_problem
+from garkcli.problems.files.load import loads_problem
 from tests.whole import in_whole, sample
 
-PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
+PROBLEMS = Path(__file__).resolve().parents[3] / "problems"
 LONGEST = 20.0
 """Seconds; a tenth of it is usual on an idle machine."""
 WORDS = (

@@ -7,20 +7,19 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
+from garkcli.errors import ExpressionError, did_you_mean
+from garkcli.exact.display import LOG10_2
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, value_of
 from garkcli.exact.nodes import Expression, Literal
-from garkcli.exact.rewriting import names_in, size_of
+from garkcli.exact.rewriting import check_size, names_in, size_of
 from garkcli.frozen import Frozen, Mutable, field
 from garkcli.grammar.nodes import Node, is_null, shortened, unquoted
 from garkcli.grammar.source import Entries, Source
 from garkcli.grammar.spellings import explained, is_misread
-from garkcli.methodfile.numbers import MAX_SIZE
-from garkcli.methodfile.problem_keys import ProblemText
 from garkcli.problems.expr import Expr, Invariants, Place, Vector, rational
+from garkcli.problems.files.keys import ProblemText
 from garkcli.problems.translate import Translator
-from garkcli.transfer import LOG10_2
 
 BITS = 320
 """The precision of the values of formulas."""
@@ -60,9 +59,7 @@ class FormulaReader(Mutable):
             return None
         try:
             expression = parse_formula(text)
-            if size_of(expression, self._sizes) > MAX_SIZE:
-                message = f"more than {MAX_SIZE} operations, with the parameters written out"
-                raise LimitExceeded(message, "write it shorter", 0, len(text))
+            check_size(expression, self._sizes, text)
         except ExpressionError as error:
             self.source.expression_fault(node, where, *explained(error, text))
             return None
