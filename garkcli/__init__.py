@@ -55,7 +55,7 @@ NAMES = {
         "api.calls": "with_claims",
         "methodfile.file_keys": "method_file_schema",
         "problems.files.keys": "problem_file_schema",
-        "sweep.plan": "sweep_schema",
+        "sweep.file": "sweep_schema",
         "cli.project": "project_schema",
         "report.schemas": "report_schema",
         "check.meanings": "explain",
@@ -87,7 +87,7 @@ ANSWERS = {
     "exact.polynomial_text": "RealRoot.text=root_in_short",
     "methodfile.file_keys": "FileKind.method=told",
     "problems.files.keys": "FileKind.problem=told",
-    "sweep.plan": "FileKind.sweep=told",
+    "sweep.file": "FileKind.sweep=told",
     "ntrees.notation": "Tree.text=format_tree",
     "ntrees.drawing": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "

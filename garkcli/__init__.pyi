@@ -79,7 +79,7 @@ from garkcli.report.calls import names as names
 from garkcli.report.calls import run_sweep as run_sweep
 from garkcli.report.rendering import render as render
 from garkcli.report.schemas import report_schema as report_schema
-from garkcli.sweep.plan import sweep_schema as sweep_schema
+from garkcli.sweep.file import sweep_schema as sweep_schema
 from garkcli.tableau.garkmethod import GarkMethod as GarkMethod
 from garkcli.tableau.tableau import Tableau as Tableau
 from garkcli.version import __version__ as __version__

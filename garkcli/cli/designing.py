@@ -541,7 +541,7 @@ def sweep(given: Given, output: Output) -> None:
     """
     from garkcli.report.calls import swept
     from garkcli.report.sweep import REPORT, json_lines, refuse_parquet, write_parquet
-    from garkcli.sweep.plan import load_plan
+    from garkcli.sweep.file import load_plan
 
     plan = load_plan(given.spec)
     if given.plot is not None and len(plan.pareto) < 2:

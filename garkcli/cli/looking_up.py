@@ -321,7 +321,7 @@ def schema(given: Given, output: Output) -> None:
     from garkcli.methodfile.file_keys import method_file_schema
     from garkcli.problems.files.keys import problem_file_schema
     from garkcli.report.schemas import report_schema
-    from garkcli.sweep.plan import sweep_schema
+    from garkcli.sweep.file import sweep_schema
 
     makers: dict[str, Callable[[], dict[str, Any]]] = {}
     if given.problem:

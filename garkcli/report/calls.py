@@ -19,7 +19,8 @@ from garkcli.report import citation
 from garkcli.report.certificate import REPORT
 from garkcli.report.coq import coq_proof
 from garkcli.report.listing import all_lists
-from garkcli.sweep.plan import Plan, load_plan
+from garkcli.sweep.file import load_plan
+from garkcli.sweep.plan import Plan
 from garkcli.sweep.report import SweepReport
 from garkcli.sweep.run import Progress, sweep
 from garkcli.sweep.store import RowStore

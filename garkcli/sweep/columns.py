@@ -287,7 +287,7 @@ def value_of(name: str, judged: SweptMethod) -> Value:
     return columns()[name].value(judged)
 
 
-def property_kind(name: str) -> str:
+def kind_of(name: str) -> str:
     """Returns the kind of a column: ``truth``, ``count`` or ``number``."""
     if name in KEYS:
         return find(name).kind

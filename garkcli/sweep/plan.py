@@ -5,18 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import accumulate
-from typing import Any, Literal, TypeAlias, cast
+from typing import Literal, TypeAlias
 
 from garkcli.frozen import Frozen
-from garkcli.glossary.key import FileKind, KeyMeaning
-from garkcli.grammar.keys import file_schema
-from garkcli.grammar.keys import told as entries_of
-from garkcli.methodfile.sweep_file import count_methods, file_of, read_sweep
-from garkcli.methodfile.sweep_methods import Template
-from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
+from garkcli.sweep.columns import INFINITY, Value
+from garkcli.sweep.methods import Template
 
 Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
 
@@ -104,18 +100,15 @@ class Plan(Frozen):
 
     @cached_property
     def _starts(self) -> list[int]:
-        return [0, *accumulate(map(self._size, self.templates))]
+        return [0, *accumulate(x.count(self.grids) for x in self.templates)]
 
     def __len__(self) -> int:
         return self._starts[-1]
 
-    def _size(self, template: Template) -> int:
-        return count_methods(template, self.grids)
-
     def points(self) -> Iterator[Point]:
         """Yields all methods, template by template."""
         for template in self.templates:
-            for index in range(self._size(template)):
+            for index in range(template.count(self.grids)):
                 settings = {}
                 seed = None
                 if template.is_searched:
@@ -135,36 +128,3 @@ class Plan(Frozen):
     @property
     def has_searches(self) -> bool:
         return any(template.is_searched for template in self.templates)
-
-
-def load_plan(path: str) -> Plan:
-    """Reads a spec file.
-
-    Raises MethodFileError with all errors and their positions.
-    """
-    said = read_sweep(path, _kinds())
-    conditions = (
-        RowCondition(x, cast(Relation, sign), bound) for x, sign, bound in said.conditions
-    )
-    criteria = Criteria(said.columns, tuple(conditions))
-    return Plan(said.name, said.templates, said.grids, criteria, said.best, said.pareto)
-
-
-def sweep_schema() -> dict[str, Any]:
-    """The JSON Schema of the spec files of sweeps, as plain data.
-
-    >>> sweep_schema()["type"]
-    'object'
-    """
-    return file_schema(
-        "gark sweep file", "The methods of a sweep and their columns.", file_of(_kinds())
-    )
-
-
-def told(kind: FileKind) -> Iterable[KeyMeaning]:
-    """The keys of spec files."""
-    return entries_of(file_of(_kinds()).inside(), kind.page)
-
-
-def _kinds() -> dict[str, str]:
-    return {name: property_kind(name) for name in columns()}

@@ -17,7 +17,7 @@ from garkcli.crew.work import WorkerLost
 from garkcli.design.search.run import Result, results
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.search_file import FileSearch
-from garkcli.sweep.plan import load_plan
+from garkcli.sweep.file import load_plan
 from garkcli.sweep.run import sweep
 from garkcli.sweep.store import RowStore
 from tests.cli.harness import gark

@@ -14,7 +14,7 @@ from garkcli.cli.project import project_schema
 from garkcli.glossary.key import KINDS, keys_of
 from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.problems.files.keys import problem_file_schema
-from garkcli.sweep.plan import sweep_schema
+from garkcli.sweep.file import sweep_schema
 
 SCHEMAS = {
     "method": method_file_schema,

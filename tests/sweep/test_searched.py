@@ -14,7 +14,7 @@ from garkcli import analyse, loads
 from garkcli.errors import MethodFileError
 from garkcli.order.certificate import find_order
 from garkcli.report.schemas import report_schema
-from garkcli.sweep.plan import load_plan
+from garkcli.sweep.file import load_plan
 from garkcli.sweep.row import row_of
 from garkcli.tableau.forms import pair
 from tests.cli.harness import gark

@@ -30,8 +30,9 @@ from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.sweep import run as running
-from garkcli.sweep.columns import columns, property_kind
-from garkcli.sweep.plan import Plan, Point, load_plan
+from garkcli.sweep.columns import columns, kind_of
+from garkcli.sweep.file import load_plan
+from garkcli.sweep.plan import Plan, Point
 from garkcli.sweep.ranking import best_first, kept, pareto_front
 from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row, row_of
@@ -532,7 +533,7 @@ def test_every_column_has_values(tmp_path: Path) -> None:
     for name in columns():
         values = [row.get(name) for row in found if row.get(name) is not None]
         assert values, name
-        assert all(isinstance(x, types[property_kind(name)]) for x in values), name
+        assert all(isinstance(x, types[kind_of(name)]) for x in values), name
 
 
 ROS2 = """parameters: {g: free}

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from itertools import chain, product
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,11 @@ class Template(Frozen):
     def is_searched(self) -> bool:
         """Whether its methods are found by a search."""
         return self.order > 0
+
+    def count(self, grids: Mapping[str, tuple[str, ...]]) -> int:
+        """Returns the number of methods with all values of the parameters and all seeds."""
+        values = prod(len(grids[name]) for name in self.parameters)
+        return values * len(self.seeds) if self.is_searched else values
 
 
 _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")

@@ -6,9 +6,9 @@ All faults are reported at once, with their positions.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
-from math import prod
+from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -19,23 +19,15 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
-from garkcli.frozen import Frozen
-from garkcli.glossary.key import SWEEP_FILE
+from garkcli.glossary.key import SWEEP_FILE, FileKind, KeyMeaning
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, one_line, shortened, unquoted
 from garkcli.grammar.reading import read_text
 from garkcli.grammar.source import Source
 from garkcli.methodfile.expectations import claims
-from garkcli.methodfile.sweep_methods import (
-    METHODS,
-    NAME,
-    STARTS,
-    TRANSFER,
-    MethodsReader,
-    Template,
-    rational,
-    span,
-)
+from garkcli.sweep.columns import columns, kind_of
+from garkcli.sweep.methods import METHODS, NAME, STARTS, TRANSFER, MethodsReader, rational, span
+from garkcli.sweep.plan import Criteria, Plan, RowCondition
 
 MOST_METHODS = 10_000_000
 MOST_VALUES = 1_000_000
@@ -171,7 +163,7 @@ _OWN = {
 _EXAMPLES = {"stages": '"<= 6"', "colours": "2", "phase-order": '">= 4"'}
 
 
-def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
+def _conditions() -> Iterator[g.Key]:
     """Yields the keys of ``where``: the columns, with what they are compared with."""
     claimed = {key.name: key.text.partition(" It is claimed as ")[0] for key in claims()}
     by_kind = {
@@ -179,22 +171,19 @@ def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
         "count": (g.ValueKind(lambda: _BOUND, _bound), '">= 1"'),
         "number": (g.ValueKind(lambda: _BOUND, _bound), '"< 0.01"'),
     }
-    for name in (*(x for x in kinds if x not in _OWN), *_OWN):
-        kind, example = by_kind[kinds[name]]
+    for name in (*(x for x in columns() if x not in _OWN), *_OWN):
+        kind, example = by_kind[kind_of(name)]
         if name in _OWN:
             yield g.Key(f"{name}: {_EXAMPLES.get(name, example)}", kind, _OWN[name])
         else:
-            shown = "true" if kinds[name] == "truth" else '">= 1"'
+            shown = "true" if kind_of(name) == "truth" else '">= 1"'
             yield g.Key(f"{name}: {shown}", kind, claimed[name], is_listed=False)
 
 
-def file_of(kinds: Mapping[str, str]) -> g.ValueKind:
-    """Returns the keys of a spec file.
-
-    ``kinds`` has the columns, each a ``truth``, ``count`` or ``number``.
-    """
-    columns = g.one_or_more(g.word(lambda: kinds.keys()))
-    where = g.mapping(more=lambda: _conditions(kinds))
+@cache
+def _file() -> g.ValueKind:
+    """Returns the keys of a spec file."""
+    some_columns = g.one_or_more(g.word(lambda: columns().keys()))
     return g.mapping(
         g.Key(
             "name: Gauss and Lobatto",
@@ -237,24 +226,24 @@ def file_of(kinds: Mapping[str, str]) -> g.ValueKind:
         ),
         g.Key(
             "columns: [order, p-stable]",
-            columns,
+            some_columns,
             "The columns of each method: one criterion or a list.",
             is_needed=True,
         ),
         g.Key(
             'where: {order: ">= 3"}',
-            where,
+            g.mapping(more=_conditions),
             "Which methods are kept: for columns true, false, a number, or a comparison. gark "
             "decides the conditions in their order, and stops at the first that fails.",
         ),
         g.Key(
             "best: [order, error]",
-            columns,
+            some_columns,
             "Columns to sort by, the first counting most; each column knows what is better.",
         ),
         g.Key(
             "pareto: [order, implicit-stages]",
-            columns,
+            some_columns,
             "Columns of the Pareto front: the methods that none surpasses in all of them.",
         ),
         form="write columns: [order, error]",
@@ -273,24 +262,7 @@ def file_of(kinds: Mapping[str, str]) -> g.ValueKind:
     )
 
 
-class Sweep(Frozen):
-    """The content of a spec file.
-
-    ``grids`` has the values of each parameter as text; ``columns`` are the criteria, those of
-    conditions first; ``conditions`` have column, relation and bound; ``best`` are the columns for
-    sorting, ``pareto`` those of the front.
-    """
-
-    name: str
-    templates: tuple[Template, ...]
-    grids: Mapping[str, tuple[str, ...]]
-    columns: tuple[str, ...]
-    conditions: tuple[tuple[str, str, bool | float], ...]
-    best: tuple[str, ...]
-    pareto: tuple[str, ...]
-
-
-def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
+def load_plan(path: str) -> Plan:
     """Reads a spec file; the method files that it names are sought beside it.
 
     Raises MethodFileError with all faults of the file, or of a method file.
@@ -300,7 +272,7 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
     root = source.compose()
     if root is None:
         raise source.error()
-    said: g.ReadMapping = file_of(kinds).read(SimpleNamespace(source=source), root, g.FILE)
+    said: g.ReadMapping = _file().read(SimpleNamespace(source=source), root, g.FILE)
     given = said.get("parameters", {})
     grids = {name: values for name, values in given.items() if values is not None}
     search: g.ReadMapping | None = said.get("search")
@@ -318,28 +290,24 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
         methods.read_files(said["files"], Path(path).parent)
     if is_whole and methods.templates and len(source.faults) == before:
         _refuse_unused(source, said, methods)
-    total = sum(count_methods(x, grids) for x in methods.templates)
+    total = sum(x.count(grids) for x in methods.templates)
     if total > MOST_METHODS:
         message = f"{total} methods (limit {MOST_METHODS})"
         source.fault(root, message, "make several sweeps", code="too-many")
     source.close()
-    conditions = tuple((column, *made) for column, made in said.get("where", {}).items())
+    conditions = tuple(
+        RowCondition(column, sign, bound) for column, (sign, bound) in said.get("where", {}).items()
+    )
     best, pareto = said.get("best", ()), said.get("pareto", ())
-    asked = [*(x[0] for x in conditions), *said.get("columns", ()), *best, *pareto]
-    return Sweep(
+    asked = [*(x.column for x in conditions), *said.get("columns", ()), *best, *pareto]
+    return Plan(
         one_line(said.get("name", "")) or Path(name).stem,
         tuple(methods.templates),
         grids,
-        tuple(dict.fromkeys(asked)),
-        conditions,
+        Criteria(tuple(dict.fromkeys(asked)), conditions),
         tuple(best),
         tuple(pareto),
     )
-
-
-def count_methods(template: Template, grids: Mapping[str, tuple[str, ...]]) -> int:
-    count = prod(len(grids[name]) for name in template.parameters)
-    return count * len(template.seeds) if template.is_searched else count
 
 
 def _refuse_unused(source: Source, said: g.ReadMapping, methods: MethodsReader) -> None:
@@ -354,3 +322,17 @@ def _refuse_unused(source: Source, said: g.ReadMapping, methods: MethodsReader) 
         message = "search: no method has an unknown that is left to it"
         cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
         source.fault(said.nodes["search"], message, cure, code="not-together")
+
+
+def sweep_schema() -> g.Schema:
+    """The JSON Schema of the spec files of sweeps, as plain data.
+
+    >>> sweep_schema()["type"]
+    'object'
+    """
+    return g.file_schema("gark sweep file", "The methods of a sweep and their columns.", _file())
+
+
+def told(kind: FileKind) -> Iterator[KeyMeaning]:
+    """The keys of spec files."""
+    return g.told(_file().inside(), kind.page)
