@@ -324,7 +324,7 @@ def _refuse_unused(source: Source, said: g.ReadMapping, methods: MethodsReader) 
         source.fault(said.nodes["search"], message, cure, code="not-together")
 
 
-def sweep_schema() -> g.Schema:
+def sweep_schema() -> dict[str, Any]:
     """The JSON Schema of the spec files of sweeps, as plain data.
 
     >>> sweep_schema()["type"]

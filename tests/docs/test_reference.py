@@ -25,7 +25,7 @@ UPDATE = "GARK_UPDATE_SNAPSHOTS"
 @pytest.mark.parametrize("kind", FILES)
 def test_the_keys_of_a_page_are_those_of_the_program(kind: str) -> None:
     """The page about a kind of files has each key with its meaning and default."""
-    _, page = FILES[kind]
+    page = FILES[kind].page
     path = ROOT / page
     text = path.read_text(encoding="utf-8")
     head, begin, rest = text.partition(BEGIN)
