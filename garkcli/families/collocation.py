@@ -17,7 +17,7 @@ from garkcli.errors import UnknownFamily, counted
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, add, apply, dot, multiply, outer, scale, subtract
 from garkcli.exact.nodes import Expression
-from garkcli.families.family import MAX_STAGES, Family, Option, Options, Recipe, of_stages
+from garkcli.families.family import MAX_STAGES, MethodFamily, Option, Options, Recipe, of_stages
 from garkcli.reference import Reference
 from garkcli.tableau.polynomial_space import PolynomialSpace, integral, integration
 from garkcli.tableau.tableau import Method
@@ -248,7 +248,7 @@ FAMILIES = (
     of_stages("lobatto-iiic*", lobatto_iiic_star, 2, _ORDER, "conjugate of IIIC", JAY),
     of_stages("lobatto-iiid", lobatto_iiid, 2, _ORDER, "mean of IIIC and IIIC*; symplectic", JAY),
     of_stages("lobatto-iiie", lobatto_iiie, 2, _ORDER, "mean of IIIA and IIIB; symplectic", JAY),
-    Family(
+    MethodFamily(
         "lobatto-iiis",
         lobatto_iiis,
         2,
@@ -258,7 +258,7 @@ FAMILIES = (
         options=(SIGMA,),
         reference=JAY,
     ),
-    Family(
+    MethodFamily(
         "hbvm",
         hbvm,
         1,

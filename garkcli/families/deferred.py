@@ -19,7 +19,7 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector, dot
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.families.collocation import gauss, lobatto_iiia, radau_ia, radau_iia
-from garkcli.families.family import Family, Option, Options, Recipe
+from garkcli.families.family import MethodFamily, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.reference import Reference
 from garkcli.tableau.polynomial_space import PolynomialSpace, antiderivative, simple_nodes
@@ -164,7 +164,7 @@ def _integrals(nodes: Sequence[Number]) -> tuple[Vector, ...]:
 
 
 FAMILIES = (
-    Family(
+    MethodFamily(
         "sdc",
         corrections,
         1,

@@ -19,7 +19,7 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.families.family import (
     MAX_STAGES,
     NONSTIFF,
-    Family,
+    MethodFamily,
     Options,
     Recipe,
     by_stages,
@@ -72,10 +72,10 @@ def _lower(rows: Sequence[Vector]) -> Matrix:
     return tuple(matrix)
 
 
-def _single(name: str, order: str, summary: str) -> Family:
+def _single(name: str, order: str, summary: str) -> MethodFamily:
     stages = STAGES[name]
     recipe = by_stages(lambda _: named(name))
-    return Family(name, recipe, stages, stages, order, summary, reference=NONSTIFF)
+    return MethodFamily(name, recipe, stages, stages, order, summary, reference=NONSTIFF)
 
 
 def ssp3(s: int, _: Options) -> Recipe:
@@ -126,5 +126,7 @@ FAMILIES = (
     _single("kutta", "3", "Kutta's method of order 3"),
     _single("rk4", "4", "the classical Runge-Kutta method"),
     of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving", SSP),
-    Family("ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving", reference=SSP),
+    MethodFamily(
+        "ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving", reference=SSP
+    ),
 )

@@ -15,7 +15,7 @@ from flint import fmpq
 
 from garkcli.errors import UnknownFamily
 from garkcli.exact.matrix import solve
-from garkcli.families.family import NONSTIFF, Family, Option, Options, Recipe
+from garkcli.families.family import NONSTIFF, MethodFamily, Option, Options, Recipe
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.tableau import Method
 
@@ -135,8 +135,8 @@ def midpoint(order: int, options: Options) -> Recipe:
 
 def _family(
     name: str, recipe: Callable[[int, Options], Recipe], smallest: int, summary: str
-) -> Family:
-    return Family(name, recipe, smallest, 60, "order", summary, ORDER, (SEQUENCE,), NONSTIFF)
+) -> MethodFamily:
+    return MethodFamily(name, recipe, smallest, 60, "order", summary, ORDER, (SEQUENCE,), NONSTIFF)
 
 
 FAMILIES = (

@@ -60,7 +60,7 @@ class Recipe(Frozen):
     numbers: tuple[Expression, ...] = ()
 
 
-class Family(Frozen):
+class MethodFamily(Frozen):
     """A family of diagonal methods.
 
     Attributes:
@@ -132,6 +132,8 @@ def of_stages(
     summary: str,
     reference: Reference = Reference(),  # noqa: B008 -- a value that does not change
     largest: int = MAX_STAGES,
-) -> Family:
+) -> MethodFamily:
     """A family whose members have any number of stages and no options."""
-    return Family(name, by_stages(make), smallest, largest, order, summary, reference=reference)
+    return MethodFamily(
+        name, by_stages(make), smallest, largest, order, summary, reference=reference
+    )

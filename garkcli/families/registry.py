@@ -11,7 +11,7 @@ from garkcli import families
 from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
-from garkcli.families.family import MAX_STAGES, STAGES, Family, Given, Option, Options, Recipe
+from garkcli.families.family import MAX_STAGES, STAGES, Given, MethodFamily, Option, Options, Recipe
 from garkcli.tableau.tableau import Method
 
 NO_OPTIONS: Options = {}
@@ -19,7 +19,7 @@ _FIRST = ("collocation", "explicit", "sdirk2", "extrapolated", "deferred")
 """Modules whose families come first in the documentation."""
 
 
-def _families() -> Iterator[Family]:
+def _families() -> Iterator[MethodFamily]:
     """The families of all modules here."""
     for name in sorted([file.name for file in pkgutil.iter_modules(families.__path__)], key=_place):
         if name != "registry":
@@ -30,8 +30,8 @@ def _place(name: str) -> tuple[int, str]:
     return (_FIRST.index(name) if name in _FIRST else len(_FIRST)), name
 
 
-FAMILIES: Mapping[str, Family] = {family.name: family for family in _families()}
-BY_STAGES: Mapping[str, Family] = {
+FAMILIES: Mapping[str, MethodFamily] = {family.name: family for family in _families()}
+BY_STAGES: Mapping[str, MethodFamily] = {
     name: family for name, family in FAMILIES.items() if family.keys == ("stages",)
 }
 """The families whose members have a number of stages and no options."""
@@ -113,7 +113,7 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
     return recipe
 
 
-def _size_of(family: Family, size: int | None) -> int:
+def _size_of(family: MethodFamily, size: int | None) -> int:
     """The size of a member, within the bounds of the family."""
     if size is None and family.is_single:
         return family.smallest
@@ -136,7 +136,7 @@ def _size_of(family: Family, size: int | None) -> int:
     raise UnknownFamily(message, f"it has {have}", code="wrong-value")
 
 
-def _complete(family: Family, options: Options) -> Options:
+def _complete(family: MethodFamily, options: Options) -> Options:
     """A value for every option of the family, and for no other."""
     for name in options:
         if name not in family.keys:

@@ -13,7 +13,7 @@ from flint import fmpq
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Expression
-from garkcli.families.family import NONSTIFF, Family, Option, Options, Recipe
+from garkcli.families.family import NONSTIFF, MethodFamily, Option, Options, Recipe
 from garkcli.tableau.tableau import Method, butcher
 
 GAMMA = Option(
@@ -34,7 +34,7 @@ def _method(values: Vector) -> Method:
 
 
 FAMILIES = (
-    Family(
+    MethodFamily(
         "sdirk2",
         sdirk2,
         2,

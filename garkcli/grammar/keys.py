@@ -18,7 +18,7 @@ from garkcli.frozen import Frozen
 from garkcli.grammar.source import Cures, Entries, Home, Source
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import KeyMeaning as Entry
+    from garkcli.glossary.key import KeyMeaning
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
@@ -95,15 +95,13 @@ class Key(Frozen):
         told = {**schema, "description": self.text, "examples": [as_json]}
         return told if self.default is None else {**told, "default": self.default}
 
-    def entries(self, above: str, page: str) -> Iterator[Entry]:
+    def entries(self, above: str, page: str) -> Iterator[KeyMeaning]:
         """Yields the entries of the glossary for the key and the keys within it."""
-        from garkcli.glossary.key import (
-            KeyMeaning as Entry,
-        )  # only pages and explanations tell of keys
+        from garkcli.glossary.key import KeyMeaning  # only pages and explanations tell of keys
 
         path, own = above + self.name, self.page or page
         if self.is_listed:
-            yield Entry(path, self.text, self.line, self.default, own, self.is_word)
+            yield KeyMeaning(path, self.text, self.line, self.default, own, self.is_word)
         for key in self.kind.inside():
             yield from key.entries(f"{path}.", page)
 
@@ -520,7 +518,7 @@ def file_schema(title: str, text: str, kind: ValueKind, **more: Any) -> Schema:
     return {**head, "description": text, **kind.schema(), **more}
 
 
-def told(keys: Iterable[Key], page: str) -> Iterator[Entry]:
+def told(keys: Iterable[Key], page: str) -> Iterator[KeyMeaning]:
     """Yields the entries of the glossary for keys at the top of a file and those within them."""
     for key in keys:
         yield from key.entries("", page)

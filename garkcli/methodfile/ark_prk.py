@@ -8,7 +8,7 @@ from garkcli.grammar.keys import Key, ReadMapping, ValueKind, defined, mapping
 from garkcli.grammar.nodes import Node, SequenceNode, key_nodes
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.numbers import Reading, Rows
+from garkcli.methodfile.numbers import NumbersReader, Rows
 
 _FORM_OF_PRK = "give q: {A, b} and p: {A, b}"
 _ROW = defined("row").schema()
@@ -54,7 +54,7 @@ PRK = mapping(
 """A partitioned method: a tableau for the positions and one for the momenta."""
 
 
-def ark(at: Reading, node: Node) -> d.ArkText | None:
+def ark(at: NumbersReader, node: Node) -> d.ArkText | None:
     """Reads the form ``ark``; None if it is not a method."""
     entries: ReadMapping | None = ARK.read(at, node, "ark")
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -93,7 +93,7 @@ def ark(at: Reading, node: Node) -> d.ArkText | None:
     )
 
 
-def _matrices(at: Reading, node: Node) -> list[Rows] | None:
+def _matrices(at: NumbersReader, node: Node) -> list[Rows] | None:
     """Returns the matrices as written; None if A is not a list of matrices."""
     items = spelled_out.colours_in(at, node, "A")
     if items and spelled_out.depth_of_lists(node) == 2:
@@ -106,7 +106,7 @@ def _matrices(at: Reading, node: Node) -> list[Rows] | None:
     return [at.numbers.matrix(item, d.of_colour("A", m)) for m, item in enumerate(items)]
 
 
-def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
+def prk(at: NumbersReader, node: Node, structure: d.Structure) -> d.PrkText | None:
     """Reads the form ``prk``; its blocks are rectangular unless the structure is general."""
     entries: ReadMapping | None = PRK.read(at, node, "prk")
     if entries is None or len(entries) < 2:
@@ -126,7 +126,7 @@ def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
     return d.PrkText(_fitted(at, q, "q", (s_f, s_v), why), _fitted(at, p, "p", (s_v, s_f), why))
 
 
-def _part(at: Reading, node: Node, part: str) -> d.ButcherText | None:
+def _part(at: NumbersReader, node: Node, part: str) -> d.ButcherText | None:
     """Returns q or p of a prk, before its sizes are checked."""
     entries: ReadMapping | None = spelled_out.BUTCHER.read(at, node, f"prk, {part}")
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -143,7 +143,7 @@ def _part(at: Reading, node: Node, part: str) -> d.ButcherText | None:
 
 
 def _fitted(
-    at: Reading, text: d.ButcherText, part: str, shape: tuple[int, int], why: str
+    at: NumbersReader, text: d.ButcherText, part: str, shape: tuple[int, int], why: str
 ) -> d.ButcherText:
     """Returns a part whose matrix has the shape required by the weights of both parts."""
     keys = key_nodes(text.node)

@@ -18,7 +18,7 @@ from garkcli.frozen import replace
 from garkcli.grammar.nodes import Node
 from garkcli.grammar.source import Source
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import Entry, Numbers, Row
+from garkcli.methodfile.numbers import Coefficient, Numbers, Row
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
 from garkcli.order.meant import AnyTableau, meant
@@ -512,4 +512,4 @@ def _family_nodes(text: d.FamilyText, space: StageSpace, numbers: Numbers, why: 
         numbers.source.fault(text.node, message, cure, code="no-radicals")
         return None
     numbered = enumerate(nodes, start=1)
-    return tuple(Entry(x, text.node, f"node {i} of {text.name}") for i, x in numbered)
+    return tuple(Coefficient(x, text.node, f"node {i} of {text.name}") for i, x in numbered)

@@ -7,7 +7,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.numbers import NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import ROW
 
 _FORM = "give {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}: of f, then of f′f, …"
@@ -51,7 +51,7 @@ DERIVATIVES = g.mapping(
 """A method that uses derivatives of f."""
 
 
-def derivatives(at: Reading, node: Node) -> d.DerivativesText | None:
+def derivatives(at: NumbersReader, node: Node) -> d.DerivativesText | None:
     """Reads the form ``derivatives``; None if it is not a method."""
     found: g.ReadMapping | None = DERIVATIVES.read(at, node, "derivatives")
     if found is None or not found.is_right:
@@ -86,7 +86,7 @@ def derivatives(at: Reading, node: Node) -> d.DerivativesText | None:
     return d.DerivativesText(node, A, b, c, embedded)
 
 
-def _weights(at: Reading, node: Node, name: str, derivatives: int) -> Rows:
+def _weights(at: NumbersReader, node: Node, name: str, derivatives: int) -> Rows:
     """Returns the weights, one row for each matrix."""
     rows = at.numbers.matrix(node, name)
     if len(rows) != derivatives:
@@ -97,7 +97,7 @@ def _weights(at: Reading, node: Node, name: str, derivatives: int) -> Rows:
     return rows
 
 
-def _matrix(at: Reading, node: Node, name: str, stages: int) -> Rows:
+def _matrix(at: NumbersReader, node: Node, name: str, stages: int) -> Rows:
     """Returns the matrix, filled with zeros."""
     rows = at.numbers.matrix(node, name) if at.source.items(node, name, _FORM) else ()
     longest = max([len(rows), *map(len, rows)], default=0)
@@ -111,5 +111,5 @@ def _matrix(at: Reading, node: Node, name: str, stages: int) -> Rows:
     return tuple(row + (zero,) * (stages - len(row)) for row in filled)
 
 
-def _one_each(at: Reading, node: Node, name: str, row: Row, stages: int) -> None:
+def _one_each(at: NumbersReader, node: Node, name: str, row: Row, stages: int) -> None:
     spelled_out.one_each(at, node, name, row, "entry", "stage", stages, "give one per stage")

@@ -10,14 +10,14 @@ from flint import fmpq
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.grammar.nodes import Node
 from garkcli.grammar.source import Source
-from garkcli.methodfile.numbers import Entry, Row, Rows
+from garkcli.methodfile.numbers import Coefficient, Row, Rows
 from garkcli.reference import ZANNA, Reference, Work
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
     from garkcli.families.family import Recipe
-    from garkcli.methodfile.tolerance import Rounding
+    from garkcli.methodfile.tolerance import NumberTolerances
     from garkcli.methodfile.values import Values
 
 Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
@@ -131,7 +131,7 @@ class RuleText(Frozen):
     """A block made by rules with weights, None for a single rule, which may have a degree."""
 
     node: Node
-    terms: tuple[tuple[str, Entry | None], ...]
+    terms: tuple[tuple[str, Coefficient | None], ...]
     degree: int | None = None
 
 
@@ -428,5 +428,5 @@ class Description(Frozen):
     reference: str = ""
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
-    rounding: Rounding | None = None
+    rounding: NumberTolerances | None = None
     claims: tuple[ClaimText, ...] = ()

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from garkcli.errors import UnknownFamily, did_you_mean, nearest
 from garkcli.families.collocation import MOST_OF_GAUSS
-from garkcli.families.family import Family, Given, Option, Recipe
+from garkcli.families.family import Given, MethodFamily, Option, Recipe
 from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
 from garkcli.grammar.keys import Key, OfSchema, Schema, ValueKind, count, entries_in, mapping, word
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, keys_of, shortened
 from garkcli.grammar.source import Entries
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import Entry, Reading, Row
+from garkcli.methodfile.numbers import Coefficient, NumbersReader, Row
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.spelled_out import (
     BUTCHER,
@@ -44,7 +44,7 @@ _CHOSEN = [
 ]
 
 
-def _member(family: Family) -> Schema:
+def _member(family: MethodFamily) -> Schema:
     """Returns the schema of the keys that a member of a family needs and lacks."""
     needed = [] if family.is_single else [family.size]
     needed += [option.name for option in family.options if not option.default]
@@ -70,7 +70,7 @@ _KEYS = {key.name: key for key in FAMILY.inside()}
 
 
 def methods(
-    at: Reading, node: Node, structure: d.Structure, transfer: Node | None
+    at: NumbersReader, node: Node, structure: d.Structure, transfer: Node | None
 ) -> d.MethodsText | None:
     """Reads the form ``methods``; None if it is not a method."""
     if keys_of(node) & {"A", "b", "family", "stages"} or _in_a_word(node) is not None:
@@ -102,7 +102,9 @@ def _stages(text: d.FamilyText | d.ButcherText) -> int:
     return text.stages if isinstance(text, d.FamilyText) else len(text.b)
 
 
-def _is_too_large(at: Reading, found: Sequence[d.FamilyText | d.ButcherText], node: Node) -> bool:
+def _is_too_large(
+    at: NumbersReader, found: Sequence[d.FamilyText | d.ButcherText], node: Node
+) -> bool:
     """Reports whether the blocks between the methods have too many entries in total."""
     stages = list(map(_stages, found))
     entries = sum(stages) ** 2 - sum(s * s for s in stages)
@@ -112,7 +114,7 @@ def _is_too_large(at: Reading, found: Sequence[d.FamilyText | d.ButcherText], no
     return entries > d.MAX_ENTRIES
 
 
-def _method(at: Reading, node: Node, l: int) -> d.FamilyText | d.ButcherText | None:
+def _method(at: NumbersReader, node: Node, l: int) -> d.FamilyText | d.ButcherText | None:
     """Reads the method of colour ``l``, counted from 1."""
     node = _in_a_word(node) or node
     keys, where = keys_of(node), f"method {l}"
@@ -168,7 +170,7 @@ def _written_out(node: ScalarNode) -> str:
     return f"write for instance {{family: {name}, {family.size}: {size}}}"
 
 
-def _family(at: Reading, node: Node, where: str) -> tuple[d.FamilyText, Entries] | None:
+def _family(at: NumbersReader, node: Node, where: str) -> tuple[d.FamilyText, Entries] | None:
     """Reads a member of a family with its keys; None after a fault."""
     before = len(at.source.faults)
     family = _family_named(node)
@@ -198,7 +200,7 @@ def _family(at: Reading, node: Node, where: str) -> tuple[d.FamilyText, Entries]
 
 
 def _chosen(
-    at: Reading, entries: Entries, family: Family, where: str
+    at: NumbersReader, entries: Entries, family: MethodFamily, where: str
 ) -> tuple[int | None, dict[str, Given]]:
     """Returns the size and the other options of a member."""
     size = None
@@ -209,24 +211,24 @@ def _chosen(
         if option.name in entries:
             value = _kind_of(option).read(at, entries[option.name], f"{where}, {option.name}")
             if value is not None:
-                options[option.name] = value.expression if isinstance(value, Entry) else value
+                options[option.name] = value.expression if isinstance(value, Coefficient) else value
     return size, options
 
 
-def _entries(at: Reading, recipe: Recipe, node: Node, name: str) -> Row:
+def _entries(at: NumbersReader, recipe: Recipe, node: Node, name: str) -> Row:
     """Returns the numbers of a recipe as coefficients of the file, added unless they are there."""
     read = {id(entry.expression): entry for entry in at.numbers.entries}
-    row: list[Entry] = []
+    row: list[Coefficient] = []
     for i, expression in enumerate(recipe.numbers, start=1):
         entry = read.get(id(expression))
         if entry is None:
-            entry = Entry(expression, node, f"{name}, number {i}")
+            entry = Coefficient(expression, node, f"{name}, number {i}")
             at.numbers.entries.append(entry)
         row.append(entry)
     return tuple(row)
 
 
-def _family_named(node: Node) -> Family | None:
+def _family_named(node: Node) -> MethodFamily | None:
     for key, value in node.value if isinstance(node, MappingNode) else ():
         is_name = isinstance(key, ScalarNode) and key.value == "family"
         if is_name and isinstance(value, ScalarNode):

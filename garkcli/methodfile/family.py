@@ -25,7 +25,7 @@ from garkcli.methodfile.description import (
 )
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
-from garkcli.methodfile.reader import Reader
+from garkcli.methodfile.reader import MethodReader
 from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import Jets
@@ -168,7 +168,7 @@ def refuse_rounded(family: FamilyFile) -> None:
 
 
 def _family(
-    reader: Reader,
+    reader: MethodReader,
     description: Description,
     wishes: Wishes,
     settings: Mapping[str, str],
@@ -260,7 +260,7 @@ def _signs(numbers: Sequence[object], ring: Parameters) -> tuple[fmpq_mpoly, ...
     return tuple(sign_polynomial(x, ring) for x in numbers)
 
 
-def _shape(reader: Reader) -> tuple[Extent, str] | None:
+def _shape(reader: MethodReader) -> tuple[Extent, str] | None:
     """Returns the place of a shape in the file, and its text as a tableau."""
     if reader.shaped is None:
         return None

@@ -27,7 +27,7 @@ from garkcli.exact.parametric import (
 from garkcli.exact.rewriting import format_expression, names_in, roots_in
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
-from garkcli.methodfile.numbers import Entry, Free, Numbers
+from garkcli.methodfile.numbers import Coefficient, Free, Numbers
 from garkcli.methodfile.values import Values
 from garkcli.tableau.family import Radical
 from garkcli.tableau.tableau import Method, Tableau
@@ -111,7 +111,7 @@ class FamilyValues(Values):
                 return None, None
         return least, greatest
 
-    def _end(self, entry: Entry) -> fmpq | None:
+    def _end(self, entry: Coefficient) -> fmpq | None:
         value = self._plain(entry.expression)
         if value is None:
             message = f"{entry.where}: a rational number is expected"

@@ -28,8 +28,7 @@ from garkcli.methodfile.spelled_out import (
 )
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import FileKind
-    from garkcli.glossary.key import KeyMeaning as Entry
+    from garkcli.glossary.key import FileKind, KeyMeaning
 
 _PAGE = "docs/method-file.md#"
 _MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
@@ -367,5 +366,5 @@ def method_file_schema() -> g.Schema:
     )
 
 
-def told(kind: FileKind) -> Iterable[Entry]:
+def told(kind: FileKind) -> Iterable[KeyMeaning]:
     return g.told(KEYS.values(), kind.page)

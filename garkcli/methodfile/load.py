@@ -23,7 +23,7 @@ from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
-from garkcli.methodfile.reader import Reader
+from garkcli.methodfile.reader import MethodReader
 from garkcli.methodfile.values import Values
 from garkcli.order.meant import remember, remember_digits, remembered, remembered_digits
 from garkcli.reference import Work
@@ -205,7 +205,7 @@ _OTHER_KINDS: dict[Form, str] = {
 """The kinds of methods that are not GARK methods, in messages."""
 
 
-def _free(reader: Reader, description: Description) -> MethodFileError:
+def _free(reader: MethodReader, description: Description) -> MethodFileError:
     """Returns the error for a family of methods, or the other faults of the file."""
     if reader.source.faults:
         return reader.source.error()
@@ -224,13 +224,15 @@ def _free(reader: Reader, description: Description) -> MethodFileError:
     return free
 
 
-def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Reader, Description]:
+def described(
+    text: str, source: str, settings: Mapping[str, str]
+) -> tuple[MethodReader, Description]:
     """Returns the description of a file and its reader, which has the coefficients.
 
     Raises MethodFileError if the file does not describe a method.
     """
     reading = Source(source, text, METHOD_FILE)
-    reader = Reader(reading, settings)
+    reader = MethodReader(reading, settings)
     description = reader.read()
     if description is None:
         if not reader.numbers.free:
@@ -241,7 +243,7 @@ def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Read
 
 
 def built(
-    reader: Reader, description: Description, values_of: Callable[[Numbers], V]
+    reader: MethodReader, description: Description, values_of: Callable[[Numbers], V]
 ) -> Builder[V]:
     """Returns the method that a file describes, with its coefficients.
 

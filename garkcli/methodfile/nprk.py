@@ -6,7 +6,7 @@ from garkcli.errors import counted
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import Reading, Rows
+from garkcli.methodfile.numbers import NumbersReader, Rows
 
 _FORM = "give {a: [[], [[], [1]]], b: [[], [1]]}: a matrix for each stage, and one of weights"
 _MATRIX = g.ValueKind(lambda: {"type": "array", "items": {"type": "array"}})
@@ -25,7 +25,7 @@ NPRK = g.mapping(
 """A nonlinearly partitioned method."""
 
 
-def nprk(at: Reading, node: Node) -> d.NprkText | None:
+def nprk(at: NumbersReader, node: Node) -> d.NprkText | None:
     """Reads the form ``nprk``; None if it is not a method."""
     found: g.ReadMapping | None = NPRK.read(at, node, "nprk")
     if found is None or not found.is_right:
@@ -39,7 +39,7 @@ def nprk(at: Reading, node: Node) -> d.NprkText | None:
     return d.NprkText(node, tuple(a), b, embedded)
 
 
-def _matrix(at: Reading, node: Node, where: str, stages: int) -> Rows:
+def _matrix(at: NumbersReader, node: Node, where: str, stages: int) -> Rows:
     items = at.source.items(node, where, _FORM)
     rows = at.numbers.matrix(node, where) if items else ()
     longest = max([len(rows), *map(len, rows)], default=0)

@@ -111,7 +111,7 @@ MAX_DEPTH = 200
 _SHOWN_ROWS = 5  # most further rows of another length that are reported
 
 
-class Entry(Frozen):
+class Coefficient(Frozen):
     """A coefficient."""
 
     expression: Expression
@@ -119,7 +119,7 @@ class Entry(Frozen):
     where: str
 
 
-Row: TypeAlias = tuple[Entry, ...]
+Row: TypeAlias = tuple[Coefficient, ...]
 Rows: TypeAlias = tuple[Row, ...]
 
 
@@ -128,7 +128,7 @@ class Between(Frozen):
     for algebraic ends.
     """
 
-    ranges: tuple[tuple[Entry, Entry], ...] = ()
+    ranges: tuple[tuple[Coefficient, Coefficient], ...] = ()
     bounds: tuple[Polynomial, ...] = ()
 
 
@@ -156,8 +156,8 @@ class Numbers(Mutable):
 
     source: Source
     parameters: dict[str, Expression] = field(default_factory=dict)
-    entries: list[Entry] = field(default_factory=list)
-    of_parameters: list[Entry] = field(default_factory=list)
+    entries: list[Coefficient] = field(default_factory=list)
+    of_parameters: list[Coefficient] = field(default_factory=list)
     settings: Mapping[str, str] = field(default_factory=dict)
     free: dict[str, Free] = field(default_factory=dict)
     places: Entries = field(default_factory=dict)
@@ -179,11 +179,11 @@ class Numbers(Mutable):
         for known in (self.parameters, self._sizes, self._depths):
             del known[name]
 
-    def entry(self, node: Node, where: str) -> Entry:
+    def entry(self, node: Node, where: str) -> Coefficient:
         """Reads a coefficient; a faulty one is reported and counts as zero, so that reading
         continues.
         """
-        entry = Entry(self._read_entry(node, where), node, where)
+        entry = Coefficient(self._read_entry(node, where), node, where)
         self.entries.append(entry)
         return entry
 
@@ -242,12 +242,12 @@ class Numbers(Mutable):
             message = f"{where} is set to {shortened(text)}: {error.message}"
             self.source.fault(node, message, error.help, code="no-value-left")
             return Literal(ZERO)
-        self.of_parameters.append(Entry(value, node, where))
+        self.of_parameters.append(Coefficient(value, node, where))
         return value
 
-    def written(self, text: str, node: Node, where: str) -> Entry:
+    def written(self, text: str, node: Node, where: str) -> Coefficient:
         """Returns a coefficient that a shape writes in place of the file."""
-        entry = Entry(self._expression(text), node, where)
+        entry = Coefficient(self._expression(text), node, where)
         self.entries.append(entry)
         return entry
 
@@ -283,7 +283,7 @@ class Numbers(Mutable):
         """Reads the entries of a row; one that YAML split at a comma is reported and counts
         once.
         """
-        row: list[Entry] = []
+        row: list[Coefficient] = []
         is_open = False
         for item in items:
             was_open, is_open = is_open, spellings.opens(item)
@@ -296,7 +296,7 @@ class Numbers(Mutable):
                 self.source.fault(
                     item, message, 'quote it: "root(x, n)"', where=place, code="not-a-number"
                 )
-                row.append(Entry(Literal(ZERO), item, place))
+                row.append(Coefficient(Literal(ZERO), item, place))
             else:
                 row.append(self.entry(item, place))
         return tuple(row)
@@ -404,14 +404,14 @@ class Numbers(Mutable):
         whole: list[Row] = []
         for i, row in enumerate(rows, start=1):
             missing = len(rows) - len(row)
-            zero = Entry(Literal(ZERO), node, f"{where}, row {i}")
+            zero = Coefficient(Literal(ZERO), node, f"{where}, row {i}")
             if missing:
                 self.entries.append(zero)
             whole.append(row + (zero,) * missing)
         return tuple(whole)
 
 
-class Reading:
+class NumbersReader:
     """Reads a file, or a part of it."""
 
     def __init__(self, numbers: Numbers) -> None:

@@ -6,7 +6,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.numbers import NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 
 _FORM = "give {Abar: [[], [1/2]], c: [0, 1], bbar: [1/2, 0], b: [1/2, 1/2]}, with A for g(q, q′)"
@@ -107,7 +107,7 @@ NYSTROM = g.mapping(
 """A Nyström method."""
 
 
-def nystrom(at: Reading, node: Node) -> d.NystromText | None:
+def nystrom(at: NumbersReader, node: Node) -> d.NystromText | None:
     """Reads the form ``nystrom``; None if it is not a method."""
     found: g.ReadMapping | None = NYSTROM.read(at, node, "nystrom")
     if found is None or not found.is_right or not found["b"]:
@@ -143,7 +143,7 @@ def nystrom(at: Reading, node: Node) -> d.NystromText | None:
     return d.NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded, dense)
 
 
-def _dense(at: Reading, found: g.ReadMapping, stages: int) -> tuple[Rows, Rows | None] | None:
+def _dense(at: NumbersReader, found: g.ReadMapping, stages: int) -> tuple[Rows, Rows | None] | None:
     """Reads the polynomials of both components; None for q′ if they are the slopes of the
     others.
     """

@@ -13,10 +13,12 @@ from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
 from garkcli.grammar.nodes import Node
 from garkcli.grammar.source import Source
-from garkcli.methodfile.numbers import Between, Entry
+from garkcli.methodfile.numbers import Between, Coefficient
 
 
-def between_roots(source: Source, ends: tuple[Entry, Entry], node: Node, where: str) -> Between:
+def between_roots(
+    source: Source, ends: tuple[Coefficient, Coefficient], node: Node, where: str
+) -> Between:
     """Returns rational numbers around two algebraic ones, and polynomials that are nonnegative
     between those exactly between the algebraic ones: the minimal polynomials, which may have no
     other zero there.
@@ -58,5 +60,5 @@ def between_roots(source: Source, ends: tuple[Entry, Entry], node: Node, where: 
             source.fault(node, message, cure, code="wrong-value")
             return Between()
         polynomials.append(polynomial * fmpq(sign_at(polynomial, inner)))
-    entries = [Entry(Literal(x), node, where) for x in around]
+    entries = [Coefficient(Literal(x), node, where) for x in around]
     return Between(((entries[0], entries[1]),), tuple(polynomials))

@@ -13,21 +13,21 @@ from garkcli.grammar.nodes import Extent, MappingNode, Node, ScalarNode, extent,
 from garkcli.grammar.source import Entries, Source
 from garkcli.methodfile import description as d
 from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
-from garkcli.methodfile.numbers import Numbers, Reading
+from garkcli.methodfile.numbers import Numbers, NumbersReader
 from garkcli.methodfile.parameters import refuse_unknown_settings
 from garkcli.methodfile.spelled_out import tableau, tableau_of
 
 if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open, Opened
     from garkcli.methodfile.shapes import Shaped
-    from garkcli.methodfile.tolerance import Rounding, Tolerance
+    from garkcli.methodfile.tolerance import NumberTolerances, Tolerance
     from garkcli.methodfile.wishes import Wishes
 
 
 _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
 
 
-class ContentReader(Reading):
+class ContentReader(NumbersReader):
     """Reads the coefficients of one method of a file.
 
     ``shaped`` is the tableau of its ``unknown``, ``tolerance`` that of the file, None if its
@@ -171,7 +171,7 @@ _ABOUT = (
 """The keys besides the coefficients, which are read first."""
 
 
-class Reader(Reading):
+class MethodReader(NumbersReader):
     """Reads one file.
 
     ``inside`` has the methods of the catalogue that are being read and refer to it.
@@ -228,7 +228,7 @@ class Reader(Reading):
             bibliography=bibliography,
         )
 
-    def _rounding(self, tolerance: Tolerance | None, content: d.Content) -> Rounding | None:
+    def _rounding(self, tolerance: Tolerance | None, content: d.Content) -> NumberTolerances | None:
         """Returns the rounding of the file, or of its parts; None if all is exact."""
         if tolerance is None:
             inside = content.tolerance if isinstance(content, d.ConstructionText) else None
@@ -237,9 +237,9 @@ class Reader(Reading):
             from garkcli.methodfile.tolerance import same_for_all
 
             tolerance = same_for_all(inside)
-        from garkcli.methodfile.tolerance import Rounding  # few files are rounded
+        from garkcli.methodfile.tolerance import NumberTolerances  # few files are rounded
 
-        return Rounding(tolerance, content, self.numbers.entries)
+        return NumberTolerances(tolerance, content, self.numbers.entries)
 
     def _refuse_unused(self, unknowns: Iterable[str]) -> None:
         """Reports parameters that are neither unknowns of the shape nor used."""
@@ -268,7 +268,7 @@ class Reader(Reading):
             message, cure = f"{found} is made from itself", "name another method"
             source.fault(None, message, cure, code="made-from-itself")
             raise source.error()
-        reader = Reader(source, {}, (*self._inside, found))
+        reader = MethodReader(source, {}, (*self._inside, found))
         description = reader.read()
         if description is None:
             raise source.error()

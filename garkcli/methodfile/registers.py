@@ -10,7 +10,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node, ScalarNode, SequenceNode
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.numbers import Reading
+from garkcli.methodfile.numbers import NumbersReader
 from garkcli.methodfile.parameters import MATRIX, ROW
 
 KEYS_OF_FORMS: Mapping[str, tuple[str, ...]] = {
@@ -93,7 +93,7 @@ LOW_STORAGE = g.mapping(
 """A low-storage scheme."""
 
 
-def shu_osher(at: Reading, node: Node) -> d.RegistersText | None:
+def shu_osher(at: NumbersReader, node: Node) -> d.RegistersText | None:
     """Reads the form ``shu-osher``; None if it is not a method."""
     found: g.ReadMapping | None = SHU_OSHER.read(at, node, "shu-osher")
     if found is None or not found.is_right:
@@ -114,7 +114,7 @@ def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
     return is_zero(nodes["alpha"]) and is_zero(nodes["beta"])
 
 
-def low_storage(at: Reading, node: Node) -> d.RegistersText | None:
+def low_storage(at: NumbersReader, node: Node) -> d.RegistersText | None:
     """Reads the form ``low-storage``; None if it is not a method."""
     found: g.ReadMapping | None = LOW_STORAGE.read(at, node, "low-storage")
     if found is None or not found.is_right:
@@ -149,7 +149,7 @@ def low_storage(at: Reading, node: Node) -> d.RegistersText | None:
 
 
 def _text(
-    at: Reading,
+    at: NumbersReader,
     node: Node,
     scheme: str,
     found: g.ReadMapping,

@@ -8,7 +8,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node, ScalarNode, is_null
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.numbers import Entry, Reading, Row, Rows
+from garkcli.methodfile.numbers import Coefficient, NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, NUMBER, ROW
 
 _FORM = (
@@ -150,7 +150,7 @@ ROSENBROCK = g.mapping(
 """A Rosenbrock or W-method."""
 
 
-def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
+def rosenbrock(at: NumbersReader, node: Node) -> d.RosenbrockText | None:
     """Reads the form ``rosenbrock``; None if it is not a method."""
     entries: g.ReadMapping | None = ROSENBROCK.read(at, node, "rosenbrock")
     if entries is None or not entries.is_right:
@@ -164,7 +164,7 @@ def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
 
 
 def _text(
-    at: Reading, node: Node, found: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
+    at: NumbersReader, node: Node, found: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
 ) -> d.RosenbrockText | None:
     """Returns the method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
@@ -187,7 +187,7 @@ def _text(
     return d.RosenbrockText(node, alpha, full, (b,), c, d_, diagonal, rows["e"], (further,))
 
 
-def _several(at: Reading, node: Node, found: g.ReadMapping) -> d.RosenbrockText | None:
+def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> d.RosenbrockText | None:
     """Reads a method of several colours."""
     before = len(at.source.faults)
 
@@ -241,14 +241,14 @@ def _several(at: Reading, node: Node, found: g.ReadMapping) -> d.RosenbrockText 
     return d.RosenbrockText(node, alpha, gamma, b, c, d_, further=further)
 
 
-def _row(at: Reading, found: g.ReadMapping, name: str, stages: int) -> Row:
+def _row(at: NumbersReader, found: g.ReadMapping, name: str, stages: int) -> Row:
     row: Row = found[name]
     cure = "give one per stage, or leave it out"
     spelled_out.one_each(at, found.nodes[name], name, row, "entry", "stage", stages, cure)
     return row
 
 
-def _diagonal(at: Reading, node: Node, stages: int) -> tuple[Entry, ...]:
+def _diagonal(at: NumbersReader, node: Node, stages: int) -> tuple[Coefficient, ...]:
     """Reads the γ_ii, one for each stage."""
     row = at.numbers.row(node, "gamma")
     if isinstance(node, ScalarNode):

@@ -24,7 +24,7 @@ from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
 from garkcli.grammar.source import Source
 from garkcli.methodfile.build import Builder
-from garkcli.methodfile.numbers import Entry, Numbers
+from garkcli.methodfile.numbers import Coefficient, Numbers
 from garkcli.methodfile.printed import is_long_fraction
 from garkcli.methodfile.values import Values
 from garkcli.tableau.box import Box, rational_or_ball, to_points
@@ -32,16 +32,16 @@ from garkcli.tableau.embedded import as_colours
 
 if TYPE_CHECKING:
     from garkcli.methodfile.description import Content, PartText
-    from garkcli.methodfile.tolerance import Rounding
+    from garkcli.methodfile.tolerance import NumberTolerances
     from garkcli.order.meant import Radii
 
 INDETERMINATE = "_number"
 """The prefix of indeterminates for known numbers."""
-_Rounded: TypeAlias = tuple[Entry, Expression, Number]
+_Rounded: TypeAlias = tuple[Coefficient, Expression, Number]
 """A rounded number, in an entry."""
 
 
-def rounded_of(built: Builder[Values], numbers: Numbers, rounding: Rounding) -> Rounded:
+def rounded_of(built: Builder[Values], numbers: Numbers, rounding: NumberTolerances) -> Rounded:
     """Returns the rounded numbers of a file: each decimal in it, and each fraction with a long
     denominator. Short fractions are exact, and roots of exact numbers.
 
@@ -57,9 +57,11 @@ def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of:
 
     ``radii_of`` returns the errors of the rounded numbers as written, 0 for exact ones.
     """
-    from garkcli.methodfile.tolerance import Rounding, same_for_all
+    from garkcli.methodfile.tolerance import NumberTolerances, same_for_all
 
-    rounded = rounded_of(built, numbers, Rounding(same_for_all(ONE), content, numbers.entries))
+    rounded = rounded_of(
+        built, numbers, NumberTolerances(same_for_all(ONE), content, numbers.entries)
+    )
     radii = radii_of(list(zip(rounded.written, rounded.numbers, strict=True)))
     kept = [k for k, radius in enumerate(radii) if radius]
     make = rounded.maker(built.text)
@@ -82,9 +84,9 @@ class Rounded:
 
     def __init__(
         self,
-        coefficients: Sequence[Entry],
+        coefficients: Sequence[Coefficient],
         known: Values,
-        rounding: Rounding,
+        rounding: NumberTolerances,
         given: Container[int] = (),
         apart: Container[int] | None = None,
     ) -> None:
@@ -209,7 +211,7 @@ class Rounded:
         return to_points(as_colours(builder.tableau, builder.further))
 
 
-def refuse_keys(source: Source, rounding: Rounding, rounded: Rounded) -> None:
+def refuse_keys(source: Source, rounding: NumberTolerances, rounded: Rounded) -> None:
     """Reports keys of ``tolerance`` that do not apply to a number.
 
     Raises MethodFileError if there are some.
@@ -266,7 +268,7 @@ class _Moved(Values):
     """The values of the coefficients with other numbers in place of the rounded ones."""
 
     def __init__(
-        self, coefficients: Sequence[Entry], rounded: Rounded, numbers: Sequence[Any]
+        self, coefficients: Sequence[Coefficient], rounded: Rounded, numbers: Sequence[Any]
     ) -> None:
         known, places = rounded.known, rounded.places
         self._values = {}

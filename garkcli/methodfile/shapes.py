@@ -23,7 +23,7 @@ from garkcli.grammar.keys import (
 )
 from garkcli.grammar.nodes import Extent, Node, extent, shortened
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.numbers import NumbersReader, Row, Rows
 from garkcli.methodfile.values import Values
 
 TextRow: TypeAlias = tuple[str, ...]
@@ -524,7 +524,7 @@ class Shaped(Frozen):
     place: Extent
 
 
-def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
+def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
     """Returns the tableau for ``unknown``; None after a fault.
 
     ``key`` is the node of the word ``unknown``, ``node`` that of its value.
@@ -550,7 +550,7 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
 
-def _content(at: Reading, layout: UnknownLayout, node: Node) -> ShapedText:
+def _content(at: NumbersReader, layout: UnknownLayout, node: Node) -> ShapedText:
     """Returns the coefficients of a layout as in a method file."""
 
     def row(texts: TextRow, where: str) -> Row:

@@ -13,7 +13,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, is_null
 from garkcli.grammar.source import Entries, Home
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import UNKNOWN, Reading, Row, Rows
+from garkcli.methodfile.numbers import UNKNOWN, NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 
 Weights: TypeAlias = tuple[Row, ...]
@@ -193,7 +193,14 @@ def _spelled(node: Node, wanted: int, each: str) -> str:
 
 
 def one_each(
-    at: Reading, node: Node, name: str, items: Sized, noun: str, each: str, wanted: int, cure: str
+    at: NumbersReader,
+    node: Node,
+    name: str,
+    items: Sized,
+    noun: str,
+    each: str,
+    wanted: int,
+    cure: str,
 ) -> bool:
     """Returns whether there is one item for each; otherwise reports, for instance, ``b has 2 rows
     for 3 colours``.
@@ -230,7 +237,7 @@ def _has_an_empty_row(node: Node) -> bool:
     )
 
 
-def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
+def colours_in(at: NumbersReader, node: Node, name: str) -> list[Node] | None:
     """Returns the items of a list, one for each colour; None, with a fault, if there are too
     many.
     """
@@ -240,7 +247,7 @@ def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
     return None if are_too_many(at, items, node) else items
 
 
-def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
+def are_too_many(at: NumbersReader, colours: Sized, node: Node) -> bool:
     """Returns whether there are more colours than allowed, and reports it."""
     if len(colours) <= d.MAX_COLOURS:
         return False
@@ -249,7 +256,7 @@ def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
     return True
 
 
-def butcher(at: Reading, node: Node, where: str, names: Names) -> d.ButcherText | None:
+def butcher(at: NumbersReader, node: Node, where: str, names: Names) -> d.ButcherText | None:
     """Reads a spelled-out method; ``names`` are those of its A, b and c in messages."""
     entries: g.ReadMapping | None = _METHOD.read(at, node, where)
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -261,7 +268,9 @@ def butcher(at: Reading, node: Node, where: str, names: Names) -> d.ButcherText 
     return d.ButcherText(node, entries.get("name", ""), *found, beside)
 
 
-def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
+def _method(
+    at: NumbersReader, entries: Entries, names: Names
+) -> tuple[Rows, Row, Row | None] | None:
     """Reads A, b and c of a method with one colour; None if they are not a method."""
     name_of_A, name_of_b, name_of_c = names
     A = at.numbers.matrix(entries["A"], name_of_A)
@@ -284,13 +293,13 @@ def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row
     return A, b, c
 
 
-def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
+def nodes_fit(at: NumbersReader, node: Node, name: str, c: Row, stages: int) -> bool:
     """Returns whether there is one node for each stage, and reports if not."""
     cure = "give one node for each stage, or leave c out"
     return one_each(at, node, name, c, "entry", "stage", stages, cure)
 
 
-def tableau(at: Reading, node: Node, linear: Node | None) -> d.TableauText | None:
+def tableau(at: NumbersReader, node: Node, linear: Node | None) -> d.TableauText | None:
     """Reads the form ``tableau``; ``linear`` lists its linear colours."""
     entries: g.ReadMapping | None = TABLEAU.read(at, node, "tableau")
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -298,7 +307,7 @@ def tableau(at: Reading, node: Node, linear: Node | None) -> d.TableauText | Non
     return tableau_of(at, entries, linear)
 
 
-def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
+def tableau_of(at: NumbersReader, entries: Entries, linear: Node | None) -> d.TableauText | None:
     """Reads A, b and c of one colour or of several, distinguished by the nesting of A."""
     A, b = entries["A"], entries["b"]
     depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
@@ -333,14 +342,14 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauT
 
 
 def _with_predictor(
-    at: Reading, entries: Entries, beside: d.FurtherText, stages: int
+    at: NumbersReader, entries: Entries, beside: d.FurtherText, stages: int
 ) -> d.FurtherText:
     if "predictor" not in entries:
         return beside
     return replace(beside, predictor=_predictor(at, entries["predictor"], stages))
 
 
-def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
+def _predictor(at: NumbersReader, node: Node, stages: int) -> d.PredictorText | None:
     """Returns the matrices of a predictor."""
     found: g.ReadMapping | None = PREDICTOR.read(at, node, "predictor")
     if found is None or not found:
@@ -351,7 +360,7 @@ def _predictor(at: Reading, node: Node, stages: int) -> d.PredictorText | None:
     return d.PredictorText(node, given.get("old", ()), given.get("new", ()))
 
 
-def _powers(at: Reading, node: Node, where: str, stages: int) -> tuple[Rows, ...]:
+def _powers(at: NumbersReader, node: Node, where: str, stages: int) -> tuple[Rows, ...]:
     """Returns the matrices of 1, r, r², …, or that of 1 alone; none after a fault."""
     is_one = depth_of_lists(node) < 3
     items = [node] if is_one else at.source.items(node, where)
@@ -370,7 +379,7 @@ def _powers(at: Reading, node: Node, where: str, stages: int) -> tuple[Rows, ...
     return tuple(found) if all(found) else ()
 
 
-def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
+def _blocks(at: NumbersReader, entries: Entries, linear: Node | None) -> d.TableauText | None:
     items = colours_in(at, entries["b"], "b")
     if items is None:
         return None
@@ -396,7 +405,7 @@ def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText
     return d.TableauText(A, b, c, colours, beside)
 
 
-def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
+def _block_row(at: NumbersReader, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
     """Reads the blocks A^{l,m} of colour l, None for absent ones."""
     where = f"row {l + 1} of blocks"
     items = at.source.items(node, f"A, {where}")
@@ -405,7 +414,7 @@ def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None
     return tuple(_block(at, item, l, m, b) for m, item in enumerate(items[: len(b)]))
 
 
-def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
+def _block(at: NumbersReader, node: Node, l: int, m: int, b: Weights) -> Rows | None:
     """Reads the block A^{l,m}; None for null."""
     if is_null(node):
         return None
@@ -417,7 +426,7 @@ def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
     return at.numbers.fitted(block, node, where, (rows, columns), why)
 
 
-def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, ...]:
+def _node_rows(at: NumbersReader, node: Node | None, b: Weights) -> tuple[Row | None, ...]:
     """Reads the nodes of each colour; None for those left out."""
     items = [] if node is None else at.source.items(node, "c")
     cure = "give a row per colour, null where they are left out"
@@ -433,7 +442,7 @@ def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, 
     return tuple(found)
 
 
-def _linear(at: Reading, node: Node | None, colours: int) -> tuple[int, ...]:
+def _linear(at: NumbersReader, node: Node | None, colours: int) -> tuple[int, ...]:
     """Reads the linear colours, numbered from 0."""
     found: list[int] = []
     for item in () if node is None else at.source.items(node, "linear"):
@@ -457,7 +466,7 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
 
 
 def further_of_method(
-    at: Reading, entries: Entries, stages: int, names: tuple[str, str] = d.BESIDE
+    at: NumbersReader, entries: Entries, stages: int, names: tuple[str, str] = d.BESIDE
 ) -> d.FurtherText:
     """Reads the further weights of one colour.
 
@@ -475,7 +484,7 @@ def further_of_method(
 
 
 def further_of_colours(
-    at: Reading, entries: Entries, stages: Sequence[int], is_shared: bool = False
+    at: NumbersReader, entries: Entries, stages: Sequence[int], is_shared: bool = False
 ) -> tuple[d.FurtherText, ...]:
     """Reads the further weights of several colours.
 
@@ -494,7 +503,7 @@ def further_of_colours(
 
 
 def _a_colour(
-    at: Reading, node: Node, where: str, stages: Sized, is_shared: bool, depth: int
+    at: NumbersReader, node: Node, where: str, stages: Sized, is_shared: bool, depth: int
 ) -> Iterator[tuple[int, Node, str]]:
     """Yields the item of each colour, ``depth`` lists deep, and its name in messages."""
     colours, is_one = len(stages), _depth(node) == depth
@@ -515,7 +524,7 @@ def _a_colour(
         at.source.fault(node, message, cure, code="wrong-size")
 
 
-def _is_of_several(at: Reading, node: Node, where: str, depth: int) -> bool:
+def _is_of_several(at: NumbersReader, node: Node, where: str, depth: int) -> bool:
     """Reports weights written as for several colours, ``depth`` lists deep, and returns whether
     so.
     """
@@ -530,14 +539,14 @@ def _is_of_several(at: Reading, node: Node, where: str, depth: int) -> bool:
     return True
 
 
-def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
+def _weights(at: NumbersReader, node: Node, where: str, stages: int) -> Row | None:
     row = at.numbers.row(node, where)
     if row and stages:
         one_each(at, node, where, row, "entry", "stage", stages, "give a weight per stage, as in b")
     return row or None
 
 
-def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]:
+def _parts(at: NumbersReader, entries: Entries, where: str) -> tuple[int, Node | None]:
     """Reads the degree and the weights of dense output; None without them."""
     found: g.ReadMapping | None = (
         DENSE.read(at, entries["dense"], where) if "dense" in entries else None
@@ -547,7 +556,7 @@ def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]
     return found["degree"], found["weights"]
 
 
-def polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -> Rows | None:
+def polynomials(at: NumbersReader, node: Node, where: str, stages: int, degree: int) -> Rows | None:
     """Reads one row for each stage, with one coefficient for each power of θ."""
     rows = at.numbers.matrix(node, where)
     if not rows or not stages:
@@ -566,7 +575,7 @@ def polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -
 
 
 def refuse_partial(
-    at: Reading, further: Sequence[d.FurtherText], names: Sequence[str], node: Node
+    at: NumbersReader, further: Sequence[d.FurtherText], names: Sequence[str], node: Node
 ) -> None:
     """Reports further weights that only some colours have."""
     for key in d.BESIDE:

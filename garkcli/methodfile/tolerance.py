@@ -17,7 +17,7 @@ from garkcli.frozen import FrozenBut
 from garkcli.grammar.keys import Key, Schema, ValueKind
 from garkcli.grammar.nodes import MappingNode, Node, key_nodes, shortened
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import Entry, Row, Rows
+from garkcli.methodfile.numbers import Coefficient, Row, Rows
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.printed import coarsest_unit, fewest_digits, unit_of
 
@@ -62,7 +62,7 @@ def same_for_all(off: Off) -> Tolerance:
     return Tolerance({OTHERS: off}, {})
 
 
-def largest(tolerance: Tolerance, entries: Iterable[Entry]) -> fmpq:
+def largest(tolerance: Tolerance, entries: Iterable[Coefficient]) -> fmpq:
     """Returns the largest tolerance of some entries."""
     offs = [x for x in tolerance.offs.values() if isinstance(x, fmpq)]
     if tolerance.is_of_digits:
@@ -119,7 +119,7 @@ _INSIDE = (
 KIND = ValueKind(_schema, _read, lambda: _INSIDE)
 
 
-class Rounding:
+class NumberTolerances:
     """The tolerances of the numbers of a file.
 
     A number has the tolerance of embedded weights or of dense output, if it is one; otherwise that
@@ -128,7 +128,9 @@ class Rounding:
     ``largest`` is the largest of them.
     """
 
-    def __init__(self, tolerance: Tolerance, content: d.Content, entries: Sequence[Entry]) -> None:
+    def __init__(
+        self, tolerance: Tolerance, content: d.Content, entries: Sequence[Coefficient]
+    ) -> None:
         self.tolerance = tolerance
         self.names = _names(content)
         self._kinds: dict[int, str] = {}
@@ -140,17 +142,17 @@ class Rounding:
         self._fewest = fewest_digits(x.expression for x in entries) if tolerance.is_of_digits else 0
         self.largest = largest(tolerance, entries)
 
-    def kind_of(self, entry: Entry) -> str:
+    def kind_of(self, entry: Coefficient) -> str:
         """Returns whether a number is in embedded weights or in dense output; empty for A, b and
         c.
         """
         return self._kinds.get(id(entry), "")
 
-    def key_of(self, entry: Entry) -> str:
+    def key_of(self, entry: Coefficient) -> str:
         """Returns the key of ``tolerance`` that applies to a number."""
         return self._keys.get(id(entry), OTHERS)
 
-    def radius(self, entry: Entry, part: Expression) -> fmpq:
+    def radius(self, entry: Coefficient, part: Expression) -> fmpq:
         """Returns the tolerance of a number in an entry; 0 if it is exact."""
         off = self.tolerance.offs.get(self.key_of(entry), ZERO)
         if isinstance(off, fmpq):
@@ -204,7 +206,7 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
     return [(str(l), name) if name else (str(l),) for l, name in enumerate(names, start=1)]
 
 
-_Place: TypeAlias = tuple[str, "int | None", Entry]
+_Place: TypeAlias = tuple[str, "int | None", Coefficient]
 """A number: ``embedded``, ``dense`` or empty; its colour from 0, or None; its entry."""
 
 

@@ -17,7 +17,7 @@ from garkcli.grammar.nodes import (
     shortened,
 )
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import UNKNOWN, Reading, name_of_place
+from garkcli.methodfile.numbers import UNKNOWN, NumbersReader, name_of_place
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.transfer import MAX_DEGREE, PAIR_RULES, RULES, SUMMARIES
 
@@ -95,7 +95,7 @@ def _block_of(key: str) -> tuple[int, int]:
     return l - 1, m - 1
 
 
-def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> d.TransferText:
+def rules_of(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.TransferText:
     """Reads ``transfer``: the rules, and the blocks given one by one.
 
     ``stages`` are those of the colours.
@@ -121,7 +121,9 @@ def _is_unknown(node: Node) -> bool:
     return isinstance(node, ScalarNode) and node.value == UNKNOWN
 
 
-def _unknown(at: Reading, node: Node, edge: tuple[int, int], stages: Sequence[int]) -> d.MatrixText:
+def _unknown(
+    at: NumbersReader, node: Node, edge: tuple[int, int], stages: Sequence[int]
+) -> d.MatrixText:
     """Returns a block with an unknown for each entry, named by its place."""
     rows, columns = (range(1, stages[k] + 1) for k in edge)
     name = d.block_name(*edge)
@@ -145,7 +147,7 @@ def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
     return f"{{blocks: {{{lines}}}}}"
 
 
-def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> d.BlockTexts:
+def _blocks(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.BlockTexts:
     """Reads the blocks given one by one; keys such as ``1,2`` count colours from 1."""
     blocks: d.BlockTexts = {}
     colours = len(stages)
@@ -172,7 +174,7 @@ def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> d.BlockTexts:
     return blocks
 
 
-def _block(at: Reading, node: Node, where: str, shape: tuple[int, int]) -> d.BlockText | None:
+def _block(at: NumbersReader, node: Node, where: str, shape: tuple[int, int]) -> d.BlockText | None:
     if not isinstance(node, SequenceNode):
         return _rule(at, node, where)
     rows = at.numbers.matrix(node, where)
@@ -180,7 +182,7 @@ def _block(at: Reading, node: Node, where: str, shape: tuple[int, int]) -> d.Blo
     return d.MatrixText(node, rows) if rows else None
 
 
-def _rule(at: Reading, node: Node, where: str) -> d.RuleText | None:
+def _rule(at: NumbersReader, node: Node, where: str) -> d.RuleText | None:
     if _is_unknown(node):
         message = f'{where}: "?" is not a rule; it stands for all blocks or for one'
         cure = 'write transfer: "?", or blocks: {"1,2": "?"}'

@@ -11,7 +11,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression, parts
 from garkcli.exact.rewriting import roots_in
-from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
+from garkcli.methodfile.numbers import Coefficient, Numbers, Row, Rows
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau
 
@@ -83,7 +83,7 @@ class Values:
         with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
         source.fault(next(with_roots).node, error.message, error.help, code=error.code)
 
-    def number(self, entry: Entry) -> Number:
+    def number(self, entry: Coefficient) -> Number:
         return self._values[id(entry)]
 
     def vector(self, row: Row) -> Vector:
@@ -93,7 +93,7 @@ class Values:
         return tuple(self.vector(row) for row in rows)
 
 
-def _note_faults(numbers: Numbers, entries: Iterable[Entry]) -> None:
+def _note_faults(numbers: Numbers, entries: Iterable[Coefficient]) -> None:
     """Reports each coefficient without a real value; no field is constructed."""
     for entry in entries:
         error = _fault_of(entry)
@@ -101,7 +101,7 @@ def _note_faults(numbers: Numbers, entries: Iterable[Entry]) -> None:
             _note(numbers, entry, error)
 
 
-def _fault_of(entry: Entry) -> ExpressionError | None:
+def _fault_of(entry: Coefficient) -> ExpressionError | None:
     try:
         domain = Domain([entry.expression], only_check=True)
         if not any(roots_in(entry.expression)):
@@ -111,7 +111,7 @@ def _fault_of(entry: Entry) -> ExpressionError | None:
     return None
 
 
-def _note(numbers: Numbers, entry: Entry, error: ExpressionError) -> None:
+def _note(numbers: Numbers, entry: Coefficient, error: ExpressionError) -> None:
     """Reports why a coefficient has no value, at its parameter if that is the cause."""
     source = numbers.source
     within = set(_identities(entry.expression))

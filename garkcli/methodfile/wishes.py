@@ -17,7 +17,7 @@ from garkcli.grammar.nodes import MappingNode, Node
 from garkcli.grammar.source import Source
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.family_values import FamilyValues
-from garkcli.methodfile.numbers import Entry, Free, Numbers
+from garkcli.methodfile.numbers import Coefficient, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
 
 MOST = 60
@@ -49,12 +49,12 @@ def _wanted() -> Iterator[Key]:
         yield Key(f"{name}: {example}", kind, f"Wanted: {want.summary}.")
 
 
-def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:
+def _fixed(at: Any, node: Node, where: str) -> list[tuple[Coefficient, Coefficient]]:
     """Reads ``fix: {c2: 2*gamma}``: unknowns with values, which may contain other unknowns."""
     fixed = []
     for name, value, place in _unknowns(at, node, where):
         entry = at.numbers.entry(value, place)
-        unknown = Entry(Name(name), value, place)
+        unknown = Coefficient(Name(name), value, place)
         at.numbers.entries.append(unknown)
         fixed.append((unknown, entry))
     return fixed
@@ -110,7 +110,7 @@ class Wish(Frozen):
 
     node: Node
     want: Want
-    value: int | Entry | bool
+    value: int | Coefficient | bool
     colour: int | None
 
 
@@ -122,10 +122,10 @@ class Wishes(Frozen):
     """
 
     order: int | None = None
-    fixed: tuple[tuple[Entry, Entry], ...] = ()
+    fixed: tuple[tuple[Coefficient, Coefficient], ...] = ()
     wishes: tuple[Wish, ...] = ()
     ranges: Mapping[str, Free] = NO_RANGES
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[Coefficient, ...] = ()
 
     def count(self, key: str) -> int | None:
         """Returns the whole number of a key, None if the key is absent."""
@@ -206,7 +206,7 @@ def meaning_of(
         if not colours:
             continue
         value = wish.value
-        number = values.number(value) if isinstance(value, Entry) else value
+        number = values.number(value) if isinstance(value, Coefficient) else value
         try:
             with until(deadline):
                 radicals = tuple(values.domain.radicals)

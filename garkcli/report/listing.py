@@ -10,7 +10,7 @@ from garkcli.bridges.registry import Bridge
 from garkcli.catalogue.mapping import method_names
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
 from garkcli.errors import counted
-from garkcli.families.family import Family, Option
+from garkcli.families.family import MethodFamily, Option
 from garkcli.families.registry import FAMILIES
 from garkcli.problems.builtin import PROBLEMS, BuiltIn
 from garkcli.tell.facts import Level, Row, Section
@@ -25,7 +25,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 class Lists(NamedTuple):
     """Families, schemes, splittings and problems by name, and summaries of rules."""
 
-    families: Mapping[str, Family]
+    families: Mapping[str, MethodFamily]
     rules: Mapping[str, str]
     schemes: Mapping[str, Scheme]
     splittings: Mapping[str, Splitting]
@@ -36,11 +36,11 @@ def all_lists() -> Lists:
     return Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, PROBLEMS)
 
 
-def _sizes(family: Family) -> str:
+def _sizes(family: MethodFamily) -> str:
     return str(family.smallest) if family.is_single else f">= {family.smallest}"
 
 
-def chosen_by(family: Family) -> Iterator[tuple[str, str]]:
+def chosen_by(family: MethodFamily) -> Iterator[tuple[str, str]]:
     """The keys of a family besides its stages, with their values."""
     if family.size != "stages":
         yield family.size, _sizes(family)
@@ -54,7 +54,7 @@ def _values(option: Option) -> str:
     return "a coefficient" if option.smallest is None else f">= {option.smallest}"
 
 
-def _key_words(family: Family) -> str:
+def _key_words(family: MethodFamily) -> str:
     return "; ".join(f"{key} {values}" for key, values in chosen_by(family))
 
 
@@ -62,7 +62,7 @@ NAME: Row[tuple[str, str]] = Row("name", TEXT, lambda x: x[0], label="")
 OPTION: Section[tuple[str, str]] = Section(
     Row("key", TEXT, lambda x: x[0]), Row("values", TEXT, lambda x: x[1])
 )
-FAMILY: Section[Family] = Section(
+FAMILY: Section[MethodFamily] = Section(
     Row("name", TEXT, lambda x: x.name, label=""),
     Row("stages", TEXT, lambda x: _sizes(x) if x.size == "stages" else ""),
     Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),

@@ -14,7 +14,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
-from garkcli.methodfile.numbers import Entry
+from garkcli.methodfile.numbers import Coefficient
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.values import Values
 from garkcli.tableau.tableau import Tableau
@@ -33,7 +33,7 @@ _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
 _NAME_IT = "give of: METHOD, here or for all of them"
 MAX_SUBSTEPS = 400
 """The largest number of substeps in a composition."""
-_Step: TypeAlias = tuple[PartText, Entry, bool]
+_Step: TypeAlias = tuple[PartText, Coefficient, bool]
 """The method of a substep, its fraction of the step, and whether the adjoint is taken."""
 
 
@@ -147,7 +147,7 @@ def _steps(at: PartReader, found: g.ReadMapping, where: str) -> Iterator[_Step]:
         yield whole, at.numbers.written("1", found.node, where), False
     places = found.nodes["steps"].value if "steps" in found else ()
     for number, (place, step) in enumerate(zip(places, found.get("steps", ()), strict=True), 1):
-        is_number = isinstance(step, Entry)
+        is_number = isinstance(step, Coefficient)
         part = whole if is_number else step.get("of", whole)
         if part is None:
             message = f"compose, step {number}: the step of no method"

@@ -31,7 +31,7 @@ from garkcli.methodfile.constructed.couplings import Infinitesimal, TableauOf, m
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText, further_of
 from garkcli.methodfile.load import NO_SETTINGS, built, described
-from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
+from garkcli.methodfile.numbers import Coefficient, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
 from garkcli.tableau.embedded import Further
@@ -236,7 +236,7 @@ _KEYS = g.mapping(
 )
 
 
-class Predictor(Frozen):
+class StepPredictor(Frozen):
     """Makes a method with a step-predictor.
 
     ``slow`` takes the step for both parts. ``forcing`` has the rows of the fast problem, and those
@@ -339,7 +339,7 @@ def _coupled(at: PartReader, found: g.ReadMapping) -> Make:
         for key, matrix in rows.items():
             at.numbers.rectangular(matrix, coupling.nodes[key], key)
         fast = None if is_exact else found["fast"]
-        return Predictor(found["slow"], fast, rows, found.get("steps", 1))
+        return StepPredictor(found["slow"], fast, rows, found.get("steps", 1))
     if is_exact and coupling != SLOWEST_FIRST:
         message = (
             "multirate: fast: exact goes with slowest-first or gamma, not with another coupling"
@@ -348,7 +348,7 @@ def _coupled(at: PartReader, found: g.ReadMapping) -> Make:
         at.source.fault(found.nodes["fast"], message, cure, code="not-together")
         coupling = SLOWEST_FIRST
     if is_exact:
-        return Predictor(found["slow"], None, {}, 1)
+        return StepPredictor(found["slow"], None, {}, 1)
     steps: int = found.get("steps", 1)
     keys = _BLOCKS if isinstance(coupling, g.ReadMapping) else ()
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
@@ -520,7 +520,7 @@ def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Row
     return _widened(at, rows, node, name, nodes)
 
 
-def _is_nonzero(entry: Entry) -> bool:
+def _is_nonzero(entry: Coefficient) -> bool:
     expression = entry.expression
     return not (isinstance(expression, Literal) and not expression.value)
 

@@ -15,7 +15,7 @@ from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
 from garkcli.grammar.source import Source
 from garkcli.methodfile.build import part_of
 from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
-from garkcli.methodfile.numbers import Numbers, Reading
+from garkcli.methodfile.numbers import Numbers, NumbersReader
 
 if TYPE_CHECKING:
     from garkcli.methodfile.tolerance import Tolerance
@@ -44,7 +44,7 @@ Written: TypeAlias = Callable[[Node, str], Description | None]
 """Reads a method in this file; the text names it in messages."""
 
 
-class PartReader(Reading):
+class PartReader(NumbersReader):
     """Reads the parts of a construction.
 
     ``written`` reads methods that are spelled out, ``opened`` those of the catalogue; ``parts``

@@ -12,7 +12,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, SequenceNode
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
-from garkcli.methodfile.numbers import Entry
+from garkcli.methodfile.numbers import Coefficient
 from garkcli.methodfile.parameters import NUMBER, ROW
 from garkcli.methodfile.values import Values
 from garkcli.tableau.forms import one_field
@@ -24,7 +24,7 @@ MAX_TERMS = 20
 """The largest number of parts."""
 MAX_FLOWS = 400
 """The largest number of flows."""
-_Flow: TypeAlias = tuple[int, Entry]
+_Flow: TypeAlias = tuple[int, Coefficient]
 """A part of the problem, from 0, and the fraction of the step for which it flows."""
 
 _WAYS = g.Ways("the flows are", (g.Together(("a", "b")), "flows", "scheme"), "no flows", _FORM)

@@ -17,8 +17,7 @@ from garkcli.grammar.nodes import Node
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
-    from garkcli.glossary.key import FileKind
-    from garkcli.glossary.key import KeyMeaning as Entry
+    from garkcli.glossary.key import FileKind, KeyMeaning
 
 
 DEFAULT_T_END = fmpq(2)
@@ -198,5 +197,5 @@ def _told_anew(key: str, kind: g.ValueKind) -> g.Schema:
     return replace(KEYS[key], kind=kind).schema()
 
 
-def told(kind: FileKind) -> Iterable[Entry]:
+def told(kind: FileKind) -> Iterable[KeyMeaning]:
     return g.told(KEYS.values(), kind.page)
