@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from garkcli.check.analysis import inconsistent_blocks, nonautonomous
 from garkcli.constructions.rosenbrock import Which, is_rosenbrock, seen
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.deciding import order_of
+from garkcli.order.deciding import nonautonomous, order_of
 from garkcli.order.meant import AnyTableau, as_embedded, meant, tolerance_of
+from garkcli.order.simplifying import inconsistent_blocks
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.tableau import Tableau
 

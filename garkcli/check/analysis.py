@@ -11,19 +11,16 @@ from garkcli.doing import doing
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
-from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.deciding import AnyOrder
 from garkcli.order.meant import as_embedded, derived, meant, printed
-from garkcli.order.simplifying import Simplifying, consistent_blocks, defects_of
+from garkcli.order.simplifying import Simplifying, defects_of
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.embedded import NOTHING, Further
-from garkcli.tableau.forms import with_time
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.order.meant import AnyTableau
     from garkcli.order.nearness import Nearness
@@ -167,23 +164,6 @@ def is_pair_of_itself(method: AnyTableau, both: AnyTableau) -> bool:
     """Returns whether a partitioned method is its own pair."""
     tableau = printed(method)
     return tableau.is_partitioned and printed(both).blocks == tableau.blocks
-
-
-def inconsistent_blocks(method: AnyTableau | None) -> tuple[tuple[int, int], ...]:
-    """Returns the blocks with A^{l,m} 𝟙 ≠ c^{l}; none if there is no method."""
-    if method is None:
-        return ()
-    return tuple(edge for edge, holds in consistent_blocks(method).items() if not holds)
-
-
-def nonautonomous(
-    method: AnyTableau, order: AnyOrder, inconsistent: Sequence[tuple[int, int]], limit: int
-) -> AnyOrder | None:
-    """Returns the order for ẏ = f(t, y), which is the order itself if A^{l,m} 𝟙 = c^{l}."""
-    timed = with_time(method) if isinstance(method, Tableau) else method.with_time()
-    if timed is None:
-        return None
-    return order_of(timed, limit) if inconsistent else order
 
 
 class MethodProof(Shown, Frozen):

@@ -8,7 +8,8 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
-from garkcli.errors import HasFreeParameters, MethodError, MethodFileError, Remark
+from garkcli.doing import doing
+from garkcli.errors import GarkError, HasFreeParameters, MethodError, MethodFileError, Remark
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
@@ -36,12 +37,65 @@ def check_file(
     try:
         method = load(path, settings)
     except HasFreeParameters as error:
-        from garkcli.check.every_value import check_every
-
         return check_every(error, limit, want_constants, settings)
     except MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
     return check_method(method, limit, want_constants)
+
+
+MOST_PARAMETERS = 30
+"""The largest number of free parameters: 27 take ten seconds, 35 minutes."""
+
+
+@doing("what holds for every value of the parameters")
+def check_every(
+    file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
+) -> Outcome:
+    """Checks a file with free parameters.
+
+    ``limit`` is where the search for orders stops, unless a claim reaches further.
+    """
+    from garkcli.check.every_value import every_value, verify_every  # most files are methods
+    from garkcli.methodfile.family import family_of, refuse_rounded
+
+    try:
+        family = family_of(file, settings)
+        refuse_rounded(family)
+        count = len(family.parameters)
+        if count > MOST_PARAMETERS:
+            message = f"{count} free parameters (limit {MOST_PARAMETERS})"
+            cure = "give values to some by --set; gark design asks for one order"
+            return _refused(file, message, cure, "too-many")
+        further = [x for x in family.claims if x.key.startswith(("dense", "predictor"))]
+        if further:
+            name = family.parameters[0]
+            message = f"{further[0].key} is claimed, and {name} is free"
+            cure = f"dense output and predictors are judged for values: --set {name}=1/2"
+            return _refused(file, message, cure, "free-parameters")
+        found = every_value(family, max(limit, highest_order(family.claims) + 1))
+    except MethodFileError as error:
+        return Outcome(file.source, file.source, faults=error.faults, text=file.text)
+    except GarkError as error:
+        return _refused(file, error.message, error.help, error.code)
+    if want_constants:
+        name = found.parameters[0]
+        message = "error constants are numbers, and a parameter is free"
+        return _refused(file, message, f"choose a value: --set {name}=1/2", "free-parameters")
+    return Outcome(
+        file=family.source,
+        name=family.name,
+        structure=family.structure,
+        every=found,
+        claims=verify_every(family.claims, found),
+        text=file.text,
+        left_behind=family.left_behind,
+    )
+
+
+def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
+    """Returns the outcome for a file that cannot be decided for all values."""
+    faults = (Remark(message, cure, code=code),)
+    return Outcome(file.source, file.source, faults=faults, text=file.text)
 
 
 def check_method(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.outcome import Claim
+from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast, ClaimedNumber
 from garkcli.properties.property import Size, Verdict
@@ -28,6 +28,33 @@ AnyAnalysis: TypeAlias = (
     " | InfinitesimalAnalysis"
 )
 AnySubject: TypeAlias = "Subject | LinearSubject | NoProperties"
+
+
+class Claim(Frozen):
+    """A claim under ``expect`` and whether it holds.
+
+    Attributes:
+        claim: its key under ``expect``.
+        expected: the claimed value as text.
+        found: the actual value as text.
+        holds: whether they agree; None if undecided.
+        line: the line of the claim in the file, from 1.
+        column: its column, from 1.
+        reason: the reason against a property that is claimed.
+    """
+
+    claim: str
+    expected: str
+    found: str
+    holds: bool | None
+    line: int
+    column: int
+    reason: Reason = NO_REASON
+
+    @property
+    def why(self) -> str:
+        """The reason as text."""
+        return str(self.reason)
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:

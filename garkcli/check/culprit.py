@@ -19,7 +19,7 @@ from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
-    from garkcli.check.outcome import Claim
+    from garkcli.check.claims import Claim
     from garkcli.check.remark import RoundingHint
     from garkcli.methodfile.build import MethodFile
     from garkcli.order.blame import Blame

@@ -7,21 +7,15 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.check.analysis import (
-    Analysis,
-    conjugate_and_pair,
-    inconsistent_blocks,
-    is_pair_of_itself,
-    nonautonomous,
-)
+from garkcli.check.analysis import Analysis, conjugate_and_pair, is_pair_of_itself
 from garkcli.doing import doing
 from garkcli.errors import MethodError
 from garkcli.families.family import MAX_STAGES
 from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
-from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.deciding import AnyOrder, nonautonomous, order_of
 from garkcli.order.meant import meant, printed
-from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
+from garkcli.order.simplifying import Simplifying, inconsistent_blocks, is_symplectic, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.polynomial_space import PolynomialSpace

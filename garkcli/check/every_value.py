@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
-from garkcli.check.analysis import inconsistent_blocks
-from garkcli.check.claims import agrees, capped, claim_of, claimed_text
+from garkcli.check.claims import Claim, agrees, capped, claim_of, claimed_text
 from garkcli.check.every_facts import Fact, fact_reason, find
 from garkcli.check.every_family import EveryFamily, every_family
 from garkcli.check.every_orders import EveryOrder, every_order
 from garkcli.check.every_properties import find_property
-from garkcli.check.outcome import Claim, Outcome
 from garkcli.design.ideal import Ideal
-from garkcli.doing import doing
-from garkcli.errors import GarkError, HasFreeParameters, MethodFileError, Remark, ZeroWeight
+from garkcli.errors import ZeroWeight
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.description import ClaimText
-from garkcli.methodfile.expectations import OF_ORDERS, AtLeast, highest_order
-from garkcli.methodfile.family import FamilyFile, family_of, loads_family, refuse_rounded
-from garkcli.order.simplifying import is_symplectic, simplifying
+from garkcli.methodfile.expectations import OF_ORDERS, AtLeast
+from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.order.simplifying import inconsistent_blocks, is_symplectic, simplifying
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.conjugate import symplectic_defects
@@ -188,58 +185,6 @@ def _symplectic(family: EveryFamily) -> Fact:
     if ideal.is_everything:
         return Fact(False)
     return Fact(False, zeros=family.common_zeros(ideal.polynomials))
-
-
-MOST_PARAMETERS = 30
-"""The largest number of free parameters: 27 take ten seconds, 35 minutes."""
-
-
-@doing("what holds for every value of the parameters")
-def check_every(
-    file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
-) -> Outcome:
-    """Checks a file with free parameters.
-
-    ``limit`` is where the search for orders stops, unless a claim reaches further.
-    """
-    try:
-        family = family_of(file, settings)
-        refuse_rounded(family)
-        count = len(family.parameters)
-        if count > MOST_PARAMETERS:
-            message = f"{count} free parameters (limit {MOST_PARAMETERS})"
-            cure = "give values to some by --set; gark design asks for one order"
-            return _refused(file, message, cure, "too-many")
-        further = [x for x in family.claims if x.key.startswith(("dense", "predictor"))]
-        if further:
-            name = family.parameters[0]
-            message = f"{further[0].key} is claimed, and {name} is free"
-            cure = f"dense output and predictors are judged for values: --set {name}=1/2"
-            return _refused(file, message, cure, "free-parameters")
-        found = every_value(family, max(limit, highest_order(family.claims) + 1))
-    except MethodFileError as error:
-        return Outcome(file.source, file.source, faults=error.faults, text=file.text)
-    except GarkError as error:
-        return _refused(file, error.message, error.help, error.code)
-    if want_constants:
-        name = found.parameters[0]
-        message = "error constants are numbers, and a parameter is free"
-        return _refused(file, message, f"choose a value: --set {name}=1/2", "free-parameters")
-    return Outcome(
-        file=family.source,
-        name=family.name,
-        structure=family.structure,
-        every=found,
-        claims=verify_every(family.claims, found),
-        text=file.text,
-        left_behind=family.left_behind,
-    )
-
-
-def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
-    """Returns the outcome for a file that cannot be decided for all values."""
-    faults = (Remark(message, cure, code=code),)
-    return Outcome(file.source, file.source, faults=faults, text=file.text)
 
 
 def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim, ...]:

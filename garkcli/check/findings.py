@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.check.outcome import Claim, Outcome
+from garkcli.check.claims import Claim
+from garkcli.check.outcome import Outcome
 from garkcli.check.pair_reasons import is_lost, rule_reasons
 from garkcli.errors import Remark
 from garkcli.exact.display import shortest, to_ball, to_decimal, to_text

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from garkcli.check.analysis import nonautonomous
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans
-from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.deciding import AnyOrder, nonautonomous, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, KnownOrders, estimator
 from garkcli.order.meant import AnyTableau, as_dense, as_embedded, printed, with_further

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from flint import fmpq
 
-from garkcli.check.analysis import inconsistent_blocks, nonautonomous
 from garkcli.check.further import EmbeddedFacts, further_facts
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans
-from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.deciding import AnyOrder, nonautonomous, order_of
 from garkcli.order.meant import AnyTableau, meant
-from garkcli.order.simplifying import simplifying
+from garkcli.order.simplifying import inconsistent_blocks, simplifying
 from garkcli.properties.property import NoProperties, Verdict
 from garkcli.properties.subject import Subject
 from garkcli.reason import Reason

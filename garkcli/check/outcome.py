@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.analysis import Analysis
+from garkcli.check.claims import Claim
 from garkcli.errors import Remark, counted, printable
 from garkcli.frozen import Frozen
-from garkcli.reason import NO_REASON, Reason
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
@@ -29,33 +29,6 @@ if TYPE_CHECKING:
         | DerivativesAnalysis
         | InfinitesimalAnalysis
     )
-
-
-class Claim(Frozen):
-    """A claim under ``expect`` and whether it holds.
-
-    Attributes:
-        claim: its key under ``expect``.
-        expected: the claimed value as text.
-        found: the actual value as text.
-        holds: whether they agree; None if undecided.
-        line: the line of the claim in the file, from 1.
-        column: its column, from 1.
-        reason: the reason against a property that is claimed.
-    """
-
-    claim: str
-    expected: str
-    found: str
-    holds: bool | None
-    line: int
-    column: int
-    reason: Reason = NO_REASON
-
-    @property
-    def why(self) -> str:
-        """The reason as text."""
-        return str(self.reason)
 
 
 class Outcome(Shown, Frozen):

@@ -312,8 +312,7 @@ class Builder(Generic[V]):
             return None
         from garkcli.order.predictor import check_predictor
 
-        rounding = self.text.description.rounding
-        if rounding is not None:
+        if self.text.description.rounding is not None:
             message = "predictor needs exact coefficients, and the file has a tolerance"
             cure = "write exact coefficients, or leave predictor out"
             self.source.fault(text.node, message, cure, code="rounded")
@@ -352,8 +351,7 @@ class Builder(Generic[V]):
             self.values.matrix(x) if isinstance(x[0], tuple) else self.values.vector(x)
             for x in text.numbers
         ]
-        rounding = description.rounding
-        grain = 0 if rounding is None else rounding.largest
+        grain = description.rounding or 0
         c = None if text.c is None else self.values.vector(text.c)
         return forms.gark([as_butcher(text.scheme, numbers, c, grain)], {})
 
@@ -428,9 +426,7 @@ class Builder(Generic[V]):
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
         structure = description.structure
         is_general = structure == "general"
-        rounding = description.rounding
-        largest = None if rounding is None else rounding.largest
-        blocks = BlockBuilder(self.source, self.values, text, methods, largest)
+        blocks = BlockBuilder(self.source, self.values, text, methods, description.rounding)
         tableau = forms.gark(methods, blocks.built(is_general))
         if is_general:
             return tableau

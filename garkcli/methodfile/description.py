@@ -17,7 +17,7 @@ from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
     from garkcli.families.family import Recipe
-    from garkcli.methodfile.tolerance import NumberTolerances
+    from garkcli.methodfile.tolerance import Tolerance
     from garkcli.methodfile.values import Values
 
 Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
@@ -299,7 +299,7 @@ class PartText(Frozen):
         """The rounding of its coefficients."""
         content, rounding = self.description.content, self.description.rounding
         made = content.tolerance if isinstance(content, ConstructionText) else None
-        return made if rounding is None else rounding.largest
+        return made if rounding is None else rounding
 
 
 Make: TypeAlias = (
@@ -428,5 +428,6 @@ class Description(Frozen):
     reference: str = ""
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
-    rounding: NumberTolerances | None = None
+    tolerance: Tolerance | None = None
+    rounding: fmpq | None = None
     claims: tuple[ClaimText, ...] = ()

@@ -181,13 +181,15 @@ def _family(
         raise MethodError(message, Jets.cure, code="cannot-construct")
     made = built(reader, description, FamilyValues)
     tolerance: fmpq | None = None
-    if description.rounding is not None:
-        from garkcli.methodfile.rounding import Rounded, refuse_keys  # few files are rounded
+    if description.tolerance is not None:
+        from garkcli.methodfile.number_tolerances import NumberTolerances  # few files are rounded
+        from garkcli.methodfile.rounding import Rounded
 
         own = set(map(id, wishes.entries))
         coefficients = [x for x in reader.numbers.entries if id(x) not in own]
-        rounded = Rounded(coefficients, made.values, description.rounding)
-        refuse_keys(reader.source, description.rounding, rounded)
+        tolerances = NumberTolerances(description.tolerance, description.content, coefficients)
+        rounded = Rounded(coefficients, made.values, tolerances)
+        rounded.refuse_keys(reader.source)
         tolerance = max(rounded.radii, default=None)
         if numbers is not None:
             change = rounded.changer(numbers(rounded))

@@ -110,11 +110,11 @@ def loads(
         raise _free(reader, description)
     made = built(reader, description, Values)
     rounded = None
-    if description.rounding is not None:
-        from garkcli.methodfile.rounding import refuse_keys, rounded_of  # few files are rounded
+    if description.tolerance is not None:
+        from garkcli.methodfile.rounding import rounded_of  # few files are rounded
 
-        rounded = rounded_of(made, reader.numbers, description.rounding)
-        refuse_keys(reader.source, description.rounding, rounded)
+        rounded = rounded_of(made, reader.numbers, description.content, description.tolerance)
+        rounded.refuse_keys(reader.source)
     method = MethodFile(
         source=source,
         text=text,

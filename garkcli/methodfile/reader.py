@@ -20,7 +20,7 @@ from garkcli.methodfile.spelled_out import tableau, tableau_of
 if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open, Opened
     from garkcli.methodfile.shapes import Shaped
-    from garkcli.methodfile.tolerance import NumberTolerances, Tolerance
+    from garkcli.methodfile.tolerance import Tolerance
     from garkcli.methodfile.wishes import Wishes
 
 
@@ -215,31 +215,29 @@ class MethodReader(NumbersReader):
             self.wishes = read_wishes(self, self.design)
         if self.content.shaped is not None:
             self._refuse_unused(self.content.shaped.layout.unknowns)
-        rounding = self._rounding(tolerance, found.content)
+        tolerance = self._tolerance(tolerance, found.content)
         reference, bibliography = said.get("reference", ("", None))
         return replace(
             found,
             name=said.get("name") or "",
             description=said.get("description") or "",
-            rounding=rounding,
+            tolerance=tolerance,
+            rounding=None if tolerance is None else tolerance.largest(self.numbers.entries),
             claims=said.get("expect", ()),
             aliases=said.get("aliases", ()),
             reference=reference,
             bibliography=bibliography,
         )
 
-    def _rounding(self, tolerance: Tolerance | None, content: d.Content) -> NumberTolerances | None:
-        """Returns the rounding of the file, or of its parts; None if all is exact."""
-        if tolerance is None:
-            inside = content.tolerance if isinstance(content, d.ConstructionText) else None
-            if not inside:
-                return None
-            from garkcli.methodfile.tolerance import same_for_all
+    @staticmethod
+    def _tolerance(own: Tolerance | None, content: d.Content) -> Tolerance | None:
+        """Returns the tolerance of the file, or that of its parts; None if all is exact."""
+        inside = content.tolerance if isinstance(content, d.ConstructionText) else None
+        if own is not None or not inside:
+            return own
+        from garkcli.methodfile.tolerance import same_for_all  # few files are rounded
 
-            tolerance = same_for_all(inside)
-        from garkcli.methodfile.tolerance import NumberTolerances  # few files are rounded
-
-        return NumberTolerances(tolerance, content, self.numbers.entries)
+        return same_for_all(inside)
 
     def _refuse_unused(self, unknowns: Iterable[str]) -> None:
         """Reports parameters that are neither unknowns of the shape nor used."""

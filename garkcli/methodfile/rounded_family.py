@@ -15,6 +15,7 @@ from garkcli.frozen import Frozen
 from garkcli.methodfile.build import Builder, part_of
 from garkcli.methodfile.family import FamilyFile, loads_family
 from garkcli.methodfile.load import described
+from garkcli.methodfile.number_tolerances import NumberTolerances
 from garkcli.methodfile.rounding import Rounded
 from garkcli.methodfile.values import Values
 from garkcli.order.rounded import RoundedTableau
@@ -80,14 +81,15 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
     reader.source.close()
     made = Builder(text, known)
     given = {id(x) for name in texts for x in _literals(reader.numbers.parameters[name])}
-    tolerance, rounding = family.tolerance, description.rounding
-    assert tolerance is not None
-    assert rounding is not None
-    rounded = Rounded(reader.numbers.entries, known, rounding, given)
+    assert family.tolerance is not None
+    assert description.tolerance is not None
+    entries = reader.numbers.entries
+    tolerances = NumberTolerances(description.tolerance, description.content, entries)
+    rounded = Rounded(entries, known, tolerances, given)
     pairs = zip(rounded.radii, rounded.is_given, strict=True)
     radii = tuple(width if is_given else radius for radius, is_given in pairs)
     box = Box(rounded.numbers, radii, rounded.maker(text))
-    tableau = RoundedTableau.of(made.tableau, tolerance, box, made.further)
+    tableau = RoundedTableau.of(made.tableau, family.tolerance, box, made.further)
     if tableau.search.box is not box:
         message = "stages are joined that would differ with other last digits"
         raise MethodError(message, "write the method out", code="rounded")

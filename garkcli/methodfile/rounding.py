@@ -24,15 +24,16 @@ from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
 from garkcli.grammar.source import Source
 from garkcli.methodfile.build import Builder
+from garkcli.methodfile.number_tolerances import NumberTolerances
 from garkcli.methodfile.numbers import Coefficient, Numbers
 from garkcli.methodfile.printed import is_long_fraction
+from garkcli.methodfile.tolerance import Tolerance, same_for_all
 from garkcli.methodfile.values import Values
 from garkcli.tableau.box import Box, rational_or_ball, to_points
 from garkcli.tableau.embedded import as_colours
 
 if TYPE_CHECKING:
     from garkcli.methodfile.description import Content, PartText
-    from garkcli.methodfile.tolerance import NumberTolerances
     from garkcli.order.meant import Radii
 
 INDETERMINATE = "_number"
@@ -41,14 +42,17 @@ _Rounded: TypeAlias = tuple[Coefficient, Expression, Number]
 """A rounded number, in an entry."""
 
 
-def rounded_of(built: Builder[Values], numbers: Numbers, rounding: NumberTolerances) -> Rounded:
+def rounded_of(
+    built: Builder[Values], numbers: Numbers, content: Content, tolerance: Tolerance
+) -> Rounded:
     """Returns the rounded numbers of a file: each decimal in it, and each fraction with a long
     denominator. Short fractions are exact, and roots of exact numbers.
 
     If there are none, but one tolerance for the whole file, each nonzero coefficient is rounded.
     """
     named = {id(x) for text in numbers.parameters.values() for x in _all_parts(text)}
-    return Rounded(numbers.entries, built.values, rounding, apart=named)
+    tolerances = NumberTolerances(tolerance, content, numbers.entries)
+    return Rounded(numbers.entries, built.values, tolerances, apart=named)
 
 
 def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of: Radii) -> Box:
@@ -57,11 +61,7 @@ def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of:
 
     ``radii_of`` returns the errors of the rounded numbers as written, 0 for exact ones.
     """
-    from garkcli.methodfile.tolerance import NumberTolerances, same_for_all
-
-    rounded = rounded_of(
-        built, numbers, NumberTolerances(same_for_all(ONE), content, numbers.entries)
-    )
+    rounded = rounded_of(built, numbers, content, same_for_all(ONE))
     radii = radii_of(list(zip(rounded.written, rounded.numbers, strict=True)))
     kept = [k for k, radius in enumerate(radii) if radius]
     make = rounded.maker(built.text)
@@ -86,11 +86,11 @@ class Rounded:
         self,
         coefficients: Sequence[Coefficient],
         known: Values,
-        rounding: NumberTolerances,
+        tolerances: NumberTolerances,
         given: Container[int] = (),
         apart: Container[int] | None = None,
     ) -> None:
-        self.known, self._coefficients = known, coefficients
+        self.known, self._coefficients, self._tolerances = known, coefficients, tolerances
         self.expressions = {
             id(x): x.expression if apart is None else _copied(x.expression, apart)
             for x in coefficients
@@ -112,7 +112,7 @@ class Rounded:
                 printed.append((entry, expression, number))
                 found += [(entry, *x) for x in _rounded_in(expression, number)]
         is_bare = not found and all(id(x) in given for _, x, _ in mixed)
-        if is_bare and rounding.tolerance.is_single:
+        if is_bare and tolerances.tolerance.is_single:
             found = printed
         found += mixed
         radii: dict[int, fmpq] = {}
@@ -121,14 +121,14 @@ class Rounded:
         self.keys: set[str] = set()
         self._largest: dict[str, fmpq] = {}
         for entry, part, value in found:
-            t = rounding.radius(entry, part)
+            t = tolerances.radius(entry, part)
             numbers.setdefault(id(part), value)
             written[id(part)] = part
             radii[id(part)] = min(t, radii.get(id(part), t))
             if t:
-                self.keys.add(rounding.key_of(entry))
+                self.keys.add(tolerances.key_of(entry))
         for entry, part, _ in found:
-            kind, t = rounding.kind_of(entry), radii[id(part)]
+            kind, t = tolerances.kind_of(entry), radii[id(part)]
             self._largest[kind] = max(t, self._largest.get(kind, t))
         kept = [key for key, t in radii.items() if t or key in given]
         self.places = {key: number for number, key in enumerate(kept)}
@@ -136,6 +136,15 @@ class Rounded:
         self.written = tuple(written[key] for key in kept)
         self.radii = tuple(radii[key] for key in kept)
         self.is_given = tuple(key in given for key in kept)
+
+    def refuse_keys(self, source: Source) -> None:
+        """Reports keys of ``tolerance`` that do not apply to a number.
+
+        Raises MethodFileError if there are some.
+        """
+        for node, message, cure, code in self._tolerances.refusals(self.keys):
+            source.fault(node, message, cure, code=code)
+        source.close()
 
     def largest(self, *kinds: str) -> fmpq:
         """Returns the largest error of the numbers of some kinds: empty for A, b and c."""
@@ -209,16 +218,6 @@ class Rounded:
         """Returns the method with other numbers, its further weights as colours."""
         builder = Builder(text, _Moved(self._coefficients, self, numbers))
         return to_points(as_colours(builder.tableau, builder.further))
-
-
-def refuse_keys(source: Source, rounding: NumberTolerances, rounded: Rounded) -> None:
-    """Reports keys of ``tolerance`` that do not apply to a number.
-
-    Raises MethodFileError if there are some.
-    """
-    for node, message, cure, code in rounding.refusals(rounded.keys):
-        source.fault(node, message, cure, code=code)
-    source.close()
 
 
 def _all_parts(expression: Expression) -> Iterator[Expression]:

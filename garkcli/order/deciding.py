@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias, Union
 
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, find_order
 from garkcli.order.meant import AnyTableau
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.forms import with_time
+from garkcli.tableau.tableau import Edge, Tableau
 
 if TYPE_CHECKING:
     from garkcli.order.rounded import RoundedOrder
@@ -30,3 +32,13 @@ def order_of(
     from garkcli.order.rounded import find_order_within
 
     return find_order_within(method, limit)
+
+
+def nonautonomous(
+    method: AnyTableau, order: AnyOrder, inconsistent: Sequence[Edge], limit: int
+) -> AnyOrder | None:
+    """Returns the order for ẏ = f(t, y), which is the order itself if A^{l,m} 𝟙 = c^{l}."""
+    timed = with_time(method) if isinstance(method, Tableau) else method.with_time()
+    if timed is None:
+        return None
+    return order_of(timed, limit) if inconsistent else order

@@ -329,3 +329,10 @@ def consistent_blocks(method: AnyTableau) -> dict[Edge, bool]:
             known[key] = defects.vanish(defect)
         consistent[l, m] = known[key]
     return consistent
+
+
+def inconsistent_blocks(method: AnyTableau | None) -> tuple[Edge, ...]:
+    """Returns the blocks with A^{l,m} 𝟙 ≠ c^{l}; none if there is no method."""
+    if method is None:
+        return ()
+    return tuple(edge for edge, holds in consistent_blocks(method).items() if not holds)

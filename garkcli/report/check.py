@@ -52,9 +52,10 @@ if TYPE_CHECKING:
 
     from garkcli.catalogue.known import Known
     from garkcli.check.analysis import Analysis
+    from garkcli.check.claims import Claim
     from garkcli.check.every_family import EveryFamily
     from garkcli.check.further import DenseFacts
-    from garkcli.check.outcome import Claim, OtherAnalysis, Outcome
+    from garkcli.check.outcome import OtherAnalysis, Outcome
     from garkcli.check.remark import RoundingHint
     from garkcli.exact.field import Number
     from garkcli.ntrees.tree import Tree

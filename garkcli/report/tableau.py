@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 from flint import arb, fmpq
 
-from garkcli.check.analysis import inconsistent_blocks
 from garkcli.constructions.derivatives import Derivatives, embedded_of, is_derivatives
 from garkcli.constructions.infinitesimal import slow_part
 from garkcli.constructions.multirate import SLOW
@@ -23,7 +22,7 @@ from garkcli.exact.field import Algebraic
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
 from garkcli.order.meant import as_meant, printed
-from garkcli.order.simplifying import is_symplectic
+from garkcli.order.simplifying import inconsistent_blocks, is_symplectic
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.paint import aligned
 from garkcli.page.schema import NUMBER, NUMERAL, Schema, array, nullable

@@ -10,8 +10,7 @@ from flint import fmpq
 
 from garkcli.api.anymethod import method_of
 from garkcli.api.methods import analyse
-from garkcli.check.check_file import check_method
-from garkcli.check.every_value import check_every
+from garkcli.check.check_file import check_every, check_method
 from garkcli.check.outcome import Outcome
 from garkcli.constructions.derivatives import Derivatives
 from garkcli.constructions.multirate import SLOW

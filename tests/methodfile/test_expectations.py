@@ -6,9 +6,8 @@ import pytest
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.check_file import check_file
-from garkcli.check.claims import verify
+from garkcli.check.claims import Claim, verify
 from garkcli.check.deciding import analyse
-from garkcli.check.outcome import Claim
 from garkcli.methodfile.load import loads
 
 METHOD = "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\ntransfer: collocation\n"

@@ -11,10 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli import find_property, reduced
-from garkcli.check.claims import verify
+from garkcli.check.claims import Claim, verify
 from garkcli.check.deciding import analyse
 from garkcli.check.every_value import every_value
-from garkcli.check.outcome import Claim
 from garkcli.errors import MethodFileError, UsageProblem
 from garkcli.exact.field import ZERO
 from garkcli.methodfile.expectations import CLAIMS

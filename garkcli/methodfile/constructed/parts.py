@@ -69,11 +69,8 @@ class PartReader(NumbersReader):
     @property
     def tolerance(self) -> fmpq | None:
         """The tolerance of the coefficients read so far; None without one in the file."""
-        if self._tolerance is None:
-            return None
-        from garkcli.methodfile.tolerance import largest
-
-        return largest(self._tolerance, self.numbers.entries)
+        own = self._tolerance
+        return None if own is None else own.largest(self.numbers.entries)
 
     def method(self, node: Node, where: str, why: str = AT_POINTS) -> PartText | None:
         """Reads a method: a family, coefficients of any form, or a name.

@@ -6,8 +6,9 @@ import re
 
 from markupsafe import Markup
 
+from garkcli.check.claims import Claim
 from garkcli.check.findings import claim_hint, claim_witness
-from garkcli.check.outcome import Claim, Outcome
+from garkcli.check.outcome import Outcome
 from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Content, Reported
 
