@@ -76,12 +76,17 @@ def _floats(rows: Sequence[Row]) -> list[list[float]]:
     return [[float(x.mid()) for x in row if isinstance(x, arb)] for row in rows]
 
 
-def find_known(analysis: Analysis, text: str) -> Known | None:
+def find_known(analysis: Analysis, file: str, text: str) -> Known | None:
     """Returns the method of the catalogue that an analysis is about, or one next to it; None if
     there is none.
 
-    ``text`` is that of the file: a file of the catalogue is not compared with itself.
+    ``file`` and ``text`` are those that were read: a file of the catalogue is not compared with
+    itself.
     """
+    from garkcli.methodfile.shelves import key_of, package
+
+    if any(own.read() == text for own in package().named(key_of(file))):
+        return None
     return known_of(_of_analysis(analysis), text)
 
 

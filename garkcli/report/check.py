@@ -1063,7 +1063,7 @@ def known(o: Outcome, is_same: bool) -> Known | None:
     # most files are in no catalogue, and quiet reports do not ask
     from garkcli.catalogue.known import find_known
 
-    found = None if o.analysis is None else find_known(o.analysis, o.text)
+    found = None if o.analysis is None else find_known(o.analysis, o.file, o.text)
     return found if found and found.is_same is is_same else None
 
 

@@ -26,7 +26,7 @@ def known(text: str) -> Known | None:
     """What a file is told, whatever its order is."""
     outcome = check_method(loads(text), limit=2)
     assert outcome.analysis is not None
-    return find_known(outcome.analysis, outcome.text)
+    return find_known(outcome.analysis, outcome.file, outcome.text)
 
 
 def test_a_method_as_it_stands() -> None:
