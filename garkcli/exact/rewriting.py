@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from flint import fmpq
 
@@ -33,22 +34,68 @@ def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
 
-def check_size(expression: Expression, sizes: Mapping[str, int], text: str) -> None:
-    """Refuses an expression that is too long; ``text`` is what it was read from.
+def check_size(size: int, text: str) -> None:
+    """Refuses an expression of ``size`` operations that was read from ``text``.
 
     Raises:
-        LimitExceeded: it has more than ``MAX_SIZE`` operations.
+        LimitExceeded: these are more than ``MAX_SIZE``.
     """
-    if size_of(expression, sizes) > MAX_SIZE:
+    if size > MAX_SIZE:
         message = f"more than {MAX_SIZE} operations, with the parameters written out"
         raise LimitExceeded(message, "write it shorter", 0, len(text))
 
 
-def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
-    """The depth of nesting, a name counting ``depths[name]``, or 1 if it is unknown."""
-    if isinstance(expression, Name):
-        return depths.get(expression.name, 1)
-    return 1 + max([depth_of(x, depths) for x in parts(expression)], default=0)
+class Expanded(NamedTuple):
+    """An expression without names, or with free ones; the number of its nodes, and how deep it is
+    nested.
+    """
+
+    expression: Expression
+    size: int = 1
+    depth: int = 1
+
+
+def expanded(
+    expression: Expression, values: Mapping[str, Expanded], used: set[str] | None = None
+) -> Expanded:
+    """``expression`` with each name replaced by its value; it keeps its offsets. The names are
+    added to ``used``.
+
+    Raises:
+        UndefinedValue: a name has no value.
+    """
+
+    def of(inner: Expression) -> Expanded:
+        return expanded(inner, values, used)
+
+    match expression:
+        case Literal():
+            return Expanded(expression)
+        case Name(name=name):
+            if used is not None:
+                used.add(name)
+            if name not in values:
+                raise _unknown_name(expression, values)
+            return values[name]
+        case Chain(operands=operands):
+            inside = list(map(of, operands))
+            made: Expression = replace(expression, operands=tuple(x.expression for x in inside))
+        case Power(base=base):
+            inside = [of(base)]
+            made = replace(expression, base=inside[0].expression)
+        case RealPower(base=base, exponent=exponent):
+            inside = [of(base), of(exponent)]
+            made = replace(expression, base=inside[0].expression, exponent=inside[1].expression)
+        case Root(radicand=radicand):
+            inside = [of(radicand)]
+            made = replace(expression, radicand=inside[0].expression)
+        case Call(argument=argument):
+            inside = [of(argument)]
+            made = replace(expression, argument=inside[0].expression)
+        case _:
+            return Expanded(expression)
+    size = 1 + sum(x.size for x in inside)
+    return Expanded(made, size, 1 + max(x.depth for x in inside))
 
 
 def names_in(expression: Expression) -> Iterator[Name]:
@@ -60,32 +107,11 @@ def names_in(expression: Expression) -> Iterator[Name]:
 
 
 def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
-    """``expression`` with each name replaced by its value; it keeps its offsets.
-
-    Raises:
-        UndefinedValue: a name has no value.
-    """
-    match expression:
-        case Name(name=name):
-            if name not in values:
-                raise _unknown_name(expression, values)
-            return values[name]
-        case Chain(operands=operands):
-            return replace(expression, operands=tuple(substitute(x, values) for x in operands))
-        case Power(base=base):
-            return replace(expression, base=substitute(base, values))
-        case RealPower(base=base, exponent=exponent):
-            return replace(
-                expression, base=substitute(base, values), exponent=substitute(exponent, values)
-            )
-        case Root(radicand=radicand):
-            return replace(expression, radicand=substitute(radicand, values))
-        case Call(argument=argument):
-            return replace(expression, argument=substitute(argument, values))
-    return expression
+    """``expression`` with each name replaced by its value; see ``expanded``."""
+    return expanded(expression, {name: Expanded(x) for name, x in values.items()}).expression
 
 
-def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValue:
+def _unknown_name(name: Name, values: Mapping[str, object]) -> UndefinedValue:
     cure = did_you_mean(name.name, values) if values else ""
     if not cure.startswith("did"):
         cure = (

@@ -151,10 +151,13 @@ _WORDS = {"bool", "null", "timestamp", "merge"}
 _NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
 
 
-def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
-    """Reports a plain scalar that YAML does not read as the number it looks like."""
-    if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
-        return False
+def number_text(source: Source, node: Node, where: str) -> str | None:
+    """Returns the text of a number as written; None, with a fault, if it is not a scalar, or one
+    that YAML does not read as the number it looks like.
+    """
+    text = source.scalar(node, where)
+    if text is None or not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
+        return text
     kind = str(node.tag).rpartition(":")[2]
     message, cure, code = "", "", "not-a-number"
     if kind in _WORDS:
@@ -171,4 +174,5 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
         message, cure = f"{text} is not a number", "coefficients are finite"
     if message:
         source.fault(node, message, cure, where=where, code=code)
-    return bool(message)
+        return None
+    return text

@@ -10,7 +10,7 @@ from garkcli.errors import ExpressionError, LimitExceeded, counted
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.exact.rewriting import check_size, depth_of, names_in, size_of, substitute
+from garkcli.exact.rewriting import Expanded, check_size, expanded
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.grammar import spellings
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, shortened
@@ -147,6 +147,9 @@ class Free(Between, kw_only=True):
         return replace(self, ranges=ranges, bounds=bounds)
 
 
+NOTHING = Expanded(Literal(ZERO))
+
+
 class Numbers(Mutable):
     """Reads the coefficients of one file; ``parameters`` are substituted as they are read.
 
@@ -155,56 +158,58 @@ class Numbers(Mutable):
     """
 
     source: Source
-    parameters: dict[str, Expression] = field(default_factory=dict)
+    parameters: dict[str, Expanded] = field(default_factory=dict)
     entries: list[Coefficient] = field(default_factory=list)
-    of_parameters: list[Coefficient] = field(default_factory=list)
+    of_parameters: dict[str, Coefficient] = field(default_factory=dict)
     settings: Mapping[str, str] = field(default_factory=dict)
     free: dict[str, Free] = field(default_factory=dict)
     places: Entries = field(default_factory=dict)
     used: set[str] = field(default_factory=set)
-    _sizes: dict[str, int] = field(default_factory=dict)
-    _depths: dict[str, int] = field(default_factory=dict)
-    _read: dict[str, Expression] = field(default_factory=dict)
+    _read: dict[str, Expanded] = field(default_factory=dict)
 
-    def define(self, name: str, value: Expression) -> None:
+    def define(self, name: str, value: Expanded) -> None:
         """Sets the value of ``name`` in all coefficients that are read later."""
         self._read.clear()
         self.parameters[name] = value
-        self._sizes[name] = size_of(value, {})
-        self._depths[name] = depth_of(value, {})
 
     def forget(self, name: str) -> None:
         """Removes ``name`` for all coefficients that are read later."""
         self._read.clear()
-        for known in (self.parameters, self._sizes, self._depths):
-            del known[name]
+        del self.parameters[name]
 
     def entry(self, node: Node, where: str) -> Coefficient:
         """Reads a coefficient; a faulty one is reported and counts as zero, so that reading
         continues.
         """
-        entry = Coefficient(self._read_entry(node, where), node, where)
+        entry = Coefficient(self._value(node, where).expression, node, where)
         self.entries.append(entry)
         return entry
 
-    def _read_entry(self, node: Node, where: str) -> Expression:
-        if is_bare_unknown(node):
+    def parameter(self, name: str, node: Node, where: str) -> None:
+        """Reads the value of a parameter for all coefficients that are read later."""
+        value = self._value(node, where)
+        self.of_parameters[name] = Coefficient(value.expression, node, where)
+        self.define(name, value)
+
+    def _value(self, node: Node, where: str) -> Expanded:
+        """Returns the value of a text, zero after a fault."""
+        if isinstance(node, MappingNode) and is_bare_unknown(node):
             message = f"YAML reads a bare {UNKNOWN} as a key"
             cure = f'quote it: "{UNKNOWN}"'
             self.source.fault(node, message, cure, where=where, code="yaml-word")
-            return Literal(ZERO)
-        text = self.source.scalar(node, where)
+            return NOTHING
+        text = spellings.number_text(self.source, node, where)
+        if text is None:
+            return NOTHING
         if text == UNKNOWN:
             return self._unknown(node, where)
-        if text is None or spellings.is_misread(self.source, node, text, where):
-            return Literal(ZERO)
         try:
             return self._expression(text)
         except ExpressionError as error:
             self.source.expression_fault(node, where, *spellings.explained(error, text))
-            return Literal(ZERO)
+            return NOTHING
 
-    def _unknown(self, node: Node, where: str) -> Expression:
+    def _unknown(self, node: Node, where: str) -> Expanded:
         """Returns an entry without a value: an unknown named by its place, or its value from
         outside.
         """
@@ -213,45 +218,45 @@ class Numbers(Mutable):
             message = f"{UNKNOWN} stands for an entry of a tableau, or of weights beside it"
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
-            return Literal(ZERO)
+            return NOTHING
         if self.places.get(name) is node:  # of a row that colours share
             return self.parameters[name]
         if name in self.parameters:
             message = f"{where}: its name {name} is that of a parameter"
             self.source.fault(node, message, "call the parameter something else", code="name-taken")
-            return Literal(ZERO)
+            return NOTHING
         self.places[name] = node
-        return self.unknown(name, node, where)
+        self.unknown(name, node, where)
+        return self.parameters[name]
 
-    def unknown(self, name: str, node: Node, where: str) -> Expression:
+    def unknown(self, name: str, node: Node, where: str) -> None:
         """Defines an unknown of a tableau, free or with a value from outside."""
-        value: Expression = Name(name)
         if name in self.settings:
-            value = self.given(name, node, where)
+            self.given(name, node, where)
         else:
             self.free[name] = Free(node=node, where=where)
-        self.define(name, value)
-        return value
+            self.define(name, Expanded(Name(name)))
 
-    def given(self, name: str, node: Node, where: str) -> Expression:
-        """Returns the value of an unknown given from outside the file."""
+    def given(self, name: str, node: Node, where: str) -> None:
+        """Defines a parameter, or an unknown, by its value from outside the file."""
         text = self.settings[name]
+        value = NOTHING
         try:
-            value = parse(text)
+            value = expanded(parse(text), {})
         except ExpressionError as error:
             message = f"{where} is set to {shortened(text)}: {error.message}"
             self.source.fault(node, message, error.help, code="no-value-left")
-            return Literal(ZERO)
-        self.of_parameters.append(Coefficient(value, node, where))
-        return value
+        else:
+            self.of_parameters[name] = Coefficient(value.expression, node, where)
+        self.define(name, value)
 
     def written(self, text: str, node: Node, where: str) -> Coefficient:
         """Returns a coefficient that a shape writes in place of the file."""
-        entry = Coefficient(self._expression(text), node, where)
+        entry = Coefficient(self._expression(text).expression, node, where)
         self.entries.append(entry)
         return entry
 
-    def _expression(self, text: str) -> Expression:
+    def _expression(self, text: str) -> Expanded:
         """Returns the expression of a text, with parameters expanded; the same object for equal
         texts, which large matrices have.
 
@@ -259,13 +264,12 @@ class Numbers(Mutable):
         """
         if text in self._read:
             return self._read[text]
-        parsed = parse(text)
-        self.used.update(x.name for x in names_in(parsed))
-        check_size(parsed, self._sizes, text)
-        if depth_of(parsed, self._depths) > MAX_DEPTH:
+        found = expanded(parse(text), self.parameters, self.used)
+        check_size(found.size, text)
+        if found.depth > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
             raise LimitExceeded(message, "give the parameter its value", 0, len(text))
-        found = self._read[text] = substitute(parsed, self.parameters)
+        self._read[text] = found
         return found
 
     def row(self, node: Node, where: str) -> Row:

@@ -6,9 +6,8 @@ from typing import Any
 
 from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
-from garkcli.exact.field import ZERO
-from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.exact.rewriting import roots_in
+from garkcli.exact.nodes import Name
+from garkcli.exact.rewriting import Expanded, roots_in
 from garkcli.grammar.keys import Key, ReadMapping, Schema, ValueKind, defined, mapping
 from garkcli.grammar.nodes import (
     MappingNode,
@@ -19,7 +18,7 @@ from garkcli.grammar.nodes import (
     shortened,
     unquoted,
 )
-from garkcli.methodfile.numbers import UNKNOWN, Between, Free, Numbers
+from garkcli.methodfile.numbers import NOTHING, UNKNOWN, Between, Free, Numbers
 
 NUMBER = defined("number", lambda at, node, where: at.numbers.entry(node, where))
 ROW = defined("row", lambda at, node, where: at.numbers.row(node, where))
@@ -105,11 +104,10 @@ def _read(at: Any, node: Node, _: str) -> None:
     shown = [x for x in names if len(x) < 20][:5] or ["tau"]
     form = f"write parameters: {{{', '.join(f'{x}: free' for x in shown)}}}"
     for name in names:  # so that no coefficient with such a name is a second fault
-        numbers.define(name, Literal(ZERO))
+        numbers.define(name, NOTHING)
     for name, value_node in source.mapping(node, "parameters", (), form=form).items():
         key = keys[name]
         where = f"parameters: {unquoted(name)}"
-        value: Expression = Literal(ZERO)
         if name in FUNCTIONS:
             message = f"{where} is a function already"
             source.fault(key, message, "choose another name", code="name-taken")
@@ -117,9 +115,10 @@ def _read(at: Any, node: Node, _: str) -> None:
             message = f"{where} cannot be the name of a parameter"
             source.fault(key, message, "use letters, digits and _", code="name-taken")
         else:
-            value = _value(at, name, value_node, where)
             numbers.places[name] = value_node
-        numbers.define(name, value)
+            _define(at, name, value_node, where)
+            continue
+        numbers.define(name, NOTHING)
 
 
 def _names_alone(node: Node) -> list[str]:
@@ -129,17 +128,16 @@ def _names_alone(node: Node) -> list[str]:
     return [x for x in words if x.isidentifier() and x.isascii() and x not in FUNCTIONS]
 
 
-def _value(at: Any, name: str, node: Node, where: str) -> Expression:
-    """Returns the value of a parameter, or its name if it is free."""
+def _define(at: Any, name: str, node: Node, where: str) -> None:
+    """Reads a parameter with a value, with one from outside, or free."""
     numbers: Numbers = at.numbers
     if name in numbers.settings:
-        return numbers.given(name, node, where)
-    if isinstance(node, MappingNode) or node.value == "free":
+        numbers.given(name, node, where)
+    elif isinstance(node, MappingNode) or node.value == "free":
         numbers.free[name] = _free(at, node, where)
-        return Name(name)
-    value = numbers.entry(node, where).expression
-    numbers.of_parameters.append(numbers.entries.pop())
-    return value
+        numbers.define(name, Expanded(Name(name)))
+    else:
+        numbers.parameter(name, node, where)
 
 
 def _free(at: Any, node: Node, where: str) -> Free:

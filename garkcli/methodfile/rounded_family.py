@@ -80,7 +80,7 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
     known = Values(reader.numbers)
     reader.source.close()
     made = Builder(text, known)
-    given = {id(x) for name in texts for x in _literals(reader.numbers.parameters[name])}
+    given = {id(x) for name in texts for x in _literals(reader.numbers.parameters[name].expression)}
     assert family.tolerance is not None
     assert description.tolerance is not None
     entries = reader.numbers.entries

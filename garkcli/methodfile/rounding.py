@@ -50,7 +50,7 @@ def rounded_of(
 
     If there are none, but one tolerance for the whole file, each nonzero coefficient is rounded.
     """
-    named = {id(x) for text in numbers.parameters.values() for x in _all_parts(text)}
+    named = {id(x) for known in numbers.parameters.values() for x in _all_parts(known.expression)}
     tolerances = NumberTolerances(tolerance, content, numbers.entries)
     return Rounded(numbers.entries, built.values, tolerances, apart=named)
 

@@ -36,7 +36,8 @@ class Values:
             return
         known = self._evaluate(numbers, domain)
         self.printed = tuple((expressions[key], number) for key, number in known.items())
-        _note_faults(numbers, numbers.of_parameters)
+        unused = (x for name, x in numbers.of_parameters.items() if name not in numbers.used)
+        _note_faults(numbers, unused)
 
     def once(self, key: object, find: Callable[[], T]) -> T:
         """Returns a decision about the method that does not depend on changes of rounded
@@ -77,7 +78,7 @@ class Values:
         """
         source = numbers.source
         before = len(source.faults)
-        _note_faults(numbers, (*numbers.of_parameters, *numbers.entries))
+        _note_faults(numbers, (*numbers.of_parameters.values(), *numbers.entries))
         if len(source.faults) > before:
             return
         with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
@@ -115,7 +116,7 @@ def _note(numbers: Numbers, entry: Coefficient, error: ExpressionError) -> None:
     """Reports why a coefficient has no value, at its parameter if that is the cause."""
     source = numbers.source
     within = set(_identities(entry.expression))
-    for given in numbers.of_parameters:
+    for given in numbers.of_parameters.values():
         own = _fault_of(given) if id(given.expression) in within else None
         if own is not None and own.message == error.message:
             cause = f"{given.where}: {own.message}"

@@ -24,6 +24,7 @@ from garkcli.constructions.multirate import Blocks, by_blocks, by_rule, slowest_
 from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
+from garkcli.exact.rewriting import Expanded
 from garkcli.frozen import Frozen, replace
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
@@ -394,7 +395,7 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
     """Defines ``lambda`` and ``M`` as numbers while it is open."""
     before = {name: numbers.parameters.get(name) for name in _NAMES}
     for name, number in zip(_NAMES, values, strict=True):
-        numbers.define(name, Literal(fmpq(number)))
+        numbers.define(name, Expanded(Literal(fmpq(number))))
     yield
     for name, value in before.items():
         if value is None:

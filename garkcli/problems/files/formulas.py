@@ -16,7 +16,7 @@ from garkcli.exact.rewriting import check_size, names_in, size_of
 from garkcli.frozen import Frozen, Mutable, field
 from garkcli.grammar.nodes import Node, is_null, shortened, unquoted
 from garkcli.grammar.source import Entries, Source
-from garkcli.grammar.spellings import explained, is_misread
+from garkcli.grammar.spellings import explained, number_text
 from garkcli.problems.expr import Expr, Invariants, Place, Vector, rational
 from garkcli.problems.files.keys import ProblemText
 from garkcli.problems.translate import Translator
@@ -48,18 +48,16 @@ class FormulaReader(Mutable):
         ``names`` maps names to the cure if they are not allowed here, or to "" if they are; None
         allows all. Parameters are always allowed. ``noun`` is the kind of name that is expected.
         """
-        text = self.source.scalar(node, where)
-        if text is None:
-            return None
         if is_null(node):
             message = f"{where}: nothing is here"
             self.source.fault(node, message, "write a formula", code="empty")
             return None
-        if is_misread(self.source, node, text, where):
+        text = number_text(self.source, node, where)
+        if text is None:
             return None
         try:
             expression = parse_formula(text)
-            check_size(expression, self._sizes, text)
+            check_size(size_of(expression, self._sizes), text)
         except ExpressionError as error:
             self.source.expression_fault(node, where, *explained(error, text))
             return None
