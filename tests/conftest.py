@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.grammar import composing
+from garkcli.grammar import nodes
 from tests.whole import IS_WHOLE, at_most, few_cases
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.
@@ -33,7 +33,7 @@ settings.register_profile(
 settings.load_profile("gark")
 
 # Thousands of runs read a few hundred files: the nodes of a text, which nothing changes, are kept.
-composing.compose = lru_cache(maxsize=600)(composing.compose)
+nodes.compose = lru_cache(maxsize=600)(nodes.compose)
 
 
 @given(st.none())

@@ -394,7 +394,7 @@ class Given(SimpleNamespace):
         Raises UsageProblem if the report would go to one of them, or if --set is given with
         several.
         """
-        from garkcli.methodfile.finding import find_files
+        from garkcli.methodfile.naming import find_files
 
         found = list(find_files(self.files, output.note))
         for path in found:

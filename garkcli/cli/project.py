@@ -130,7 +130,7 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
     from garkcli.grammar.keys import FILE
     from garkcli.grammar.source import Source
     from garkcli.grammar.tables import read_settings
-    from garkcli.methodfile.finding import fixed_part
+    from garkcli.methodfile.naming import fixed_part
 
     file = os.path.relpath(path)
     where = FILE if os.path.basename(path) == OWN else "[tool.gark]"

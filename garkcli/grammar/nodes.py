@@ -1,16 +1,24 @@
-"""YAML nodes: their content and their place; the words of a file in messages."""
+"""YAML text to nodes with positions, by PyYAML's parser in Python, within limits; and what nodes
+hold.
+
+Nodes keep what ``safe_load`` loses: the positions of values, repeated keys, and the text of
+numbers. PyYAML's loader in Python is used even where the one in C is available: their messages and
+columns differ, and a file should be answered alike on every machine.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
+from itertools import chain
+from typing import Any, TypeAlias
 
+import yaml
 from yaml.nodes import MappingNode as MappingNode
 from yaml.nodes import Node as Node
 from yaml.nodes import ScalarNode as ScalarNode
 from yaml.nodes import SequenceNode as SequenceNode
 
-from garkcli.errors import nearest
+from garkcli.errors import Remark, nearest, printable
 
 Extent: TypeAlias = tuple[int, int]
 """The start and the end of a place in the text of a file."""
@@ -81,3 +89,168 @@ def shortened(text: str, length: int = 60) -> str:
     if len(text) > length:
         text = text[:length] + "…"
     return repr(text)
+
+
+MAX_NODES = 50_000
+"""The largest number of YAML values in a file, with aliases counted at each use."""
+MAX_NESTING = 12
+"""The deepest nesting of lists and mappings; files need six."""
+
+
+def position(mark: Any) -> tuple[int, int]:
+    """Returns the line and the column of a mark, from 1; 1 and 1 without a mark."""
+    if mark is None:
+        return 1, 1
+    return mark.line + 1, mark.column + 1
+
+
+class TooLargeError(Exception):
+    """A file beyond the limits."""
+
+    def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
+        super().__init__(message)
+        self.line, self.column = position(at.start_mark)
+        self.message, self.cure = message, cure
+
+
+class _Composer(yaml.SafeLoader):
+    """PyYAML's composer, which refuses too many values and too deep nesting."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self._depth = 0
+        self._count = 0
+
+    def _next_event(self) -> yaml.Event:
+        event: yaml.Event = self.peek_event()  # type: ignore[no-untyped-call]
+        return event
+
+    def compose_node(self, parent: Node | None, index: int) -> Node | None:
+        self._count += 1
+        if self._count > MAX_NODES:
+            raise TooLargeError(self._next_event(), _TOO_MANY, "no method needs that")
+        if self._depth >= MAX_NESTING:
+            event = self._next_event()
+            if isinstance(event, (yaml.SequenceStartEvent, yaml.MappingStartEvent)):
+                raise TooLargeError(event, _TOO_DEEP, "no file needs that")
+        self._depth += 1
+        node: Node | None = super().compose_node(parent, index)
+        self._depth -= 1
+        return node
+
+
+_TOO_DEEP = f"nested more than {MAX_NESTING} deep"
+_TOO_MANY = f"more than {MAX_NODES} values in one file"
+_YAML_CURES = (
+    ("'\\t'", "indent with spaces, not with tabs"),
+    ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
+    ("mapping keys are not allowed", "quote a text that begins with ?"),
+    ("block end", "align the keys and the dashes of one list"),
+    ("undefined alias", "define it first as &name, or quote the text"),
+    ("cannot start any token", "quote a text that begins with this sign"),
+    ("another document", "give every method a file of its own"),
+    ("unexpected end of stream", "a quotation mark is open: close it"),
+    ("expected alphabetic or numeric", "comments begin with #"),
+    ("duplicate anchor", "give every anchor a name of its own"),
+    ("undefined tag", "leave the tag out, or quote the text"),
+)
+"""Explanations of PyYAML's messages."""
+
+
+def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
+    """Returns an error of PyYAML as a fault, with a cure."""
+    mark = error.problem_mark or error.context_mark
+    context = str(error.context or "")
+    problem = str(error.problem or context)
+    if context.startswith("found "):  # here the context says what is wrong
+        problem = context.partition(";")[0]
+    cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
+    if "parsing a flow" in context and error.context_mark:
+        line, column = position(error.context_mark)
+        cure = (
+            f"the bracket at {line}:{column} is open: close it, and put commas between its values"
+        )
+    message = printable(f"this is not YAML: {problem}")
+    return Remark(message, printable(cure), *position(mark), code="not-yaml")
+
+
+def composed(text: str) -> Node | Remark | None:
+    """Returns the document of a text, or its fault; None if the text is empty."""
+    try:
+        return compose(text)
+    except TooLargeError as error:
+        return Remark(error.message, error.cure, error.line, error.column, code="file-too-large")
+    except yaml.MarkedYAMLError as error:
+        return yaml_fault(error)
+    except yaml.YAMLError as error:
+        sign = getattr(error, "character", "")
+        if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
+            message = "half a sign, which no text has"
+            cure, code = "write the text as Unicode", "not-utf8"
+        else:
+            message = f"this is not YAML: {str(error).splitlines()[0]}"
+            cure, code = "leave the control character out", "not-yaml"
+        return Remark(message, cure, *place_of_sign(text, sign), code=code)
+
+
+def compose(text: str) -> Node | None:
+    """Returns the document of a text within the limits; None if the text is empty."""
+    composer = _Composer(text)
+    try:
+        root: Node | None = composer.get_single_node()
+    finally:
+        composer.dispose()
+    if root is not None:
+        _walk(root)
+    return root
+
+
+def _walk(root: Node) -> None:
+    """Counts each value at every use, so that aliases cannot multiply work unnoticed."""
+    count = 0
+    pending: list[tuple[Node, int]] = [(root, 1)]
+    while pending:
+        node, depth = pending.pop()
+        count += 1
+        if count > MAX_NODES:
+            raise TooLargeError(root, _TOO_MANY, "aliases count each time")
+        if depth > MAX_NESTING:
+            raise TooLargeError(node, _TOO_DEEP, "no file needs that; or an anchor contains itself")
+        if not isinstance(node, ScalarNode):
+            is_mapping = isinstance(node, MappingNode)
+            children = chain.from_iterable(node.value) if is_mapping else node.value
+            pending += [(child, depth + 1) for child in children]
+
+
+def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
+    """Returns the line and the column of character ``offset`` of a folded value: YAML only changes
+    the space between the characters.
+    """
+    position = node.start_mark.index
+    if node.style in {"|", ">"}:
+        line_end = text.find("\n", position)
+        position = len(text) if line_end < 0 else line_end
+    elif node.style:
+        position += 1
+    for sign in node.value[:offset]:
+        found = position if sign.isspace() else text.find(sign, position) + 1
+        if not found:  # written as an escape
+            break
+        position = found
+    while position < len(text) and text[position].isspace():
+        position += 1
+    return _line_and_column(text, position)
+
+
+def place_of_sign(text: str, sign: object) -> tuple[int, int]:
+    """Returns the place of the first refused character; one at the start marks the encoding."""
+    code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
+    position = 0
+    if isinstance(code, int):
+        start = 1 if text.startswith("\ufeff") else 0
+        position = max(text.find(chr(code), start), 0)
+    return _line_and_column(text, position)
+
+
+def _line_and_column(text: str, position: int) -> tuple[int, int]:
+    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)

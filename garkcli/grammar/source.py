@@ -19,9 +19,8 @@ from garkcli.errors import (
 )
 from garkcli.frozen import Frozen, replace
 from garkcli.glossary.key import KINDS, FileKind
-from garkcli.grammar.composing import composed, folded_place, position
 from garkcli.grammar.foreign import cure_of_foreign
-from garkcli.grammar.nodes import keys_of, meant_key, shortened
+from garkcli.grammar.nodes import composed, folded_place, keys_of, meant_key, position, shortened
 
 Place: TypeAlias = tuple[int, int]
 """Line and column, from 1."""

@@ -18,9 +18,8 @@ from garkcli.grammar.source import Source
 from garkcli.methodfile.bibliography import reference_of
 from garkcli.methodfile.build import Builder, MethodFile, V, part_of
 from garkcli.methodfile.description import Description, Form, left_behind, rules_of_blocks, works_of
-from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.folders import SUFFIX
-from garkcli.methodfile.naming import is_both, read_argument
+from garkcli.methodfile.naming import find_files, is_both, read_argument
 from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import MethodReader

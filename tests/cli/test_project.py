@@ -10,7 +10,7 @@ from time import process_time
 import pytest
 
 from garkcli.cli.project import find_project
-from garkcli.methodfile import finding
+from garkcli.methodfile import naming
 from tests.cli.harness import gark
 
 PATIENCE = 10.0
@@ -218,8 +218,8 @@ def test_stars_in_a_row_say_no_more_than_one(
     """Each of them would go through all folders below each match of those before it."""
     (project / "a/b/c/d").mkdir(parents=True)
     walks: list[str] = []
-    folders = finding._folders
-    monkeypatch.setattr(finding, "_folders", lambda x: walks.append(x) or folders(x))
+    folders = naming._folders
+    monkeypatch.setattr(naming, "_folders", lambda x: walks.append(x) or folders(x))
     (project / "tables/with.gark.yaml").rename(project / "a/b/c/d/deep.gark.yaml")
     put(project, ".gark.toml", f"paths = [{json.dumps('**/' * 12 + 'deep*')}]\n")
     assert gark("check", cwd=project).code == 0

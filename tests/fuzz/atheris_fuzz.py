@@ -72,9 +72,9 @@ def targets(atheris: Any) -> Mapping[str, Callable[[bytes], None]]:
         from garkcli.exact.domain import Domain
         from garkcli.exact.expression import parse
         from garkcli.exact.rewriting import substitute
-        from garkcli.grammar import composing
+        from garkcli.grammar import nodes
         from garkcli.methodfile.load import loads
-    composing.MAX_NODES = NODES
+    nodes.MAX_NODES = NODES
     files, values = seeds(), {"tau": parse("1/2")}
 
     def one_file(data: bytes) -> None:

@@ -7,8 +7,8 @@ from flint import fmpq
 
 from garkcli.exact.field import Number
 from garkcli.families.registry import BY_STAGES, diagonal_method
-from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.naming import find_files
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import (

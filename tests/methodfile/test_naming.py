@@ -13,9 +13,8 @@ import pytest
 
 from garkcli import catalogue
 from garkcli.errors import MethodFileError, Remark, nearest
-from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import load
-from garkcli.methodfile.naming import expanded, find_named, hidden_by, look_up
+from garkcli.methodfile.naming import expanded, find_files, find_named, hidden_by, look_up
 from garkcli.methodfile.shelves import PATH_VARIABLE, package
 
 ONE = "A: [[0]]\nb: [1]\n"
