@@ -10,8 +10,7 @@ from flint import fmpq
 from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
 from garkcli.api.numbers import Number, Point, Whole, colour_of, points, rational, rationals, whole
 from garkcli.check import analysis
-from garkcli.check.analysis import MethodProof
-from garkcli.check.deciding import analyse_any
+from garkcli.check.analysis import MethodProof, analyse_any
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.constructions.nystrom import is_nystrom, partitioned
 from garkcli.constructions.same_stability import on_test_equation, with_same_function

@@ -12,8 +12,8 @@ from typing import Any, Protocol, cast, overload
 
 from garkcli.api.anymethod import AnyMethod, meant_of, method_of, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, colours_of, whole
-from garkcli.check import deciding
-from garkcli.check.claims import AnyAnalysis
+from garkcli.check import analysis
+from garkcli.check.analysis import AnyAnalysis
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.exact.field import ZERO
 from garkcli.order import simplifying as conditions
@@ -58,7 +58,7 @@ def find_order(
     is_own = tolerance is None
     method, near = with_tolerance(method, tolerance, is_any_kind=True)
     if is_own and near is not None and method.base is not None:
-        found = deciding.analyse(method.base.tableau, limit, near)
+        found = analysis.analyse(method.base.tableau, limit, near)
         order = found.pair_order if method.derivation == "pair" else found.conjugate_order
         if order is not None:
             return order
@@ -93,7 +93,7 @@ def analyse(
     """
     limit = whole(limit, "limit", 1)
     method, near = with_tolerance(method, tolerance, is_any_kind=True)
-    return deciding.analyse_any_tableau(method.tableau, limit, near, method.further)
+    return analysis.analyse_any_tableau(method.tableau, limit, near, method.further)
 
 
 def simplifying(
@@ -133,7 +133,7 @@ def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
     method, near = with_tolerance(method, tolerance)
     if near is None:
         return conditions.is_symplectic(method.tableau)
-    return deciding.analyse(method.tableau, 1, near).symplectic
+    return analysis.analyse(method.tableau, 1, near).symplectic
 
 
 class _OfSameKind(Protocol):

@@ -82,7 +82,7 @@ def entry_of_method(read: MethodFile, file: str) -> Entry:
 
 def _judged(read: MethodFile, name: str, file: str) -> Entry:
     from garkcli.catalogue.facts import found_of
-    from garkcli.check.deciding import analyse_any
+    from garkcli.check.analysis import analyse_any
 
     return found_of(read, analyse_any(read), name, file)
 

@@ -34,7 +34,7 @@ from garkcli.properties.registry import KEYS, find
 from garkcli.tableau.pointwise import in_points
 
 if TYPE_CHECKING:
-    from garkcli.check.claims import AnyAnalysis
+    from garkcli.check.analysis import AnyAnalysis
     from garkcli.check.outcome import Outcome
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.tableau import Tableau

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from garkcli.check.analysis import analyse, analyse_any, remark_of
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
-from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
 from garkcli.errors import GarkError, HasFreeParameters, MethodError, MethodFileError, Remark
@@ -19,7 +19,7 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from garkcli.check.claims import AnyAnalysis
+    from garkcli.check.analysis import AnyAnalysis
     from garkcli.order.constants import ErrorConstants
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, AnyAnalysis
 from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast, ClaimedNumber
@@ -13,20 +13,11 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
-    from garkcli.check.derivatives import DerivativesAnalysis
-    from garkcli.check.infinitesimal import InfinitesimalAnalysis
-    from garkcli.check.nprk import NprkAnalysis
-    from garkcli.check.nystrom import NystromAnalysis
     from garkcli.check.order_facts import LinearSubject
-    from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.properties.property import NoProperties
     from garkcli.properties.subject import Subject
 
 
-AnyAnalysis: TypeAlias = (
-    "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | DerivativesAnalysis"
-    " | InfinitesimalAnalysis"
-)
 AnySubject: TypeAlias = "Subject | LinearSubject | NoProperties"
 
 

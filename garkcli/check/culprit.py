@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from garkcli.check.analysis import analyse
 from garkcli.check.claims import verify
-from garkcli.check.deciding import analyse
 from garkcli.frozen import replace
 from garkcli.methodfile.description import CONSTRUCTIONS
 from garkcli.methodfile.expectations import highest_order

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from garkcli.check.analysis import Analysis
-from garkcli.check.claims import AnyAnalysis, claimed_text, found_value
+from garkcli.check.analysis import Analysis, AnyAnalysis
+from garkcli.check.claims import claimed_text, found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import CLAIMS, AtLeast

@@ -249,7 +249,7 @@ def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
     """
     if output.verbosity < 0:
         return
-    from garkcli.check.deciding import looks_rounded
+    from garkcli.check.analysis import looks_rounded
 
     several = len({method.source for method in methods}) > 1
     said = []

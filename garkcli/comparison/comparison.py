@@ -8,9 +8,7 @@ from typing import Literal, TypeAlias
 
 from flint import fmpq
 
-from garkcli.check.analysis import Analysis
-from garkcli.check.claims import AnyAnalysis
-from garkcli.check.deciding import analyse_any
+from garkcli.check.analysis import Analysis, AnyAnalysis, analyse_any
 from garkcli.comparison.differences import BlockGap, Met, block_gaps, conditions_met
 from garkcli.comparison.grid import Likeness
 from garkcli.comparison.sameness import Sameness, find_sameness, views_of

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from operator import ge
 
+from garkcli.check.analysis import analyse_any
 from garkcli.check.claims import verify
-from garkcli.check.deciding import analyse_any
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.conversion.printed import InForm
 from garkcli.conversion.recovered import RecoveredMethod, is_as_good, orders_of, recovered

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import analyse
 from garkcli.conversion.sheet import CannotConvert, Sheet
 from garkcli.design.search.proposing import PRECISION, exact_form
 from garkcli.exact.affine import Affine

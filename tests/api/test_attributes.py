@@ -21,7 +21,7 @@ from garkcli import (
     loads,
     pair,
 )
-from garkcli.check.deciding import analyse as analyse_tableau
+from garkcli.check.analysis import analyse as analyse_tableau
 from garkcli.errors import ZeroWeight
 from garkcli.order.certificate import find_order as exact_order
 

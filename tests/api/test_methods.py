@@ -29,7 +29,7 @@ from garkcli import (
     pair,
     simplifying,
 )
-from garkcli.check.deciding import analyse as analyse_tableau
+from garkcli.check.analysis import analyse as analyse_tableau
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.families.registry import diagonal_method as of_registry
 from garkcli.order.certificate import find_order as exact_order

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from flint import fmpq
 
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import analyse
 from garkcli.errors import MethodFileError
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import loads

@@ -9,7 +9,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.check.deciding import Analysis, analyse
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.check.every_family import EveryFamily, Range, can_vanish, every_family
 from garkcli.errors import MethodError
 from garkcli.exact.parametric import Parameters

@@ -9,8 +9,8 @@ import jsonschema  # type: ignore[import-untyped]
 import pytest
 from flint import fmpq
 
+from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
-from garkcli.check.deciding import analyse
 from garkcli.check.every_facts import Fact, fact_reason
 from garkcli.check.every_family import every_family
 from garkcli.check.every_properties import COMPARING, SIGNS, STABLE, find_property

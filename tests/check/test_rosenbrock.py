@@ -22,8 +22,8 @@ from garkcli import (
     loads,
     with_claims,
 )
+from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
-from garkcli.check.deciding import analyse
 from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.constructions.rosenbrock import Rosenbrock, seen
 from garkcli.errors import MethodError, MethodFileError

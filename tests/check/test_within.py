@@ -12,10 +12,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from garkcli.api.calls import find_stability
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.check.check_file import check_method
 from garkcli.check.claims import verify
-from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.ntrees.tree import Tree

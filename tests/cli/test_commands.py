@@ -14,7 +14,7 @@ import yaml
 from flint import fmpq
 from jsonschema import Draft7Validator
 
-from garkcli.check import deciding
+from garkcli.check import analysis
 from garkcli.cli.options import command_of
 from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.methodfile.load import load, loads
@@ -641,7 +641,7 @@ def test_nobody_looks_for_rounding_that_nobody_reads(
     place = tmp_path / "half.gark.yaml"
     place.write_text("A: [[0.3333333333333333]]\nb: [1]\n", encoding="utf-8")
     asked: list[object] = []
-    monkeypatch.setattr(deciding, "looks_rounded", asked.append)
+    monkeypatch.setattr(analysis, "looks_rounded", asked.append)
     for words, count in (("-q",), 0), ((), 1):
         assert gark("tableau", str(place), *words).code == 0
         assert len(asked) == count

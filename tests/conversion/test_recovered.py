@@ -7,8 +7,8 @@ import re
 import pytest
 from flint import arb, ctx, fmpq, fmpq_poly
 
+from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_method
-from garkcli.check.deciding import analyse
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import CannotConvert
 from garkcli.errors import MethodError, UsageProblem

@@ -33,7 +33,7 @@ from typing import Literal
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import analyse
 from garkcli.errors import GarkError, MethodFileError
 from garkcli.methodfile.load import loads
 from garkcli.problems.files.load import loads_problem

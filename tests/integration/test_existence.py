@@ -14,7 +14,7 @@ from flint import fmpq
 
 import garkcli
 from garkcli import from_arrays, load, loads
-from garkcli.check.deciding import analyse_any
+from garkcli.check.analysis import analyse_any
 from garkcli.check.existing import prove_method_exists
 from garkcli.errors import MethodError
 from garkcli.order.meant import as_meant

@@ -23,8 +23,7 @@ from hypothesis import strategies as st
 
 import garkcli
 from garkcli import find_order, load, loads
-from garkcli.check.analysis import MethodProof, prove_method
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import MethodProof, analyse, prove_method
 from garkcli.constructions.nprk import nprk
 from garkcli.constructions.nystrom import nystrom
 from garkcli.constructions.rosenbrock import rosenbrock

@@ -4,10 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import Claim, verify
-from garkcli.check.deciding import analyse
 from garkcli.methodfile.load import loads
 
 METHOD = "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\ntransfer: collocation\n"

@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from garkcli import loads
-from garkcli.check import deciding
+from garkcli.check import analysis
 from garkcli.errors import MethodFileError
 from tests.cli.harness import ROOT, Run
 from tests.cli.harness import gark as call
@@ -565,7 +565,7 @@ def test_a_reader_that_goes_away(arguments: str) -> None:
 
 BREAKING = (
     "import sys\n"
-    "import garkcli.check.deciding as check\n"
+    "import garkcli.check.analysis as check\n"
     "def order_of(*_): raise RuntimeError('broken\\nin two lines')\n"
     "check.order_of = order_of\n"
     "from garkcli.cli import main\n"
@@ -596,7 +596,7 @@ def told_of_each_file(run: Run) -> None:
 
 def test_a_fault_of_our_own(monkeypatch: pytest.MonkeyPatch) -> None:
     """The others are gone on with."""
-    monkeypatch.setattr(deciding, "order_of", order_of)
+    monkeypatch.setattr(analysis, "order_of", order_of)
     told_of_each_file(call("check", "methods"))
 
 
@@ -612,7 +612,7 @@ def test_a_fault_of_our_own_in_a_worker() -> None:
 
 def test_a_fault_of_our_own_in_full(monkeypatch: pytest.MonkeyPatch) -> None:
     """``--debug`` shows the traceback of the fault."""
-    monkeypatch.setattr(deciding, "order_of", order_of)
+    monkeypatch.setattr(analysis, "order_of", order_of)
     monkeypatch.setattr(sys, "argv", ["gark", "--debug"])  # a check of one file looks there
     run = call("--debug", "check", "methods/rectangular.gark.yaml")
     assert run.code == 3

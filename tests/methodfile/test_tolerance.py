@@ -8,8 +8,8 @@ from flint import fmpq
 from garkcli.api.asserting import find_orders
 from garkcli.api.design import find_parameters
 from garkcli.bridges.preparing import prepared
+from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_method
-from garkcli.check.deciding import analyse
 from garkcli.check.existing import prove_method_exists
 from garkcli.conversion.convert import convert
 from garkcli.design.within import DesignWithin

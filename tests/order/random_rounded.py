@@ -21,9 +21,8 @@ from flint import arb, ctx, fmpq
 
 import garkcli
 from garkcli import loads
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.check.check_file import check_method
-from garkcli.check.deciding import analyse
 from garkcli.errors import GarkError
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number

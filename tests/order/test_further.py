@@ -15,8 +15,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.check.analysis import Analysis
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.errors import ShapeMismatch
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from flint import arb, ctx, fmpq
 
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import analyse
 from garkcli.exact.affine import Affine, Forms
 from garkcli.methodfile.load import load, loads
 from garkcli.order.existence import has_zero, is_proved_to_exist

@@ -13,9 +13,8 @@ import pytest
 from flint import fmpq
 
 from garkcli import load, loads
-from garkcli.check.analysis import Analysis
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.check.check_file import check_method
-from garkcli.check.deciding import analyse
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.certificate import find_order

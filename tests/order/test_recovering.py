@@ -20,7 +20,7 @@ from hypothesis import strategies as st
 from scipy.optimize import lsq_linear
 
 from garkcli import loads
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import analyse
 from garkcli.exact.affine import Forms
 from garkcli.ntrees.table import TreeTable
 from garkcli.order.bounded import bounded_least_squares, excludes, nearest

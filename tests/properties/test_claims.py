@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli import find_property, reduced
+from garkcli.check.analysis import analyse
 from garkcli.check.claims import Claim, verify
-from garkcli.check.deciding import analyse
 from garkcli.check.every_value import every_value
 from garkcli.errors import MethodFileError, UsageProblem
 from garkcli.exact.field import ZERO

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
-from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.order.blame import Missed, blame_of

@@ -17,9 +17,9 @@ import pytest
 from click.testing import CliRunner
 from jsonschema import Draft7Validator
 
+from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
-from garkcli.check.deciding import analyse
 from garkcli.check.findings import KINDS, findings
 from garkcli.check.outcome import Outcome
 from garkcli.cli.main import gark as commands

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import loads
-from garkcli.check.deciding import analyse
+from garkcli.check.analysis import analyse
 from garkcli.order.certificate import find_order
 from garkcli.tableau.forms import gark, with_time
 from garkcli.tableau.tableau import Tableau, butcher
