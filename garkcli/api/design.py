@@ -381,7 +381,7 @@ def _orders(method: Chosen, whose: Whose) -> str:
 def _wanted(family: Family, whose: Whose) -> str:
     """Returns the claims about stability and further orders that were wanted."""
     wanted = [f", {key}: {value}" for key, value in family.claims_of_wanted]
-    wanted += [f", {x.kind}: true" for x in family.stable if x.colour is None]
+    wanted += [f", {x.kind}: true" for x in family.stable if x.colour is None and not x.is_embedded]
     return "".join(wanted) if whose == "method" else ""
 
 

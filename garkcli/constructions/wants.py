@@ -168,6 +168,7 @@ KINDS = (
         {want.key: want for want in _wants()},
         {
             **dict.fromkeys(("embedded-order", "dense-order", "stiffly-accurate"), _itself),
+            **dict.fromkeys(("embedded-a-stable", "embedded-l-stable"), _itself),
             **dict.fromkeys(("positive-weights", "R-infinity"), on_linear_problems),
             **dict.fromkeys(("a-stable", "l-stable", "p-stable", "i-stable"), on_linear_problems),
             **dict.fromkeys(("nodes-in-unit-interval", "nodes-ascending"), _nodes),

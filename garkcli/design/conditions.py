@@ -62,16 +62,11 @@ class Cleared(Frozen):
             return cls(tableau, tableau.blocks, weights, ONE, ONE, ONE)
         rows = chain.from_iterable(tableau.blocks.values())
         D = common_denominator(chain.from_iterable(rows), ring)
-        E = common_denominator(chain.from_iterable(weights), ring)
-
-        def cleared(row: Sequence[object], denominator: Entry) -> Row:
-            parts = [fraction(x, ring) for x in row]
-            return tuple(times(numerator, denominator // own) for numerator, own in parts)
-
         blocks = {
-            edge: tuple(cleared(row, D) for row in block) for edge, block in tableau.blocks.items()
+            edge: tuple(cleared(row, D, ring) for row in block)
+            for edge, block in tableau.blocks.items()
         }
-        b = tuple(cleared(row, E) for row in weights)
+        E, b = without_denominators(weights, ring)
         return cls(tableau, blocks, b, D, E, ring.constant(fmpq(1)))
 
     def alone(self, l: int) -> Cleared:
@@ -84,6 +79,20 @@ class Cleared(Frozen):
         tableau = Tableau((space,), (replace(colour, space=0),), own)
         blocks = {(0, 0): self.blocks[key]} if has_block else {}
         return replace(self, tableau=tableau, blocks=blocks, weights=(self.weights[l],))
+
+
+def cleared(row: Sequence[object], denominator: Entry, ring: Parameters) -> Row:
+    """Numbers times a common denominator of theirs."""
+    parts = [fraction(x, ring) for x in row]
+    return tuple(times(numerator, denominator // own) for numerator, own in parts)
+
+
+def without_denominators(
+    rows: Sequence[Sequence[object]], ring: Parameters
+) -> tuple[Entry, tuple[Row, ...]]:
+    """A common denominator, and the rows times it."""
+    denominator = common_denominator(chain.from_iterable(rows), ring)
+    return denominator, tuple(cleared(row, denominator, ring) for row in rows)
 
 
 Polynomials: TypeAlias = tuple[fmpq_mpoly, ...]

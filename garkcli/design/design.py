@@ -633,10 +633,13 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
 
 def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
     """For each wanted kind of stability its set; nothing where it is none of one number."""
-    family = family.on_linear_problems
     wanted = [
         x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind
     ]
-    found = (values_of_one(family, cast("Wanted", x.kind), whose, colour=x.colour) for x in wanted)
-    sets = tuple(x for x in found if x is not None)
-    return sets if len(sets) == len(wanted) else ()
+    sets = []
+    for x in wanted:
+        kind = cast("Wanted", x.kind)
+        found = values_of_one(family.tested(x), kind, whose, colour=x.colour)
+        if found is not None:
+            sets.append(replace(found, is_embedded=x.is_embedded))
+    return tuple(sets) if len(sets) == len(wanted) else ()

@@ -214,10 +214,13 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
     if not family.stable:
         return True
     with suppress(NotDecided):
-        tableau = method_at(family.on_linear_problems.tableau, family.ring, solution, root)
-        if tableau is not None:
-            meant = TABLEAUS[whose](tableau)
-            return all(is_stable(key, meant) for key in family.stable)
+        for wanted in family.stable:
+            tableau = method_at(family.tested(wanted).tableau, family.ring, solution, root)
+            if tableau is None:
+                return None
+            if not is_stable(wanted, TABLEAUS[whose](tableau)):
+                return False
+        return True
     return None
 
 

@@ -105,10 +105,9 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
         raise NotDecided
     if not part.dimension:
         return _stable_points(family, whose, part)
-    family = family.on_linear_problems
     kinds, attained = [], []
     for wanted in dict.fromkeys(family.stable):
-        line = _Line(family, whose, part, wanted)
+        line = _Line(family.tested(wanted), whose, part, wanted)
         found, undecided = line.values()
         told, all_of_it = line.told(found, undecided)
         kinds.append(told)
@@ -135,9 +134,14 @@ def _stable_points(family: Family, whose: Whose, part: Part) -> StablePart:
         kind: Any = wanted.kind
         found = tuple(map(point_of, sorted(set(values[True]))))
         undecided = tuple(set(values[None]) - set(values[True]))
-        kinds.append(StableValues(alone, whose, kind, found, undecided, colour=wanted.colour))
+        told = StableValues(alone, whose, kind, found, undecided)
+        kinds.append(_told_of(told, wanted))
     attained = tuple(map(point_of, sorted({value_at(x.values[name], t) for x, t in methods})))
     return StablePart(part, tuple(kinds), (attained,) * len(kinds))
+
+
+def _told_of(values: StableValues, wanted: Stability) -> StableValues:
+    return replace(values, colour=wanted.colour, is_embedded=wanted.is_embedded)
 
 
 class _Line:
@@ -238,8 +242,8 @@ class _Line:
             attained = (point_of(RealRoot.rational(b)),)
             shown = attained if found else ()
         open_values = tuple(map(moved, undecided))
-        told = StableValues(family, self.whose, kind, shown, open_values, colour=self.wanted.colour)
-        return told, attained
+        told = StableValues(family, self.whose, kind, shown, open_values)
+        return _told_of(told, self.wanted), attained
 
     @property
     def _attained(self) -> tuple[Interval, ...]:

@@ -38,7 +38,7 @@ from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, sign_at
 from garkcli.frozen import Frozen
-from garkcli.tableau.family import OSCILLATING, Family
+from garkcli.tableau.family import OSCILLATING, Family, Stability
 from garkcli.upward import Shown
 
 Wanted: TypeAlias = Literal["p-stable", "i-stable", "a-stable", "l-stable"]
@@ -58,6 +58,7 @@ class StableValues(Shown, Frozen):
         form: the one number, linear in several parameters, that the step depends on, and whose
             values are meant; None for a parameter itself.
         is_apart: whether some of its methods may lack what else the file wants, such as signs.
+        is_embedded: whether the stability is that with the embedded weights.
     """
 
     family: Family
@@ -69,6 +70,12 @@ class StableValues(Shown, Frozen):
     colour: int | None = None
     form: Form | None = None
     is_apart: bool = False
+    is_embedded: bool = False
+
+    @property
+    def stability(self) -> Stability:
+        """The kind of stability, of which weights and vector fields."""
+        return Stability(self.wanted, self.colour, self.is_embedded)
 
     @property
     def parameter(self) -> str:

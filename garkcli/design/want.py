@@ -112,13 +112,13 @@ class Want(Frozen):
     meaning: Callable[[Asked], Meaning]
 
 
-def stability(kind: str, asked: Asked) -> Meaning:
+def stability(kind: str, asked: Asked, is_embedded: bool = False) -> Meaning:
     """A kind of stability, of the whole method or of one colour; decided at each solution."""
     colour = None
     if len(asked.colours) < asked.tableau.size:
         [colour] = asked.colours
         asked.diagonal(colour, kind)
-    return Meaning(stable=(Stability(kind, colour),))
+    return Meaning(stable=(Stability(kind, colour, is_embedded),))
 
 
 def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:

@@ -11,6 +11,7 @@ from flint import fmpq
 
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.dense import DENSE
+from garkcli.design.minimise.sector import rest_of_cosine
 from garkcli.design.pairs import pair_conditions
 from garkcli.design.predictor import PREDICTOR
 from garkcli.design.want import Asked, Meaning, Want, stability
@@ -30,6 +31,7 @@ LEVELS = {
     "ssp": "the SSP coefficient",
     "real-interval": "x with |R| ≤ 1 on [−x, 0]",
     "imaginary-interval": "y with |R| ≤ 1 on [−iy, iy]",
+    "sector": "α in degrees with |R| ≤ 1 where |arg(−z)| ≤ α",
     "oscillator-interval": "z with bounded powers of the oscillator's step for hω ≤ z",
 }
 """Levels that may be wanted, in words."""
@@ -153,6 +155,11 @@ def _embedded_at_infinity(asked: Asked) -> Meaning:
     return at_infinity(replace(asked, tableau=as_embedded(asked, "embedded-R-infinity")))
 
 
+def _embedded_stability(key: str, asked: Asked) -> Meaning:
+    as_embedded(asked, key)
+    return stability(key.removeprefix("embedded-"), asked, is_embedded=True)
+
+
 def _stability_order(asked: Asked) -> Meaning:
     """R(z) = exp z + O(z^(p+1)): b A^(k−1) 𝟙 = 1/k! for k = 1, …, p."""
     zeros: list[Any] = []
@@ -170,6 +177,8 @@ def _level(key: str, asked: Asked) -> Meaning:
     if len(asked.colours) < asked.tableau.size or not isinstance(asked.value, fmpq):
         message = f"design: {key} is a rational number, and of the whole method"
         raise MethodError(message, f"write {key}: 3/2", code="wanted-without-meaning")
+    if key == "sector":
+        rest_of_cosine(asked.value)
     return Meaning(levels=((f"-{key}", asked.value),))
 
 
@@ -337,6 +346,15 @@ WANTS = {
             "a-stable", "flag", "|R(z)| ≤ 1 in the left half plane", partial(stability, "a-stable")
         ),
         Want("l-stable", "flag", "A-stable with R(∞) = 0", partial(stability, "l-stable")),
+        *(
+            Want(
+                f"embedded-{kind}",
+                "flag",
+                f"{kind} with the embedded weights in place of b",
+                partial(_embedded_stability, f"embedded-{kind}"),
+            )
+            for kind in ("a-stable", "l-stable")
+        ),
         Want(
             "p-stable",
             "flag",

@@ -227,6 +227,7 @@ def _family(
         impossible=meaning.impossible,
         levels=meaning.levels,
         embedded_order=wishes.count("embedded-order"),
+        dense_order=wishes.count("dense-order"),
         wanted_at=reader.place_of("design"),
         parameters_at=reader.place_of("parameters"),
         settings=settings,

@@ -14,7 +14,6 @@ from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
-from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, TRUTH, choice, record
@@ -39,7 +38,7 @@ def number(root: RealRoot, d: Plain) -> str:
 
 def stability(values: StableValues, d: Plain) -> str:
     """For which values a method is stable: ``A-stable for exactly 1/4 ≤ g``."""
-    wanted = Stability(values.wanted, values.colour).in_words(values.family.tableau)
+    wanted = values.stability.in_words(values.family.tableau)
     text = d.prose("stable" if values.two_springs else wanted)
     name = ", ".join(map(d.expression, values.family.parameters))
     if values.has_wishes:
@@ -107,12 +106,13 @@ SPRINGS: Section[TwoSprings] = Section(
 )
 WANTED: Row[StableValues] = Row("wanted", choice(*get_args(Wanted)), lambda x: x.wanted, DATA)
 COLOUR: Row[StableValues] = maybe("colour", INDEX, lambda x: x.colour, DATA)
+EMBEDDED: Row[StableValues] = optional("embedded", TRUTH, lambda x: x.is_embedded or None, DATA)
 FOUND: Rows[StableValues] = [
     Row("set", SET, lambda x: x.found, DATA),
     Row("undecided", ROOTS, lambda x: x.undecided, DATA),
 ]
 APART: Row[StableValues] = optional("apart", TRUTH, lambda x: x.is_apart or None, DATA)
-VALUES = Section(WANTED, COLOUR, FOUND, APART)
+VALUES = Section(WANTED, COLOUR, EMBEDDED, FOUND, APART)
 """The values as a part of the report of an order."""
 
 

@@ -16,7 +16,7 @@ from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
-from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.embedded import NOTHING, Further, with_weights
 from garkcli.tableau.forms import on_linear_problems
 from garkcli.tableau.pointwise import at_points, nodes_in_radicals
 from garkcli.tableau.tableau import Tableau
@@ -51,14 +51,17 @@ class Stability(Frozen):
     Attributes:
         kind: ``a-stable``, ``l-stable``, ``p-stable`` or ``i-stable``.
         colour: of a diagonal method, counted from 0; None for the whole method.
+        is_embedded: whether the embedded weights take the place of b.
     """
 
     kind: str
     colour: int | None = None
+    is_embedded: bool = False
 
     def __str__(self) -> str:
         """The usual spelling, such as A-stable."""
         name = self.kind[0].upper() + self.kind[1:]
+        name += " with the embedded weights" * self.is_embedded
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
     def in_words(self, tableau: Tableau) -> str:
@@ -92,6 +95,7 @@ class Family(Frozen, kw_only=True):
         impossible: requirements that no value meets, with the reason.
         levels: the required levels, such as -ssp, each with the least value.
         embedded_order: the required order of the embedded weights, if the file has one.
+        dense_order: the required order of the dense output, if the file has one.
     """
 
     name: str
@@ -113,11 +117,19 @@ class Family(Frozen, kw_only=True):
     impossible: tuple[str, ...] = ()
     levels: tuple[tuple[str, fmpq], ...] = ()
     embedded_order: int | None = None
+    dense_order: int | None = None
 
     @property
     def on_linear_problems(self) -> Self:
         """The family of the methods with the same steps on linear problems."""
         return replace(self, tableau=on_linear_problems(self.tableau))
+
+    def tested(self, wanted: Stability) -> Self:
+        """The family of the methods that a required stability is about, on linear problems."""
+        embedded = self.further.embedded
+        if not wanted.is_embedded or embedded is None:
+            return self.on_linear_problems
+        return replace(self, tableau=with_weights(self.tableau, embedded)).on_linear_problems
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

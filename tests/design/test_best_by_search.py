@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+from math import acos, cos, degrees, radians
 from pathlib import Path
 from typing import Any
 
@@ -15,19 +16,26 @@ import pytest
 from flint import fmpq
 
 from garkcli import find_parameters, load, loads, loads_family, minimise, search_methods
+from garkcli.design.design import stable_sets
 from garkcli.design.member import further_member, member
 from garkcli.design.minimise.measures import MEASURES
 from garkcli.design.minimise.objective import Level, Measure, Objective, Subject, Sum
+from garkcli.design.minimise.sector import rest_of_cosine
 from garkcli.design.minimise.sums import objective_of
 from garkcli.design.search.goals import meant
 from garkcli.design.search.optimum import Program
 from garkcli.design.search.search import Search
 from garkcli.design.search.tasks import HIGHEST, Least
-from garkcli.errors import MethodError, UsageProblem
+from garkcli.design.stable_values import stable_values
+from garkcli.errors import MethodError, MethodFileError, UsageProblem
+from garkcli.exact.display import to_ball
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.order.constants import error_constants
 from garkcli.problems.draw import Draw
 from garkcli.report.search import _shown
+from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
+from garkcli.stability.sector import largest_sector
+from garkcli.tableau.embedded import with_weights
 from garkcli.tell.dialect import Plain
 from tests.cli.harness import gark
 from tests.whole import in_whole
@@ -88,13 +96,15 @@ def test_measures_in_floats_are_the_exact_ones(text: str, measure: Measure) -> N
         values = dict(zip(ring.names, point, strict=True))
         further = further_member(family.further, ring, values)
         tableau = member(search.tableau, ring, values)
-        exact = measure.squared(Subject(tableau, search.order, further, family.embedded_order))
+        exact = measure.squared(Subject.of(family, tableau, search.order, further))
         x = floats(point)
         assert made.total.value(x) ** 2 == pytest.approx(int(exact.p) / int(exact.q), rel=1e-9)
         task = Least(made.total, x)
         z = np.append(x, task.guess(x))
         look = task.at(z)
         assert look.value == pytest.approx(made.total.value(x))
+        if measure.key == "nonzero":
+            continue
         assert_gradient(lambda z, task=task: task.at(z).value, z, look.gradient)
         for k in range(len(look.signs)):
             assert_gradient(lambda z, task=task, k=k: task.at(z).signs[k], z, look.of_signs[k])
@@ -136,7 +146,7 @@ def test_smooth_objectives_are_the_exact_ones(text: str, objective: str) -> None
     for point in points(search, 3):
         values = dict(zip(search.family.ring.names, point, strict=True))
         tableau = member(search.tableau, search.family.ring, values)
-        quotient = exact.formula(tableau, search.order, None)
+        quotient = exact.formula(Subject(tableau, search.order), None)
         wanted = quotient.numerator / quotient.denominator
         value, gradient = goal.at(floats(point))
         assert value == pytest.approx(int(wanted.p) / int(wanted.q), rel=1e-10)
@@ -173,6 +183,7 @@ design: {order: 2}
         (RK4, "-imaginary-interval"),
         (VERLET, "-oscillator-interval"),
         (SSP33, "-ssp"),
+        (SDIRK, "-sector"),
     ],
 )
 def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
@@ -184,11 +195,11 @@ def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
     [(_, goal)] = made.total.levels
     assert isinstance(exact, Level)
     names = search.family.ring.names
-    point = [fmpq(1, 2)] if len(names) == 1 else SSP33_POINT
+    point = {"-ssp": SSP33_POINT, "-sector": SDIRK_POINT}.get(objective, [fmpq(1, 2)])
     values = dict(zip(names, point, strict=True))
-    found = exact.shown(exact.value(member(search.tableau, search.family.ring, values)))
+    found = exact.measured(exact.value(member(search.tableau, search.family.ring, values)))
     assert found is not None
-    level = float(found.ball(64))
+    level = float(found)
     x = floats(point)
     below, slopes = goal.at(np.append(x, 0.99 * level))
     above, _ = goal.at(np.append(x, 1.02 * level))
@@ -200,6 +211,8 @@ def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
 
 SSP33_POINT = [fmpq(1), fmpq(1, 2), fmpq(1, 4), fmpq(1, 6), fmpq(1, 6), fmpq(2, 3)]
 """c2, c3, a32 and the weights of Shu and Osher's method."""
+SDIRK_POINT = [fmpq(1, 6), fmpq(1, 2), fmpq(1, 2), fmpq(1, 3)]
+"""γ, c2 and weights of a method of order 1, whose angle is 83.4 degrees."""
 
 
 def test_conditions_at_one_point_are_those_at_many() -> None:
@@ -334,7 +347,7 @@ def test_sums_are_their_terms() -> None:
     for name, weight in {"error": 1, "largest": 0.01, "-ssp": -0.02}.items():
         one = objective_of(name)
         if isinstance(one, Objective):
-            quotient = one.formula(tableau, 2, None)
+            quotient = one.formula(Subject(tableau, 2), None)
             total += weight * float(quotient.numerator / quotient.denominator)
         elif isinstance(one, Measure):
             total += weight * float(one.squared(Subject(tableau, 2))) ** 0.5
@@ -535,3 +548,93 @@ def test_emitted_pairs_claim_their_embedded_order(tmp_path: Path) -> None:
     check = gark("check", str(made))
     assert check.code == 0
     assert re.search(r"claims hold +order: 3, embedded-order: [23]", check.out)
+
+
+ALEXANDER = "unknown: {stages: 3, shape: [sdirk, stiffly-accurate]}\ndesign: {order: 3"
+"""Order 3 leaves three numbers γ: A(75.58°)-stable with 0.159, L-stable with 0.436, and 2.4."""
+
+
+@pytest.mark.parametrize(("bound", "gamma"), [("75", 0.158984), ("76", 0.435867), ("90", 0.435867)])
+def test_a_sector_may_be_wanted(bound: str, gamma: float) -> None:
+    """The least error has the γ that R = P/(1 − γz)³ leaves; R(∞) = 0 for each."""
+    family = loads_family(f"{ALEXANDER}, sector: {bound}}}")
+    [method] = search_methods(family, 3, 12, objective="A", most=1).methods
+    assert method.proof == "exact"
+    found = search_files(method, family)
+    assert float(to_ball(found.tableau.blocks[0, 0][0][0], 20)) == pytest.approx(gamma, abs=1e-6)
+    sector = largest_sector(stability_function(found.tableau))
+    assert sector is not None
+    assert sector.cosine is not None
+    assert degrees(acos(float(sector.cosine))) >= float(bound)
+
+
+@pytest.mark.parametrize("angle", [fmpq(90), fmpq(60), fmpq(45), fmpq(1, 2), fmpq(301, 4)])
+def test_cosines_of_angles_are_algebraic(angle: fmpq) -> None:
+    """By Chebyshev's polynomials, against the cosine of floats."""
+    found = rest_of_cosine(angle)
+    assert float(found) == pytest.approx(1 - cos(radians(int(angle.p) / int(angle.q))), rel=1e-12)
+    exact = {fmpq(90): fmpq(1), fmpq(60): fmpq(1, 2)}.get(angle)
+    assert found.exact == exact
+
+
+@pytest.mark.parametrize("angle", ["91", "0", "1/7"])
+def test_angles_that_are_none_are_refused(angle: str) -> None:
+    with pytest.raises(MethodFileError, match="is no angle"):
+        loads_family(f"{ALEXANDER}, sector: {angle}}}")
+
+
+@pytest.mark.parametrize(("stages", "least"), [(3, 4), (4, 7)])
+def test_coefficients_that_are_not_zero_are_counted(stages: int, least: int) -> None:
+    """Three stages of order 3 need b3 a32 a21 = 1/6 and another weight; Kutta's method of order 4
+    has four weights and one entry a row.
+    """
+    text = f"unknown: {{stages: {stages}, shape: explicit}}\ndesign: {{order: {stages}}}"
+    [method] = best(text, "nonzero", 20).methods
+    assert method.objective == str(least)
+    tableau = search_files(method, loads_family(text)).tableau
+    entries = [x for row in tableau.blocks[0, 0] for x in row] + list(tableau.colours[0].b)
+    assert sum(map(bool, entries)) == least
+
+
+EMBEDDED = """
+parameters: {g: free}
+A: [[0, 0], [1/2, 1/2]]
+b: [1/2, 1/2]
+embedded: [1 - g, g]
+design: {order: 2, a-stable: true, embedded-KIND-stable: true}
+"""
+"""R̂ = 1 + z + …/(1 − z/2) grows like (g − 1/2) z²/(1 − z/2)."""
+
+
+@pytest.mark.parametrize(("kind", "values"), [("a", ["1/2"]), ("l", [])])
+def test_stability_with_the_embedded_weights(kind: str, values: list[str]) -> None:
+    """Its set is that of the method with them in place of b."""
+    design = find_parameters(loads_family(EMBEDDED.replace("KIND", kind)))
+    [_, found] = stable_sets(design)
+    assert found.is_embedded
+    assert [str(x.start.exact) for x in found.found if x.start is not None] == values
+    alone = EMBEDDED.replace("b: [1/2, 1/2]\nembedded:", "b:").split("design")[0]
+    same = stable_values(loads_family(alone), "a-stable" if kind == "a" else "l-stable")
+    assert same.found == found.found
+
+
+def test_a_search_wants_stability_with_the_embedded_weights() -> None:
+    """The best pair has it; the best without it has not."""
+    text = "unknown: {stages: 3, shape: [sdirk, stiffly-accurate], embedded: true}\ndesign: "
+    wanted = "{order: 3, l-stable: true, embedded-order: 2, embedded-a-stable: true}"
+    for plain, is_stable in (
+        (wanted, True),
+        (wanted.replace(", embedded-a-stable: true", ""), None),
+    ):
+        family = loads_family(text + plain)
+        [method] = search_methods(family, 3, 10, objective="embedded-A", most=1).methods
+        found = search_files(method, family)
+        swapped = with_weights(found.tableau, found.embedded)
+        if is_stable:
+            assert is_a_stable(stability_function(swapped))
+            assert not is_l_stable(stability_function(swapped))
+
+
+def test_stability_with_embedded_weights_needs_such() -> None:
+    with pytest.raises(MethodFileError, match="embedded weights of the whole method"):
+        loads_family("unknown: {stages: 2, shape: sdirk}\ndesign: {embedded-a-stable: true}")

@@ -12,10 +12,10 @@ from flint import fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.design.design import Design, further_of, order_of
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import is_admissible, is_as_stable, member, not_negative
+from garkcli.design.member import further_member, is_admissible, is_as_stable, member, not_negative
 from garkcli.design.minimise.climbing import GRID, Point, climbed
 from garkcli.design.minimise.line import Conditions, Within
-from garkcli.design.minimise.objective import Level, Objective, Size
+from garkcli.design.minimise.objective import Level, Objective, Size, Subject
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.pairs import least_error
 from garkcli.design.parts import Chart, Part, charts, points_of
@@ -196,6 +196,13 @@ class Comparison(Mutable):
         method = Found(solution, None, (index,))
         value = self.value_of(solution, index)
         self.candidates.append(Candidate(value, method, index, is_constant, proof))
+
+    def subject(self, values: Mapping[str, Any]) -> Subject:
+        """The methods with values of the unknowns, which may be coordinates of a part."""
+        family = self.design.family
+        further = further_member(family.further, family.ring, values)
+        tableau = member(self.design.tableau, family.ring, values)
+        return Subject.of(family, tableau, self.step.order, further)
 
     def tableau(self, part: Part) -> Tableau:
         """The tableau with the coordinates of a part."""

@@ -304,12 +304,13 @@ class Highest(Comparison):
     def over_line(self, part: Part) -> None:
         """All candidates of a part with one free coordinate."""
         [name] = part.ring.names
-        tableau = self.tableau(part)
+        tableau, signs = self.tableau(part), self.objective.signs
+        assert signs is not None  # ``exactly`` refuses others
 
         def level(t: fmpq) -> Size:
             return self.objective.value(member(tableau, part.ring, {name: t}))
 
-        levels = on_levels(level, self.objective.signs(tableau, part.ring), self.conditions(part))
+        levels = on_levels(level, signs(tableau, part.ring), self.conditions(part))
         if not levels.is_decided:
             self.extent = "found"
         for high in levels.attained:

@@ -141,6 +141,11 @@ MEASURES = (
     Measure(
         "largest", "the largest coefficient in size", lambda x: _largest(coefficients_of(x.tableau))
     ),
+    Measure(
+        "nonzero",
+        "the number of coefficients that are not 0",
+        lambda x: fmpq(sum(map(bool, coefficients_of(x.tableau)))) ** 2,
+    ),
     Measure("infinity", "|R(∞)|", lambda x: _infinity(x.tableau, "infinity")),
     Measure(
         "embedded-infinity",

@@ -14,15 +14,18 @@ from garkcli.exact.parametric import Parameters
 from garkcli.exact.roots import RealRoot, square_root
 from garkcli.frozen import Frozen
 from garkcli.tableau.embedded import NOTHING, Further, with_weights
+from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
-Formula: TypeAlias = Callable[[Tableau, int, "Parameters | None"], Quotient]
-"""From a tableau, the order of its methods and the parameters in it (None where its entries are
-numbers) to the objective, numerator and denominator.
+Formula: TypeAlias = Callable[["Subject", "Parameters | None"], Quotient]
+"""From methods and the parameters in their coefficients (None where these are numbers) to the
+objective, numerator and denominator.
 """
 Size: TypeAlias = RealRoot | None
 """A number that is not negative; None for infinity."""
 
+INSIDE = 1e-7
+"""The part by which a search makes levels larger than the least value that is wanted."""
 ORIGIN = RealRoot.rational(fmpq(0))
 """0."""
 
@@ -74,7 +77,7 @@ class Level(Frozen):
         key: its name, which begins with a minus sign.
         summary: what it is, in words.
         value: the level y of one method, by the ordinary engine.
-        signs: of a tableau of one parameter: what decides it.
+        signs: of a tableau of one parameter: what decides it; None where a search alone does.
         is_square: whether what people mean is √y.
         claim: the name by which method files claim it, if they can.
     """
@@ -82,13 +85,26 @@ class Level(Frozen):
     key: str
     summary: str
     value: Callable[[Tableau], Size]
-    signs: Callable[[Tableau, Parameters], Signs]
+    signs: Callable[[Tableau, Parameters], Signs] | None = None
     is_square: bool = False
     claim: str | None = None
 
     def shown(self, y: Size) -> Size:
         """What people mean by a level."""
         return square_root(y) if self.is_square and y is not None else y
+
+    def measured(self, y: Size) -> Size | float:
+        """What a search prints of a level."""
+        return self.shown(y)
+
+    def inside(self, bound: float) -> float:
+        """A number a little larger than a least value: exact numbers nearby must not have less."""
+        return bound * (1 + INSIDE)
+
+    def reaches(self, y: Size, bound: fmpq) -> bool:
+        """Whether what people mean by a level is at least a number."""
+        shown = self.shown(y)
+        return shown is None or not shown < RealRoot.rational(bound)
 
 
 class Subject(Frozen):
@@ -99,12 +115,19 @@ class Subject(Frozen):
         order: of them.
         further: their embedded weights.
         embedded_order: the order that the embedded weights are to have; None where none is wanted.
+        dense_order: the order that the dense output is to have; None where none is wanted.
     """
 
     tableau: Tableau
     order: int
     further: Further = NOTHING
     embedded_order: int | None = None
+    dense_order: int | None = None
+
+    @classmethod
+    def of(cls, family: Family, tableau: Tableau, order: int, further: Further) -> Subject:
+        """Methods of a family, with its wants on further weights."""
+        return cls(tableau, order, further, family.embedded_order, family.dense_order)
 
     @property
     def embedded(self) -> tuple[Tableau, int]:

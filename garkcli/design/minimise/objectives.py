@@ -9,8 +9,22 @@ from typing import Any
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from garkcli.design.minimise.measures import MEASURES
-from garkcli.design.minimise.objective import Either, Level, Measure, Objective, Signs, Size
-from garkcli.design.minimise.squared_error import Quotient, squared_coupling_error, squared_error
+from garkcli.design.minimise.objective import (
+    Either,
+    Level,
+    Measure,
+    Objective,
+    Signs,
+    Size,
+    Subject,
+)
+from garkcli.design.minimise.sector import Angle, angle_of
+from garkcli.design.minimise.squared_error import (
+    Quotient,
+    squared_coupling_error,
+    squared_dense_error,
+    squared_error,
+)
 from garkcli.design.stability_kinds import oscillator_curves, squared_modulus
 from garkcli.design.step_plane import Line, over_line, step_plane
 from garkcli.errors import UsageProblem
@@ -78,17 +92,27 @@ def refuse_one_colour(tableau: Tableau) -> None:
         raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
 
 
-def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
-    refuse_one_colour(tableau)
-    return squared_coupling_error(tableau, order + 1, ring)
+def _coupling_error(subject: Subject, ring: Parameters | None) -> Quotient:
+    refuse_one_colour(subject.tableau)
+    return squared_coupling_error(subject.tableau, subject.order + 1, ring)
 
 
-def _squared_coefficients(tableau: Tableau, _order: int, ring: Parameters | None) -> Quotient:
+def _dense_error(subject: Subject, ring: Parameters | None) -> Quotient:
+    dense, order = subject.further.dense, subject.dense_order
+    if dense is None or order is None:
+        message = "dense-error is that of dense output with an order: the file wants none"
+        cure = "write dense beside b, and dense-order: 3 under design"
+        raise UsageProblem(message, cure, code="wanted-without-meaning")
+    return squared_dense_error(subject.tableau, dense, order + 1, ring)
+
+
+def _squared_coefficients(subject: Subject, ring: Parameters | None) -> Quotient:
     """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
 
     At nodes T is the identity; in a polynomial space it makes the sum rational where the nodes are
     not.
     """
+    tableau = subject.tableau
     tableau.demand_fields("Σ a² + Σ b²")
     total: Any = fmpq(0)
     inverses = [_inverse(_traces(space)) for space in tableau.spaces]
@@ -176,6 +200,11 @@ def _imaginary_signs(tableau: Tableau, ring: Parameters) -> Signs:
     return Signs([squared_modulus(Q) - squared_modulus(P)])
 
 
+def _sector(tableau: Tableau) -> Size:
+    refuse_partitioned(tableau)
+    return angle_of(stability_function(on_linear_problems(tableau)))
+
+
 def oscillator_of(tableau: Tableau) -> Oscillator:
     tableau.demand_fields("the oscillator")
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
@@ -231,13 +260,19 @@ OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
         Objective(
             "error",
             "Σ e(u)² over the trees of order {next}, e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u)",
-            lambda tableau, order, ring: squared_error(tableau, order + 1, ring),
+            lambda x, ring: squared_error(x.tableau, x.order + 1, ring),
         ),
         Objective(
             "error-coupling",
             "Σ e(u)² over the trees of order {next} with more than one colour,"
             " e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u)",
             _coupling_error,
+        ),
+        Objective(
+            "dense-error",
+            "∫ Σ e_θ(u)² dθ over the trees of order q + 1 and θ from 0 to 1, q the dense order, e_θ"
+            " the errors of the dense output",
+            _dense_error,
         ),
         Objective(
             "coefficients",
@@ -260,6 +295,13 @@ OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
             _imaginary_signs,
             is_square=True,
             claim="imaginary-stability",
+        ),
+        # E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section V.2
+        Angle(
+            "-sector",
+            "the angle α, in degrees, with |R| ≤ 1 where |arg(−z)| ≤ α, the vector fields all"
+            " equal",
+            _sector,
         ),
         OSCILLATOR_INTERVAL,
         *MEASURES,

@@ -7,11 +7,11 @@ from functools import cmp_to_key
 from itertools import combinations
 from typing import cast
 
-from flint import fmpq, fmpq_mpoly
+from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from garkcli.deadline import check_time, checked, until
 from garkcli.design.critical import minors, slopes
-from garkcli.design.member import member
+from garkcli.design.member import not_negative
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
@@ -56,6 +56,19 @@ def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> li
         numerator.derivative(i) * denominator - numerator * denominator.derivative(i)
         for i in range(size)
     ]
+
+
+def is_convex(p: fmpq_mpoly) -> bool:
+    """Whether a polynomial is quadratic and convex: the signs of the characteristic polynomial of
+    its second derivatives alternate.
+    """
+    if p.total_degree() > 2:
+        return False
+    size = p.context().nvars()
+    rows = [[p.derivative(i).derivative(j) for j in range(size)] for i in range(size)]
+    second = fmpq_mat([[x.leading_coefficient() if x else fmpq(0) for x in row] for row in rows])
+    signs = second.charpoly().coeffs()[::-1]
+    return all(a * (-1) ** k >= 0 for k, a in enumerate(signs))
 
 
 def is_of_one_dimension(part: Part) -> bool:
@@ -225,8 +238,27 @@ class Smallest(Comparison):
         one of them has the least value, and it is a critical point of its part.
         """
         family = self.design.family
-        is_closed = not (self.step.nonzero or family.positive or family.stable or family.radicals)
-        return is_closed and are_bounded(family.ring, self.objective.bounded(self.design.tableau))
+        return self._is_closed and are_bounded(
+            family.ring, self.objective.bounded(self.design.tableau)
+        )
+
+    @property
+    def _is_closed(self) -> bool:
+        family = self.design.family
+        return not (self.step.nonzero or family.positive or family.stable or family.radicals)
+
+    def _is_convex(self, part: Part) -> bool:
+        """Whether a part is a whole space on which the value is a convex quadratic polynomial: its
+        critical points have the least value.
+        """
+        if not (self._is_closed and part.is_free) or part.nonzero or part.sets:
+            return False
+        if any(True for _ in not_negative(self.design.family)):
+            return False
+        numerator, denominator = self._formula(part)
+        return denominator.is_constant() and is_convex(
+            numerator / denominator.leading_coefficient()
+        )
 
     def _is_bounded(self, part: Part, best: RealRoot) -> bool:
         """Whether no method of a part has a smaller value, of irrational ones by more than
@@ -234,19 +266,20 @@ class Smallest(Comparison):
         """
         if part.dimension == 0 or (part.is_free and part.dimension == 1):
             return self.is_settled(part)
+        if self.extent == "critical-points" and self._is_convex(part):
+            return True
         if not charts(part) or len(part.ring.names) != 2:
             return False
         place, lines = _lines(part)
         return bool(is_nowhere_less(*self._formula(part), _bound(best), place, lines))
 
     def value_of(self, solution: Solution, index: int) -> Size:
-        tableau = member(self.design.tableau, self.design.family.ring, solution.values)
-        quotient = self.objective.formula(tableau, self.step.order, None)
+        quotient = self.objective.formula(self.subject(solution.values), None)
         return value_at(quotient.numerator / quotient.denominator, solution.real[index])
 
     def _formula(self, part: Part) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """The objective as a function of the coordinates of a part."""
-        quotient = self.objective.formula(self.tableau(part), self.step.order, part.ring)
+        quotient = self.objective.formula(self.subject(part.values), part.ring)
         return fraction(part.ring.quotient(quotient.numerator, quotient.denominator), part.ring)
 
     def over_line(self, part: Part) -> None:

@@ -16,16 +16,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
+from itertools import chain
 
 from flint import fmpq
 
 from garkcli.deadline import check_time
-from garkcli.design.conditions import Cleared, Entry, Row, Square
+from garkcli.design.conditions import Cleared, Entry, Row, Square, without_denominators
+from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import apply, dot
 from garkcli.exact.parametric import Parameters
 from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import SEVERAL, Kind
 from garkcli.order.recursion import OrderByOrder
+from garkcli.tableau.embedded import DenseOutput
 from garkcli.tableau.polynomial_space import PolynomialSpace, convolution
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -157,6 +160,26 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
     return _Sums(Cleared.of(tableau, ring)).total(order)
 
 
+def squared_dense_error(
+    tableau: Tableau, dense: DenseOutput, order: int, ring: Parameters | None
+) -> Quotient:
+    """∫ Σ e_θ(u)² dθ over θ from 0 to 1 and all trees of an order, with the error e_θ(u) of the
+    dense output at θ. With b(θ) = Σ_k B_k θ^k, and e_k(u) = (B_k·𝒜^[u] − 1/γ(u)) / σ(u) for
+    k = ρ(u), without 1/γ(u) for other k, it is Σ_jk Σ_u e_j(u) e_k(u) / (j + k + 1).
+    """
+    powers = range(1, max(order, dense.degree) + 1)
+    zero = tuple((ZERO,) * len(colour.b) for colour in tableau.colours)
+    rows = [dense.coefficients(k) if k <= dense.degree else zero for k in powers]
+    E: Entry = ONE
+    if ring is not None:
+        E, flat = without_denominators(list(chain.from_iterable(rows)), ring)
+        size = tableau.size
+        rows = [flat[k : k + size] for k in range(0, len(flat), size)]
+    weighted = [Weighted(row, k == order) for k, row in zip(powers, rows, strict=True)]
+    form = [[fmpq(1, j + k + 1) for k in powers] for j in powers]
+    return _Sums(Cleared.of(tableau, ring)).of_form(order, weighted, form, E)
+
+
 def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     """The same over the trees of more than one colour."""
     cleared = Cleared.of(tableau, ring)
@@ -167,6 +190,15 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
             alone = _Sums(cleared.alone(l)).total(order)
             numerator = numerator - alone.numerator
     return Quotient(numerator, total.denominator)
+
+
+class Weighted(Frozen):
+    """Weights for each colour, times a common denominator, and whether they should be 1/γ(u) at the
+    trees of an order; else 0.
+    """
+
+    weights: Sequence[Row]
+    is_exact: bool
 
 
 class _Branch(Frozen):
@@ -193,15 +225,36 @@ class _Sums(OrderByOrder[Tensor]):
 
     def total(self, order: int) -> Quotient:
         """Σ e(u)² over the trees of an order, over all root colours."""
+        own = Weighted(self.cleared.weights, is_exact=True)
+        return self.of_form(order, [own], [[fmpq(1)]], self.cleared.E)
+
+    def of_form(
+        self, order: int, rows: Sequence[Weighted], form: Sequence[Sequence[fmpq]], E: Entry
+    ) -> Quotient:
+        """Σ_jk q_jk Σ e_j(u) e_k(u) over the trees of an order, over all root colours.
+
+        Args:
+            order: of the trees.
+            rows: the weights that the errors e_j belong to, times E.
+            form: q.
+            E: a common denominator.
+        """
         cleared = self.cleared
-        E = cleared.E
         total = cleared.one * 0
         for l in cleared.tableau.roots:
-            b, kind = cleared.weights[l], cleared.tableau.colours[l].kind
+            kind = cleared.tableau.colours[l].kind
             x = self.of_trees(l, order)
-            # (b v)² − 2 (b v) (E w / order) + (E w / order)²
-            scale = E * _share(kind, order)
-            found = dot(b, _applied(x.vv, b)) - dot(b, x.vw) * scale * 2 + x.ww * scale * scale
+            share = E * _share(kind, order)
+            found = cleared.one * 0
+            scales = [share if row.is_exact else share * 0 for row in rows]
+            for j, (one, s) in enumerate(zip(rows, scales, strict=True)):
+                b = one.weights[l]
+                v, w = _applied(x.vv, b), dot(b, x.vw)
+                for k, (other, t) in enumerate(zip(rows, scales, strict=True)):
+                    c = other.weights[l]
+                    # (b v) (c v) − (b v) (t w) − (c v) (s w) + (s w) (t w)
+                    part = dot(c, v) - w * t - dot(c, x.vw) * s + x.ww * s * t
+                    found += part * form[j][k]
             # its branches have D once for each order
             total += found * cleared.D ** (2 * (kind.weight - 1))
         power = cleared.D ** (order - 1)

@@ -7,14 +7,13 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.design.minimise.objective import Either, Level, Measure, Objective, Sum
+from garkcli.design.minimise.objective import Either, Level, Measure, Objective, Subject, Sum
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.squared_error import Quotient
 from garkcli.errors import ExpressionError, UsageProblem, did_you_mean
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Chain, Expression, Literal, Name
 from garkcli.exact.parametric import Parameters
-from garkcli.tableau.tableau import Tableau
 
 Wanted: TypeAlias = Objective | Level | Measure | Either | Sum
 """What may be minimised."""
@@ -126,7 +125,7 @@ def exactly(objective: Objective | Level | Measure | Sum) -> Objective | Level:
     Raises:
         UsageProblem: it is no rational function of the coefficients.
     """
-    if isinstance(objective, (Objective, Level)):
+    if isinstance(objective, Objective) or (isinstance(objective, Level) and objective.signs):
         return objective
     terms = objective.terms if isinstance(objective, Sum) else ((fmpq(1), objective),)
     formulas = []
@@ -137,10 +136,10 @@ def exactly(objective: Objective | Level | Measure | Sum) -> Objective | Level:
             raise UsageProblem(message, f"add --search N{_instead(name)}", code="option-alone")
         formulas.append((weight, one.formula))
 
-    def formula(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
+    def formula(subject: Subject, ring: Parameters | None) -> Quotient:
         total = Quotient(fmpq(0), fmpq(1))
         for weight, one in formulas:
-            part = one(tableau, order, ring)
+            part = one(subject, ring)
             above = total.numerator * part.denominator + part.numerator * total.denominator * weight
             total = Quotient(above, total.denominator * part.denominator)
         return total

@@ -6,6 +6,7 @@ g(x, y) ≥ 0 hold, which is made as large as possible as a further unknown.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -45,10 +46,12 @@ SAMPLES = 40
 """Points of an interval at which a stability function is held against 1."""
 HEAVIEST = 1e5
 """The largest weight of a point near 0: rounding must not look like an inequality that fails."""
+NOTHING = 1e-10
+"""A coefficient that is smaller counts as zero."""
 TINY = 1e-20
 """A norm that is smaller counts as this."""
 FAR = 1.5
-"""Points of the imaginary axis, for A-stability, are y = (1/t - 1)^FAR with t between 0 and 1."""
+"""Points of a half line are (1/t - 1)^FAR with t between 0 and 1."""
 
 
 class Trees:
@@ -182,7 +185,7 @@ def goal_of(objective: Single, setting: Setting) -> Goal:
     if objective.key in GOALS:
         return GOALS[objective.key](setting)
     assert isinstance(objective, Objective)
-    quotient = objective.formula(setting.tableau, setting.order, setting.ring)
+    quotient = objective.formula(setting.subject, setting.ring)
     number = setting.ring.quotient(quotient.numerator, quotient.denominator)
     whole = RationalFunction(number, setting.ring)
     return Smooth(_alone(whole, len(setting.ring.names)))
@@ -295,6 +298,29 @@ def _coupling(setting: Setting) -> Goal:
     return squared(setting.errors(1, is_coupling=True))
 
 
+def _nonzero(setting: Setting) -> Goal:
+    """A number of coefficients, which has no slope."""
+    import numpy as np
+
+    counts = Counter(coefficients_of(setting.tableau))
+    unknown = {x: n for x, n in counts.items() if isinstance(x, Parametric)}
+    known = sum(n for x, n in counts.items() if x and x not in unknown)
+    functions = Functions(entries_of(setting.tableau, setting.ring), len(setting.ring.names))
+    times = np.array(list(unknown.values()), float)
+
+    def at(x: Array) -> tuple[float, Array]:
+        values, _ = functions.at(x)
+        return known + float(times @ (np.abs(values) > NOTHING)), np.zeros(len(x))
+
+    return Smooth(at)
+
+
+def entries_of(tableau: Tableau, ring: Parameters) -> list[RationalFunction]:
+    """The coefficients that depend on the unknowns, each once."""
+    unknown = (x for x in coefficients_of(tableau) if isinstance(x, Parametric))
+    return [RationalFunction(x, ring) for x in dict.fromkeys(unknown)]
+
+
 def _at_infinity(setting: Setting, tableau: Tableau, key: str) -> Goal:
     above, below = at_infinity(tableau, key)
     return setting.sizes([above / below])
@@ -319,6 +345,7 @@ GOALS: dict[str, Callable[[Setting], Goal]] = {
     "-ssp": lambda x: Reach(_Contractive(x.tableau, x.ring).at),
     "-real-interval": _interval(-1.0),
     "-imaginary-interval": _interval(1.0j),
+    "-sector": lambda x: Reach(_Rays(x.tableau, x.ring).at),
     "-oscillator-interval": lambda x: Reach(_Oscillating(x.tableau, x.ring, x.order).at),
     "A": lambda x: quotient_of_norms(x.errors(1)),
     "largest-error": lambda x: Bound(x.errors(1)),
@@ -328,6 +355,7 @@ GOALS: dict[str, Callable[[Setting], Goal]] = {
     "D": lambda x: x.sizes(numbers_of(x.subject)),
     "E": lambda x: _pair(x, "E"),
     "largest": lambda x: x.sizes(coefficients_of(x.tableau)),
+    "nonzero": _nonzero,
     "infinity": lambda x: _at_infinity(x, x.tableau, "infinity"),
     "embedded-infinity": lambda x: _at_infinity(x, x.subject.embedded[0], "embedded-infinity"),
 }
@@ -461,18 +489,54 @@ class AStable:
     """
 
     def __init__(self, family: Family, colour: int | None, order: int) -> None:
-        import numpy as np
-
         tableau = family.tableau
         shares = [fmpq(int(colour in (None, l))) for l in range(tableau.size)]
         step = _Step(tableau, family.ring, [((share,),) for share in shares])
-        t = np.arange(1, SAMPLES + 1) / (SAMPLES + 1)
-        self._bounded = _Bounded(step, 1.0j, (1 / t - 1) ** FAR, order + 1)
+        self._bounded = _Bounded(step, 1.0j, whole_axis(), order + 1)
 
     def at(self, x: Array) -> Gradient:
         """The inequalities and their derivatives by the unknowns."""
         values, derivatives = self._bounded.over(x, 1.0)
         return values, derivatives[:, :-1]
+
+
+class _Rays:
+    """|R| ≤ 1 at points of the edges of a sector, whose angle in degrees is the last unknown, and
+    that is at most a right one.
+    """
+
+    def __init__(self, tableau: Tableau, ring: Parameters) -> None:
+        refuse_partitioned(tableau)
+        self.step = _Step(on_linear_problems(tableau), ring, [((ONE,),)] * tableau.size)
+        self.distances = whole_axis()
+
+    def at(self, point: Array) -> Gradient:
+        import numpy as np
+
+        x, angle = point[:-1], float(point[-1])
+        radian = np.pi / 180
+        z = -self.distances * np.exp(-1j * radian * angle)
+        M, slopes, by_z = (found[..., 0, 0] for found in self.step.at(x, z))
+        weight = 1 / np.minimum(1.0, self.distances)
+        value = 1 - np.abs(M) ** 2
+        derivatives = -2 * (M.conj() * slopes).real
+        by_angle = -2 * (M.conj() * by_z * z * -1j * radian).real
+        below = np.zeros((len(point), 1))
+        below[-1] = -1 / 90
+        inequalities = weight * np.concatenate([derivatives, by_angle[None]])
+        return (
+            np.append(weight * value, 1 - angle / 90),
+            np.concatenate([inequalities, below], axis=1).transpose(),
+        )
+
+
+def whole_axis() -> Array:
+    """Points of a half line from 0 to ∞."""
+    import numpy as np
+
+    t = np.arange(1, SAMPLES + 1) / (SAMPLES + 1)
+    points: Array = (1 / t - 1) ** FAR
+    return points
 
 
 class _Oscillating:

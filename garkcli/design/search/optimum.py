@@ -12,9 +12,18 @@ from flint import fmpq
 
 from garkcli.deadline import check_time
 from garkcli.design.member import not_negative
-from garkcli.design.minimise.objective import Measure, Single, Subject, Sum
+from garkcli.design.minimise.objective import INSIDE, Measure, Single, Subject, Sum
 from garkcli.design.search.descent import descended
-from garkcli.design.search.goals import AStable, Setting, Trees, goal_of, levels_of, terms_of
+from garkcli.design.search.goals import (
+    NOTHING,
+    AStable,
+    Setting,
+    Trees,
+    entries_of,
+    goal_of,
+    levels_of,
+    terms_of,
+)
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.points import Fixed, Fixings, rank
@@ -38,10 +47,6 @@ ROUNDING = 1e-17
 """A smaller sum of squares may be zero."""
 LARGEST = 20.0
 """Unknowns are no larger."""
-INSIDE = 1e-7
-"""Levels that are wanted are larger by this part, and entries that must not be negative for an SSP
-coefficient by a tenth: exact numbers nearby must not have less.
-"""
 MARGIN = 1e-6
 """Positive functions are at least so large."""
 CLOSE = 1e-12
@@ -103,12 +108,12 @@ class Program:
         self._trees = Trees(wide)
         trees, last = len(wide.table), wide.table.ids(order + 1)
         self._own = np.r_[0 : last.start, trees : len(wide)]
-        subject = Subject(conditions.tableau, order, family.further, family.embedded_order)
+        subject = Subject.of(family, conditions.tableau, order, family.further)
         self._setting = Setting(subject, ring, self._trees)
         self._caps: tuple[Equations, ...] = tuple(
             capped(
                 goal_of(level, self._setting),
-                as_float(bound) * (1 + INSIDE),
+                level.inside(as_float(bound)),
                 INSIDE / 10 if level.key == "-ssp" else 0.0,
             )
             for level, bound in levels_of(family)
@@ -121,7 +126,7 @@ class Program:
         self._margin = np.zeros(self._signs.shape[0])
         self._margin[: len(positive)] = MARGIN
         self.stable = [
-            AStable(family.on_linear_problems, wanted.colour, order)
+            AStable(family.tested(wanted), wanted.colour, order)
             for wanted in family.stable
             if wanted.kind in ("a-stable", "l-stable")
         ]
@@ -130,6 +135,9 @@ class Program:
         terms = terms_of(objective, self.conditions.tableau)
         goals = [(as_float(w), goal_of(x, self._setting)) for w, x in terms]
         self.total = Total(goals, self.within)
+        is_count = isinstance(objective, Measure) and objective.key == "nonzero"
+        setting = self._setting
+        self._entries = entries_of(setting.tableau, setting.ring) if is_count else []
         # measures are no squares
         self._rounding = ROUNDING**0.5 if isinstance(objective, Measure) else ROUNDING
 
@@ -194,8 +202,42 @@ class Program:
             if best is None:
                 return None
             x = np.array(best.point)
+            if self._entries:
+                return self._emptied(best)
             found = descended(Least(self.total, x), equations, x)
             return self.evaluated(found, fixed) or best
+
+    def _emptied(self, best: Optimum) -> Optimum:
+        """A method nearby of which further coefficients are zero, the smallest first, until none
+        can be.
+        """
+        zeros = self._zeros(best)
+        found: Optimum | None = best
+        while found is not None:
+            best, tried = found, self._by_size(best)
+            found = None
+            for function in tried:
+                check_time()
+                more = [*zeros, Fixed(function, fmpq(0))]
+                found = self.moved(best.point, more)
+                if found is not None and found.value < best.value:
+                    zeros = self._zeros(found)
+                    break
+                found = None
+        return best
+
+    def _by_size(self, at: Optimum) -> list[RationalFunction]:
+        """The coefficients that are not zero, in ascending order."""
+        import numpy as np
+
+        values = with_gradients(self._entries, np.array(at.point)[:, None])[0][:, 0]
+        pairs = zip(np.abs(values), self._entries, strict=True)
+        return [f for x, f in sorted(pairs, key=lambda pair: pair[0]) if x > NOTHING]
+
+    def _zeros(self, at: Optimum) -> list[Fixed]:
+        """The coefficients that are to be zero because they are."""
+        others = self._by_size(at)
+        return [Fixed(f, fmpq(0)) for f in self._entries if f not in others]
 
     def within(self, x: Array) -> Gradient:
         """The signs, and that unknowns are not too large."""
@@ -245,7 +287,7 @@ class Program:
         """
         import numpy as np
 
-        fixed: list[Fixed] = []
+        fixed = self._zeros(best)
         present = best
         most = self._rounding if self.is_none(best) else best.value + SLACK * abs(best.value)
         known = self._rank(fixed, present)
@@ -282,6 +324,9 @@ class Program:
         minima = least_squares(system.at, np.array(near)[:, None], 60, CLOSE)
         if not minima.succeeded[0]:
             return None
+        if self._entries:
+            with np.errstate(all="ignore"):
+                return self.evaluated(minima.points[:, 0], fixed)
         return self.improved([float(x) for x in minima.points[:, 0]], fixed)
 
 

@@ -287,7 +287,7 @@ class Search:
             with suppress(NotDecided):
                 method = method_at(self.tableau, ring, solution, solution.real[0])
                 if method is not None:
-                    return one.shown(one.value(method))
+                    return one.measured(one.value(method))
         values: dict[str, Number] = {}
         digits = find.digits
         if find.found is not None:
@@ -301,12 +301,12 @@ class Search:
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
         tableau = member(self.tableau, ring, values)
         if isinstance(one, Level):
-            return one.shown(one.value(tableau))
+            return one.measured(one.value(tableau))
+        further = further_member(self.family.further, ring, values)
+        subject = Subject.of(self.family, tableau, self.order, further)
         if isinstance(one, Measure):
-            further = further_member(self.family.further, ring, values)
-            subject = Subject(tableau, self.order, further, self.family.embedded_order)
             return square_root(RealRoot.rational(one.squared(subject)))
-        quotient = one.formula(tableau, self.order, None)
+        quotient = one.formula(subject, None)
         return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def embedded_order(self, find: Find) -> int | None:
@@ -428,8 +428,7 @@ class Search:
         with suppress(NotDecided):
             method = method_at(self.tableau, self.family.ring, solution, solution.real[0])
             if method is not None:
-                sizes = [(level.shown(level.value(method)), bound) for level, bound in wanted]
-                return all(y is None or not y < RealRoot.rational(b) for y, b in sizes)
+                return all(level.reaches(level.value(method), bound) for level, bound in wanted)
         return False
 
 
@@ -449,8 +448,8 @@ def _damped(family: Family) -> Family:
     """
     from garkcli.design.wants import at_infinity
 
-    linear = family.on_linear_problems
     for wanted in family.stable:
+        linear = family.tested(wanted)
         colours = range(linear.tableau.size) if wanted.colour is None else (wanted.colour,)
         if wanted.kind == "l-stable" and len(colours) == 1:
             meaning = at_infinity(Asked(linear.tableau, family.ring, ZERO, tuple(colours)))
