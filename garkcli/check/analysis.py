@@ -33,11 +33,9 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from garkcli.check.derivatives import DerivativesAnalysis
     from garkcli.check.further import DenseFacts, EmbeddedFacts
-    from garkcli.check.infinitesimal import InfinitesimalAnalysis
-    from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis
+    from garkcli.check.rare_kinds import DerivativesAnalysis, InfinitesimalAnalysis, NprkAnalysis
     from garkcli.check.remark import RoundingHint
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.build import MethodFile
@@ -263,7 +261,7 @@ def analyse_any_tableau(
 
         return analyse_rosenbrock(tableau, limit, tolerance, further)
     if is_nprk(tableau):
-        from garkcli.check.nprk import analyse_nprk  # likewise
+        from garkcli.check.rare_kinds import analyse_nprk  # likewise
 
         return analyse_nprk(tableau, limit, tolerance, further)
     if is_nystrom(tableau):
@@ -271,10 +269,10 @@ def analyse_any_tableau(
 
         return analyse_nystrom(tableau, limit, tolerance, further)
     if tableau.uses_derivatives:
-        from garkcli.check.derivatives import DerivativesAnalysis  # likewise
+        from garkcli.check.rare_kinds import DerivativesAnalysis  # likewise
 
         return DerivativesAnalysis.with_flow(tableau, limit, tolerance, further)
-    from garkcli.check.infinitesimal import InfinitesimalAnalysis  # likewise
+    from garkcli.check.rare_kinds import InfinitesimalAnalysis  # likewise
 
     return InfinitesimalAnalysis.with_flow(tableau, limit, tolerance, further)
 

@@ -4,21 +4,23 @@ properties that R(z) decides.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from flint import fmpq
 
-from garkcli.check.further import EmbeddedFacts, further_facts
+from garkcli.check.further import DenseFacts, EmbeddedFacts, estimate, further_facts
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, nonautonomous, order_of
-from garkcli.order.meant import AnyTableau, meant
+from garkcli.order.functionals import Estimator
+from garkcli.order.meant import AnyTableau, as_embedded, meant
 from garkcli.order.simplifying import inconsistent_blocks, simplifying
 from garkcli.properties.property import NoProperties, Verdict
 from garkcli.properties.subject import Subject
 from garkcli.reason import Reason
-from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.embedded import NOTHING, DenseOutput, Further
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
@@ -63,6 +65,99 @@ class LinearSubject(Frozen):
         if key not in self.keys:
             return Verdict.meaningless(self.reason)
         return self.on_linear_problems.verdict(key)
+
+
+class ClaimedOrders(Frozen):
+    """The orders of weights at the stages of a method, which claims are about; ``order`` is that of
+    the method.
+    """
+
+    order: AnyOrder
+
+    @classmethod
+    def of(cls, method: AnyTableau, limit: int, spans: StageSpans | None = None) -> Self:
+        """Returns the orders up to ``limit``; ``spans`` are stage vectors that are known."""
+        raise NotImplementedError
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
+        """Returns the order that a claim is about and its tableau; None if there is none."""
+        raise NotImplementedError
+
+
+O = TypeVar("O", bound=ClaimedOrders)
+D = TypeVar("D", bound=DenseFacts)
+
+
+class EmbeddedOrders(Frozen, Generic[O]):
+    """The orders of embedded weights in place of b, and their error estimate."""
+
+    orders: O
+    estimator: Estimator
+
+    @property
+    def order(self) -> AnyOrder:
+        return self.orders.order
+
+
+class SeveralOrders(Shown, Frozen, Generic[O, D]):
+    """The orders of a method that has several kinds of them.
+
+    Attributes:
+        tableau: the tableau of the method.
+        orders: its orders.
+        limit: where the search for orders stopped.
+        tolerance: the rounding within which all of this holds; None for exact coefficients.
+        embedded: the facts about its embedded weights, or None.
+        dense: the facts about its dense output, or None.
+        further: its embedded and dense weights.
+    """
+
+    tableau: Tableau
+    orders: O
+    limit: int
+    tolerance: fmpq | None = None
+    embedded: EmbeddedOrders[O] | None = None
+    dense: D | None = None
+    further: Further = NOTHING
+
+    kind: ClassVar[str]
+    claims: ClassVar[frozenset[str]]
+
+    @classmethod
+    def analysed(
+        cls,
+        orders_of: type[O],
+        dense_of: Callable[[AnyTableau, DenseOutput, int, StageSpans | None], D],
+        tableau: Tableau,
+        limit: int,
+        tolerance: fmpq | None,
+        further: Further,
+    ) -> Self:
+        """Returns the analysis of a tableau; see ``analyse``."""
+        method = meant(tableau, tolerance, further)
+        spans = StageSpans(tableau) if method is tableau else None
+        orders = orders_of.of(method, limit, spans)
+        embedded = None
+        if further.embedded is not None:
+            other = orders_of.of(as_embedded(method, further.embedded), limit, spans)
+            found = estimate(method, further.embedded, (orders.order, other.order), limit, spans)
+            embedded = EmbeddedOrders(other, found)
+        dense = None
+        if further.dense is not None:
+            dense = dense_of(method, further.dense, limit, spans)
+        return cls(tableau, orders, limit, tolerance, embedded, dense, further)
+
+    @property
+    def order(self) -> AnyOrder:
+        return self.orders.order
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
+        """Returns the order that a claim is about and its tableau; None for other claims."""
+        whose: O | None = self.orders
+        if claim.startswith("embedded-"):
+            whose = None if self.embedded is None else self.embedded.orders
+            claim = claim.removeprefix("embedded-")
+        return whose.view(claim) if whose is not None and claim in self.claims else None
 
 
 class OrderFacts(Shown, Frozen):

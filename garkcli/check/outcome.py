@@ -11,11 +11,9 @@ from garkcli.frozen import Frozen
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from garkcli.check.derivatives import DerivativesAnalysis
     from garkcli.check.every_value import EveryValue
-    from garkcli.check.infinitesimal import InfinitesimalAnalysis
-    from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis
+    from garkcli.check.rare_kinds import DerivativesAnalysis, InfinitesimalAnalysis, NprkAnalysis
     from garkcli.check.remark import RoundingHint
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.description import BlockRule

@@ -3,28 +3,26 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.check.further import DenseFacts, dense_facts
-from garkcli.check.order_facts import LinearSubject
+from garkcli.check.order_facts import ClaimedOrders, LinearSubject, SeveralOrders
 from garkcli.constructions.rosenbrock import DAE_VIEWS, NO_PROPERTY, OF_BETA, VIEWS, Which, seen
 from garkcli.exact.matrix import SingularMatrixError
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.functionals import Estimator, KnownOrders, estimator
-from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, with_further
+from garkcli.order.meant import AnyTableau, meant, printed
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.exact.field import Number
 
 
-class RosenbrockOrders(Frozen):
+class RosenbrockOrders(ClaimedOrders):
     """The orders of weights at the stages of a Rosenbrock method: with the Jacobian, with any
     matrix, with a matrix that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the
     file.
@@ -34,7 +32,6 @@ class RosenbrockOrders(Frozen):
     """
 
     method: AnyTableau
-    order: AnyOrder
     w_order: AnyOrder
     old_jacobian_order: AnyOrder
     nonautonomous_order: AnyOrder
@@ -46,7 +43,7 @@ class RosenbrockOrders(Frozen):
         order = order_of(method, limit, spans)
         w, old, timed = (order_of(seen(method, which), limit) for which in VIEWS.values())
         alone = method if isinstance(method, Tableau) else method.aside()
-        return cls(alone, order, w, old, timed)
+        return cls(order, alone, w, old, timed)
 
     @cached_property
     def index_1_order(self) -> AnyOrder | None:
@@ -100,45 +97,11 @@ class RosenbrockOrders(Frozen):
         return found, tableau
 
 
-class EmbeddedRosenbrock(Frozen):
-    """The orders of embedded weights in place of b, and their error estimate."""
+class RosenbrockAnalysis(SeveralOrders[RosenbrockOrders, DenseFacts]):
+    """The orders of a Rosenbrock or W-method; ``order`` and ``tableau`` are with the Jacobian."""
 
-    orders: RosenbrockOrders
-    estimator: Estimator
-
-    @property
-    def order(self) -> AnyOrder:
-        """The order with the Jacobian."""
-        return self.orders.order
-
-
-class RosenbrockAnalysis(Shown, Frozen):
-    """The orders of a Rosenbrock or W-method.
-
-    Attributes:
-        tableau: the tableau with the Jacobian.
-        orders: its orders.
-        limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None for exact coefficients.
-        embedded: the facts about its embedded weights, or None.
-        dense: the facts about its dense output, or None.
-        further: its embedded and dense weights.
-    """
-
-    tableau: Tableau
-    orders: RosenbrockOrders
-    limit: int
-    tolerance: fmpq | None = None
-    embedded: EmbeddedRosenbrock | None = None
-    dense: DenseFacts | None = None
-    further: Further = NOTHING
-
-    kind: ClassVar[str] = "a Rosenbrock method"
-
-    @property
-    def order(self) -> AnyOrder:
-        """The order with the Jacobian."""
-        return self.orders.order
+    kind = "a Rosenbrock method"
+    claims = frozenset({"order", *VIEWS, *DAE_VIEWS})
 
     @property
     def w_order(self) -> AnyOrder:
@@ -180,15 +143,6 @@ class RosenbrockAnalysis(Shown, Frozen):
         """R(∞); None if R is unbounded or the rounding leaves it open."""
         return self.subject.at_infinity
 
-    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """Returns the order that a claim is about and its tableau; None for other claims."""
-        whose: RosenbrockOrders | None = self.orders
-        if claim.startswith("embedded-"):
-            whose = None if self.embedded is None else self.embedded.orders
-            claim = claim.removeprefix("embedded-")
-        is_known = claim in {"order", *VIEWS, *DAE_VIEWS}
-        return whose.view(claim) if whose and is_known else None
-
     def __repr__(self) -> str:
         found = self.orders
         return f"<RosenbrockAnalysis order {found.order.order}, W-order {found.w_order.order}>"
@@ -203,17 +157,6 @@ def analyse_rosenbrock(
     """Decides all that ``gark check`` reports of a Rosenbrock method, with orders up to
     ``limit``.
     """
-    method = meant(tableau, tolerance, further)
-    spans = StageSpans(tableau) if method is tableau else None
-    orders = RosenbrockOrders.of(method, limit, spans)
-    embedded = dense = None
-    if further.embedded is not None:
-        other = RosenbrockOrders.of(as_embedded(method, further.embedded), limit, spans)
-        smaller = min((orders.order, other.order), key=lambda x: x.order)
-        differ = other.order.order != orders.order.order and not smaller.is_lower_bound
-        sought = KnownOrders(smaller.order, differ, limit)
-        found = estimator(with_further(method) or method, further.embedded, sought, spans)
-        embedded = EmbeddedRosenbrock(other, found)
-    if further.dense is not None:
-        dense = dense_facts(method, further.dense, limit, spans)
-    return RosenbrockAnalysis(tableau, orders, limit, tolerance, embedded, dense, further)
+    return RosenbrockAnalysis.analysed(
+        RosenbrockOrders, dense_facts, tableau, limit, tolerance, further
+    )

@@ -29,11 +29,9 @@ from garkcli.tell.facts import (
 from garkcli.tell.parts import SAID, part, picture, told
 
 if TYPE_CHECKING:
-    from garkcli.check.derivatives import DerivativesAnalysis
-    from garkcli.check.infinitesimal import InfinitesimalAnalysis
-    from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis, NystromDense
     from garkcli.check.outcome import OtherAnalysis, Outcome
+    from garkcli.check.rare_kinds import DerivativesAnalysis, InfinitesimalAnalysis, NprkAnalysis
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder

@@ -21,7 +21,7 @@ from garkcli import (
     loads,
 )
 from garkcli.check.check_file import check_file
-from garkcli.check.infinitesimal import InfinitesimalAnalysis
+from garkcli.check.rare_kinds import InfinitesimalAnalysis
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.frozen import replace
 from garkcli.tableau.stages import PointSpace

@@ -14,7 +14,7 @@ from flint import fmpq
 
 from garkcli import analyse, assert_order, claims_of, compare, conditions, load, loads, render
 from garkcli.check.check_file import check_file, check_method
-from garkcli.check.derivatives import DerivativesAnalysis
+from garkcli.check.rare_kinds import DerivativesAnalysis
 from garkcli.constructions.derivatives import Derivatives, plan
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.order.certificate import find_order

@@ -1,0 +1,110 @@
+"""The analyses of multirate infinitesimal, nonlinearly partitioned and multiderivative methods."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+from flint import fmpq
+
+from garkcli.check.further import EmbeddedFacts, estimate
+from garkcli.check.order_facts import LinearSubject, OrderFacts
+from garkcli.constructions.infinitesimal import slow_part
+from garkcli.constructions.multirate import SLOW
+from garkcli.constructions.same_stability import with_same_function
+from garkcli.frozen import replace
+from garkcli.ntrees.tree import Tree
+from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.meant import AnyTableau, as_embedded, meant, printed
+from garkcli.properties.registry import OF_TEST_EQUATION
+from garkcli.reason import Reason
+from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.tableau import Tableau
+
+
+class InfinitesimalAnalysis(OrderFacts, kw_only=True):
+    """The orders of a multirate infinitesimal method whose fast problems are solved exactly; its
+    tableau has collocation in their place.
+
+    ``slow_order`` is that of the slow method, for a fast part 0.
+    """
+
+    slow_order: AnyOrder
+
+    kind = "a multirate method with the exact fast part"
+    no_property = Reason("a property of Runge–Kutta methods, and the fast part is solved exactly")
+
+    @classmethod
+    def besides(cls, method: AnyTableau, limit: int) -> dict[str, Any]:
+        return {"slow_order": _among_all(order_of(slow_part(method), limit), printed(method))}
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
+        """Returns the order that a claim is about and its tableau; None for other claims."""
+        return (self.slow_order, self.tableau) if claim == "slow-order" else super().view(claim)
+
+    def __repr__(self) -> str:
+        return f"<InfinitesimalAnalysis order {self.order.order}, slow {self.slow_order.order}>"
+
+
+def _among_all(order: AnyOrder, tableau: Tableau) -> AnyOrder:
+    """Returns an order of the slow method with the colours counted after the fast one."""
+
+    def moved(tree: Tree) -> Tree:
+        return tableau.tree(tree.root + SLOW, map(moved, tree.branches))
+
+    witness = order.witness
+    if witness is None:
+        return order
+    return replace(order, witness=replace(witness, tree=moved(witness.tree)))
+
+
+class NprkAnalysis(OrderFacts):
+    """The orders of a nonlinearly partitioned method.
+
+    The colours of its tableau are the arguments of F, its stages the pairs at which F is evaluated.
+    """
+
+    kind = "a nonlinearly partitioned method"
+    no_property = Reason(
+        "a property of Runge–Kutta methods of vector fields, not of their arguments"
+    )
+
+
+def analyse_nprk(
+    tableau: Tableau,
+    limit: int = DEFAULT_LIMIT,
+    tolerance: fmpq | None = None,
+    further: Further = NOTHING,
+) -> NprkAnalysis:
+    """Decides all that ``gark check`` reports of a nonlinearly partitioned method, with orders up
+    to ``limit``.
+    """
+    method = meant(tableau, tolerance, further)
+    spans = StageSpans(tableau) if further and method is tableau else None
+    order = order_of(method, limit, spans)
+    embedded = None
+    if further.embedded is not None:
+        changed = as_embedded(method, further.embedded)
+        other = order_of(changed, limit, spans)
+        found = estimate(method, further.embedded, (order, other), limit, spans)
+        embedded = EmbeddedFacts(printed(changed), other, None, found)
+    return NprkAnalysis(tableau, order, limit, tolerance, embedded, further)
+
+
+class DerivativesAnalysis(OrderFacts):
+    """The orders of a multiderivative method.
+
+    Its tableau has stages along the exact solutions whose derivatives it uses.
+    """
+
+    kind = "a multiderivative method"
+    no_property = Reason("a property of Runge–Kutta methods, and derivatives of f are used")
+
+    @cached_property
+    def subject(self) -> LinearSubject:
+        """The method whose properties are decided: all of them follow from R(z)."""
+        method = with_same_function(meant(self.tableau, self.tolerance))
+        assert method is not None
+        order = self.order.order
+        return LinearSubject.of(method, order, self.limit, OF_TEST_EQUATION, self.no_property)
