@@ -119,12 +119,9 @@ class Source:
         self.name = name
         self.text = text
         self.kind = kind
-        self._found: list[NotedFault] = []
-
-    @property
-    def faults(self) -> list[Remark]:
+        self.faults: list[Remark] = []
         """The faults so far, in the order of reading."""
-        return [found.fault for found in self._found]
+        self._found: list[NotedFault] = []
 
     def fault(
         self,
@@ -152,6 +149,7 @@ class Source:
         self._note(Remark(printable(text), printable(cure), line, column, code=code), cause, is_one)
 
     def _note(self, fault: Remark, cause: str = "", is_one: bool = False) -> None:
+        self.faults.append(fault)
         self._found.append(NotedFault(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
             raise self.error()
@@ -192,10 +190,10 @@ class Source:
 
     def error_with(self, note: Callable[[], None]) -> MethodFileError:
         """Returns the faults as an error, including those that ``note`` reports temporarily."""
-        before = list(self._found)
+        before = len(self._found)
         note()
         error = self.error()
-        self._found = before
+        del self._found[before:], self.faults[before:]
         return error
 
     def compose(self) -> MappingNode | None:

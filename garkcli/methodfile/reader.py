@@ -208,7 +208,8 @@ class MethodReader(NumbersReader):
         found = self.content.read(root, entries)
         if found is None:
             return None
-        refuse_unknown_settings(self.numbers)
+        if self.numbers.settings:
+            refuse_unknown_settings(self.numbers)
         if self.design is not None:
             from garkcli.methodfile.wishes import read_wishes  # few files have it
 

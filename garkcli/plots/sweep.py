@@ -7,8 +7,7 @@ from math import isfinite, log10
 from garkcli.errors import MethodError
 from garkcli.plots.scene import Axis, Curve, Panel, Scene
 from garkcli.sweep.plan import number
-from garkcli.sweep.ranking import kept, pareto_front
-from garkcli.sweep.report import SweepReport
+from garkcli.sweep.report import SweepReport, kept, pareto_front
 from garkcli.sweep.row import Row
 
 

@@ -1048,7 +1048,7 @@ OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, 
 
 def transfer(o: Outcome) -> Answer[list[str]] | None:
     """Whether rules keep the order of the pair; usual if the file takes a degree that does not."""
-    found = [] if o.analysis is None else [*rule_reasons(o.analysis, o.rules)]
+    found = [*rule_reasons(o.analysis, o.rules)] if o.analysis and o.rules else []
     level = USUAL if any(map(is_lost, found)) else DETAIL
     return Answer(found, level=level) if found else None
 

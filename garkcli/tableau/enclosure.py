@@ -58,16 +58,6 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     return Enclosure(bits, tuple(space.stages for space in tableau.spaces), A, tuple(b))
 
 
-def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
-    """The nodes to ``bits`` bits, for each colour; those of families as in ``enclose_tableau``."""
-    digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
-    with ctx.workprec(bits + GUARD_OF_ENTRIES):
-        if all(isinstance(space, PointSpace) for space in tableau.spaces):
-            return [_balls([colour.c], digits).entries() for colour in tableau.colours]
-        entries = numeric_entries(tableau, min(digits, MAX_DIGITS))
-        return [[cast("arb", x) for x in row] for row in entries.c]
-
-
 def _at_nodes(tableau: Tableau, digits: int) -> tuple[dict[Edge, arb_mat], list[arb_mat]]:
     """A and b of tableaus with families: coordinates become values at nodes."""
     entries = numeric_entries(tableau, digits)

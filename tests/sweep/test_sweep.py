@@ -33,8 +33,7 @@ from garkcli.sweep import run as running
 from garkcli.sweep.columns import columns, kind_of
 from garkcli.sweep.file import load_plan
 from garkcli.sweep.plan import Plan, Point
-from garkcli.sweep.ranking import best_first, kept, pareto_front
-from garkcli.sweep.report import SweepReport
+from garkcli.sweep.report import SweepReport, best_first, kept, pareto_front
 from garkcli.sweep.row import Row, row_of
 from garkcli.sweep.store import RowStore
 from garkcli.tableau.forms import pair
