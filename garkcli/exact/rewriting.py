@@ -94,8 +94,10 @@ def expanded(
             made = replace(expression, argument=inside[0].expression)
         case _:
             return Expanded(expression)
-    size = 1 + sum(x.size for x in inside)
-    return Expanded(made, size, 1 + max(x.depth for x in inside))
+    size, depth = 1, 1
+    for x in inside:
+        size, depth = size + x.size, max(depth, 1 + x.depth)
+    return Expanded(made, size, depth)
 
 
 def names_in(expression: Expression) -> Iterator[Name]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from itertools import chain
 
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
@@ -34,8 +33,11 @@ def opens(node: Node) -> bool:
 
 
 def first_list_in_rows(items: Sequence[Node]) -> Node | None:
-    rows = (row.value for row in items if isinstance(row, SequenceNode))
-    return next((x for x in chain.from_iterable(rows) if isinstance(x, SequenceNode)), None)
+    for row in items:
+        for item in row.value if isinstance(row, SequenceNode) else ():
+            if isinstance(item, SequenceNode):
+                return item
+    return None
 
 
 _SEVERAL = r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]"
@@ -43,13 +45,6 @@ _SEVERAL = r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]"
 _IN_PARENTHESES = r"\([^()]*\)"
 MAX_PRINTED = 2_000
 """The longest text that is examined for a printed row or matrix."""
-
-
-def only_text(node: Node) -> str:
-    """Returns the text of a scalar, or of the only one in a list; empty otherwise."""
-    while isinstance(node, SequenceNode) and len(node.value) == 1:
-        node = node.value[0]
-    return str(node.value) if isinstance(node, ScalarNode) else ""
 
 
 def holds_several(text: str) -> bool:
@@ -81,19 +76,26 @@ def bracketed(text: str) -> str:
     return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
 
 
-def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:
-    """Returns the first row that is a text of several numbers, as other programs print them, its
-    text, and all rows in brackets, or ``example`` if they are not plain numbers. None if there is
-    no such row.
+def is_printed(source: Source, rows: Sequence[Node], where: str, what: str) -> bool:
+    """Returns whether a row is a text of several numbers, as other programs print them, and reports
+    the first one. ``what`` is ``a row`` or ``a matrix``.
     """
-    texts = [only_text(row) for row in rows]
+    texts = []
+    for row in rows:
+        while isinstance(row, SequenceNode) and len(row.value) == 1:
+            row = row.value[0]
+        texts.append(str(row.value) if isinstance(row, ScalarNode) else "")
     for row, text in zip(rows, texts, strict=True):
-        if holds_several(text):
+        if text and holds_several(text):
             # a semicolon in one of them parted rows, and commas entries: not to be guessed
             is_clear = ";" not in text or len(texts) == 1
+            example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
             as_list = (is_clear and bracketed(";".join(texts))) or example
-            return row, text, as_list
-    return None
+            message = f"{what} is a list, not the text {shortened(text)}"
+            cure = f"put it in brackets, with commas: {as_list}"
+            source.fault(row, message, cure, where=where, code="list-expected")
+            return True
+    return False
 
 
 _PLAIN = r"[-+]?[0-9][0-9./]*"

@@ -274,7 +274,7 @@ class Numbers(Mutable):
 
     def row(self, node: Node, where: str) -> Row:
         """Reads a row of coefficients; a single value is a row of one."""
-        if self._is_text([node], where, "a row"):
+        if spellings.is_printed(self.source, [node], where, "a row"):
             return ()
         if isinstance(node, ScalarNode):
             return (self.entry(node, where),)
@@ -308,7 +308,7 @@ class Numbers(Mutable):
     def matrix(self, node: Node, where: str) -> Rows:
         """Reads a matrix by rows, which may still differ in length, see ``fitted``."""
         written = node.value if isinstance(node, SequenceNode) else [node]
-        if self._is_text(written, where, "a matrix"):
+        if spellings.is_printed(self.source, written, where, "a matrix"):
             return ()
         cure = "write it row by row: [[0, 0], [1/2, 0]]"
         items = self.source.items(node, where, cure)
@@ -330,20 +330,6 @@ class Numbers(Mutable):
         if not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage", code="empty")
         return ()
-
-    def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
-        """Reports, once, rows written as text with several numbers, as other programs print
-        them.
-        """
-        example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
-        found = spellings.printed_row(rows, example)
-        if found is None:
-            return False
-        first, text, as_list = found
-        message = f"{what} is a list, not the text {shortened(text)}"
-        cure = f"put it in brackets, with commas: {as_list}"
-        self.source.fault(first, message, cure, where=where, code="list-expected")
-        return True
 
     def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
         """Returns a matrix of the given shape; reports at most one fault if it has another.

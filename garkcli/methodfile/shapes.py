@@ -11,16 +11,7 @@ from typing import Any, Literal, TypeAlias
 
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.frozen import Frozen, replace
-from garkcli.grammar.keys import (
-    FLAG,
-    Key,
-    ReadMapping,
-    ValueKind,
-    count,
-    mapping,
-    one_or_more,
-    word,
-)
+from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Extent, Node, extent, shortened
 from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import NumbersReader, Row, Rows
@@ -487,21 +478,23 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     return None
 
 
-_SHAPE = ValueKind(word(lambda: {name: x.summary for name, x in SHAPES.items()}).schema, _shape)
-UNKNOWN = mapping(
-    Key(
+_SHAPE = g.ValueKind(g.word(lambda: {name: x.summary for name, x in SHAPES.items()}).schema, _shape)
+UNKNOWN = g.mapping(
+    g.Key(
         "stages: 3",
-        ValueKind(count(1, MAX_STAGES).schema, count(1).read),
+        g.ValueKind(g.count(1, MAX_STAGES).schema, g.count(1).read),
         "The number of stages of the tableau of unknowns.",
         is_needed=True,
     ),
-    Key(
+    g.Key(
         "shape: [dirk, stiffly-accurate]",
-        one_or_more(_SHAPE),
+        g.one_or_more(_SHAPE),
         "Which entries are unknown, zero, equal or given: a shape, or several that go together.",
         is_needed=True,
     ),
-    Key("embedded: true", FLAG, "Whether there are embedded weights bh1, bh2, … too, all unknown."),
+    g.Key(
+        "embedded: true", g.FLAG, "Whether there are embedded weights bh1, bh2, … too, all unknown."
+    ),
     form=FORM,
 )
 """The number of stages, and the shape."""
@@ -529,7 +522,7 @@ def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
 
     ``key`` is the node of the word ``unknown``, ``node`` that of its value.
     """
-    found: ReadMapping | None = UNKNOWN.read(at, node, "unknown")
+    found: g.ReadMapping | None = UNKNOWN.read(at, node, "unknown")
     if found is None or not found.is_right:
         return None
     if found["stages"] > MAX_STAGES:
