@@ -14,7 +14,6 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
 from garkcli.exact.parametric import Parametric
-from garkcli.frozen import replace
 from garkcli.grammar.nodes import Node
 from garkcli.grammar.source import Source
 from garkcli.methodfile import description as d
@@ -40,8 +39,7 @@ from garkcli.transfer import (
 )
 
 if TYPE_CHECKING:
-    from garkcli.constructions.nystrom import Nystrom
-    from garkcli.constructions.rosenbrock import Rosenbrock
+    pass
 
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
@@ -221,13 +219,12 @@ class Builder(Generic[V]):
         self.text = text
         self.values = values
         self._parts: dict[int, Tableau] = {}
-        self._made = Further()
-        self._gamma: Matrix = ()  # Γ of a transformed method, which is solved for once
+        self._own: d.Made | None = None
         description = text.description
         self.tableau = self._tableau(description.content, description)
         if description.is_conjugate:
             self.tableau = self._at(description.node, lambda: conjugate(self.tableau))
-            self._made = Further()
+            self._own = None
 
     def _tableau(self, content: d.Content, description: d.Description) -> Tableau:
         matrix, vector = self.values.matrix, self.values.vector
@@ -251,24 +248,21 @@ class Builder(Generic[V]):
                 tableau = forms.separable_prk(q, p)
                 is_nystrom = description.structure == "nystrom"
                 return forms.with_linear(tableau, ["q"]) if is_nystrom else tableau
-            case d.RegistersText():
-                return self._at(content.node, lambda: self._registers(content, description))
-            case d.RosenbrockText():
-                return self._at(content.node, lambda: self._rosenbrock(content).tableau)
-            case d.NprkText():
-                return self._at(content.node, lambda: self._nprk(content))
-            case d.DerivativesText():
-                return self._at(content.node, lambda: self._derivatives(content))
-            case d.NystromText():
-                return self._at(content.node, lambda: self._nystrom(content).tableau)
+            case d.OwnContent():
+                rounding = description.rounding
+                own = self._at(content.node, lambda: content.made(self.values, rounding))
+                self._own = own
+                return own.tableau
             case d.ConstructionText():
                 for part in content.parts:  # all are built
                     self.part(part)
                 made = self._at(content.node, lambda: content.make(self.part, self.values))
                 if isinstance(made, Tableau):
                     return made
-                tableau, self._made = made
+                tableau, further = made
+                self._own = d.Made(tableau, lambda: further)
                 return tableau
+        raise TypeError(f"no content: {content!r}")
 
     def part(self, part: d.PartText) -> Tableau:
         """Returns a part of a construction, built as if it stood alone."""
@@ -284,13 +278,12 @@ class Builder(Generic[V]):
 
         In a pair, V^{l} and F^{l} are evaluated at the same stages and have the same weights.
         """
-        texts = d.further_of(self.text.description.content)
+        description, own = self.text.description, self._own
+        if own is not None and own.further is not None:
+            return self._at(description.node, own.further)
+        texts = description.content.beside
         if not texts:
-            return self._made
-        content = self.text.description.content
-        if isinstance(content, d.NystromText):
-            node = content.node
-            return self._at(node, lambda: self._beside_nystrom(*texts))
+            return Further()
         given = [texts[colour.term] for colour in self.tableau.colours]
         embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]
         blocks = [self.values.matrix(x.dense) for x in given if x.dense is not None]
@@ -300,11 +293,7 @@ class Builder(Generic[V]):
             dense = DenseOutput(tuple(padded(x, degree) for x in blocks))
         predictor = self._predictor(texts[0].predictor)
         found = Further(tuple(embedded) or None, dense, predictor)
-        if isinstance(content, d.RosenbrockText) and content.diagonal is not None:
-            return self._transformed(content, found)
-        return found
-
-    # few files are of these kinds: what makes them is imported on use
+        return found if own is None or own.finish is None else own.finish(found)
 
     def _predictor(self, text: d.PredictorText | None) -> Predictor | None:
         """Returns the predictor of a method of one colour; None without one."""
@@ -327,86 +316,6 @@ class Builder(Generic[V]):
         made = Predictor(old, new)
         self._at(text.node, lambda: check_predictor(self.tableau, made))
         return made
-
-    def _rosenbrock(self, text: d.RosenbrockText) -> Rosenbrock:
-        from garkcli.constructions.rosenbrock import Rosenbrock, transformed
-
-        matrix = self.values.matrix
-        alpha, gamma = (
-            tuple(tuple(map(matrix, row)) for row in blocks) for blocks in (text.alpha, text.gamma)
-        )
-        b = matrix(text.b)
-        if text.diagonal is None:
-            made = Rosenbrock(alpha, gamma, b)
-        else:
-            made = transformed(alpha[0][0], gamma[0][0], self.values.vector(text.diagonal), b[0])
-            ((self._gamma,),) = made.gamma
-        c = None if text.c is None else matrix(text.c)
-        return replace(made, c=c, d=None if text.d is None else matrix(text.d))
-
-    def _registers(self, text: d.RegistersText, description: d.Description) -> Tableau:
-        from garkcli.constructions.registers import as_butcher
-
-        numbers = [
-            self.values.matrix(x) if isinstance(x[0], tuple) else self.values.vector(x)
-            for x in text.numbers
-        ]
-        grain = description.rounding or 0
-        c = None if text.c is None else self.values.vector(text.c)
-        return forms.gark([as_butcher(text.scheme, numbers, c, grain)], {})
-
-    def _nprk(self, text: d.NprkText) -> Tableau:
-        from garkcli.constructions.nprk import nprk
-
-        matrix = self.values.matrix
-        embedded = None if text.embedded is None else matrix(text.embedded)
-        tableau, row = nprk([*map(matrix, text.a)], matrix(text.b), embedded)
-        if row is not None:
-            self._made = Further((row,) * tableau.size)
-        return tableau
-
-    def _derivatives(self, text: d.DerivativesText) -> Tableau:
-        from garkcli.constructions.derivatives import Derivatives, plan
-
-        matrix, vector = self.values.matrix, self.values.vector
-        c = None if text.c is None else vector(text.c)
-        method = Derivatives(tuple(map(matrix, text.A)), matrix(text.b), c)
-        embedded = None if text.embedded is None else matrix(text.embedded)
-        order: int = self.values.once(("plan", id(text)), lambda: plan(method, embedded))
-        if embedded is not None:
-            self._made = Further((method.at_points(embedded, order),))
-        return method.tableau(order)
-
-    def _nystrom(self, text: d.NystromText) -> Nystrom:
-        from garkcli.constructions.nystrom import nystrom
-
-        matrix, vector = self.values.matrix, self.values.vector
-        A = None if text.A is None else matrix(text.A)
-        c = vector(text.c or ()) if A is None or text.c else butcher(A, vector(text.b)).c
-        return nystrom(matrix(text.Abar), A, c, vector(text.bbar), vector(text.b))
-
-    def _beside_nystrom(self, of_q: d.FurtherText, of_v: d.FurtherText) -> Further:
-        from garkcli.constructions.nystrom import dense_of, weights_of
-
-        embedded = dense = None
-        if of_q.embedded is not None and of_v.embedded is not None:
-            vector = self.values.vector
-            embedded = weights_of(vector(of_q.embedded), vector(of_v.embedded))
-        if of_q.dense is not None:
-            b = None if of_v.dense is None else self.values.matrix(of_v.dense)
-            dense = dense_of(self.values.matrix(of_q.dense), b)
-        return Further(embedded, dense)
-
-    def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
-        """Returns the further weights of a transformed Rosenbrock method, with those from ``e``."""
-        from garkcli.constructions.rosenbrock import transformed_weights
-
-        vector = self.values.vector
-        if text.error is not None:
-            pairs = zip(vector(text.b[0]), vector(text.error), strict=True)
-            row = tuple(m - e for m, e in pairs)
-            further = Further((row,) * self.tableau.size, further.dense)
-        return transformed_weights(further, self._gamma)
 
     def _at(self, node: Node, make: Callable[[], T]) -> T:
         """Returns the result of ``make``; its errors become faults at ``node``."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from garkcli.constructions.derivatives import Derivatives, plan
 from garkcli.errors import counted
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
@@ -9,6 +12,8 @@ from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
 from garkcli.methodfile.numbers import NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import ROW
+from garkcli.methodfile.values import Values
+from garkcli.tableau.embedded import Further
 
 _FORM = "give {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}: of f, then of f′f, …"
 MOST = 9
@@ -51,7 +56,33 @@ DERIVATIVES = g.mapping(
 """A method that uses derivatives of f."""
 
 
-def derivatives(at: NumbersReader, node: Node) -> d.DerivativesText | None:
+class DerivativesText(d.OwnContent):
+    """A method that uses derivatives of f along the solution.
+
+    ``A`` has a matrix for f, one for f′f, and so on; ``c`` is None if it has the row sums of the
+    first matrix.
+    """
+
+    A: tuple[Rows, ...]
+    b: Rows
+    c: Row | None = None
+    embedded: Rows | None = None
+
+    def places(self) -> Iterator[d.Place]:
+        yield from d.places_of(self.embedded or (), 0, "embedded")
+
+    def made(self, values: Values, _: object) -> d.Made:
+        c = None if self.c is None else values.vector(self.c)
+        method = Derivatives(tuple(map(values.matrix, self.A)), values.matrix(self.b), c)
+        embedded = None if self.embedded is None else values.matrix(self.embedded)
+        order: int = values.once(("plan", id(self)), lambda: plan(method, embedded))
+        further = Further()
+        if embedded is not None:
+            further = Further((method.at_points(embedded, order),))
+        return d.Made(method.tableau(order), lambda: further)
+
+
+def derivatives(at: NumbersReader, node: Node) -> DerivativesText | None:
     """Reads the form ``derivatives``; None if it is not a method."""
     found: g.ReadMapping | None = DERIVATIVES.read(at, node, "derivatives")
     if found is None or not found.is_right:
@@ -83,7 +114,7 @@ def derivatives(at: NumbersReader, node: Node) -> d.DerivativesText | None:
         _one_each(at, found.nodes["c"], "c", c, stages)
     if len(at.source.faults) > before:
         return None
-    return d.DerivativesText(node, A, b, c, embedded)
+    return DerivativesText(node, A, b, c, embedded)
 
 
 def _weights(at: NumbersReader, node: Node, name: str, derivatives: int) -> Rows:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, get_args
 
 from flint import fmpq
 
@@ -69,6 +69,16 @@ def of_colour(letter: str, l: int) -> str:
     return f"{letter}^{{{l + 1}}}"
 
 
+Place: TypeAlias = tuple[str, "int | None", Coefficient]
+"""A number: ``embedded``, ``dense`` or empty; its colour from 0, or None; its entry."""
+
+
+def places_of(rows: Iterable[Row], l: int, kind: str = "") -> Iterator[Place]:
+    for row in rows:
+        for entry in row:
+            yield kind, l, entry
+
+
 class PredictorText(Frozen):
     """Weights that predict stages.
 
@@ -93,6 +103,10 @@ class FurtherText(Frozen):
     node: Node | None = None
     predictor: PredictorText | None = None
 
+    def places(self, l: int) -> Iterator[Place]:
+        yield from places_of([self.embedded or ()], l, "embedded")
+        yield from places_of(self.dense or (), l, "dense")
+
 
 NOTHING_FURTHER = FurtherText()
 
@@ -115,6 +129,10 @@ class FamilyText(Frozen):
     def stages(self) -> int:
         return self.recipe.stages
 
+    def places(self, l: int) -> Iterator[Place]:
+        yield from places_of([self.numbers], l)
+        yield from self.further.places(l)
+
 
 class ButcherText(Frozen):
     """A spelled-out method."""
@@ -125,6 +143,10 @@ class ButcherText(Frozen):
     b: Row
     c: Row | None
     further: FurtherText = NOTHING_FURTHER
+
+    def places(self, l: int) -> Iterator[Place]:
+        yield from places_of([*self.A, self.b, self.c or ()], l)
+        yield from self.further.places(l)
 
 
 class RuleText(Frozen):
@@ -154,132 +176,136 @@ class TransferText(Frozen):
     blocks: BlockTexts
 
 
-class MethodsText(Frozen):
+class Content(Frozen):
+    """The coefficients of a method, as its file has them."""
+
+    @property
+    def names(self) -> Sequence[str] | None:
+        """The names of the colours, empty for those without; None if ``tolerance`` has no keys for
+        colours.
+        """
+        return None
+
+    @property
+    def beside(self) -> tuple[FurtherText, ...]:
+        """The further weights of each colour of the file; for a prk those of q, then of p."""
+        return ()
+
+    def places(self) -> Iterator[Place]:
+        """Yields the numbers that belong to a colour, or to further weights."""
+        for l, text in enumerate(self.beside):
+            yield from text.places(l)
+
+
+class MethodsText(Content):
     """The construction of the paper."""
 
     methods: tuple[FamilyText | ButcherText, ...]
     transfer: TransferText
 
+    @property
+    def names(self) -> Sequence[str]:
+        return [x.name if isinstance(x, ButcherText) else "" for x in self.methods]
 
-class TableauText(Frozen):
+    @property
+    def beside(self) -> tuple[FurtherText, ...]:
+        return tuple(method.further for method in self.methods)
+
+    def places(self) -> Iterator[Place]:
+        """Yields the numbers; A^{l,m} belongs to colour l."""
+        for l, method in enumerate(self.methods):
+            yield from method.places(l)
+        for (l, _), block in self.transfer.blocks.items():
+            if isinstance(block, MatrixText):
+                yield from places_of(block.rows, l)
+
+
+class TableauText(Content):
     """A tableau with every block spelled out, None for absent ones."""
 
     A: tuple[tuple[Rows | None, ...], ...]
     b: tuple[Row, ...]
     c: tuple[Row | None, ...]
     linear: tuple[int, ...]
-    further: tuple[FurtherText, ...]
+    beside: tuple[FurtherText, ...]
+
+    @property
+    def names(self) -> Sequence[str]:
+        return [""] * len(self.b)
+
+    def places(self) -> Iterator[Place]:
+        """Yields the numbers; A^{l,m} belongs to colour l."""
+        for l, blocks in enumerate(self.A):
+            for block_rows in blocks:
+                yield from places_of(block_rows or (), l)
+            yield from places_of([self.b[l], self.c[l] or ()], l)
+        yield from super().places()
 
 
-class ArkText(Frozen):
+class ArkText(Content):
     """A method with shared stages and one matrix for each colour."""
 
     A: tuple[Rows, ...]
     b: tuple[Row, ...]
     c: Row | None
-    further: tuple[FurtherText, ...]
+    beside: tuple[FurtherText, ...]
+
+    @property
+    def names(self) -> Sequence[str]:
+        return [""] * len(self.b)
+
+    def places(self) -> Iterator[Place]:
+        """Yields the numbers; A^{m} belongs to colour m."""
+        for m, rows in enumerate(self.A):
+            yield from places_of([*rows, self.b[m]], m)
+        yield from super().places()
 
 
-class PrkText(Frozen):
+class PrkText(Content):
     """A partitioned method with parts q and p."""
 
     q: ButcherText
     p: ButcherText
 
-
-class RegistersText(Frozen):
-    """A method in the form used by codes with few registers.
-
-    ``scheme`` is ``shu-osher``, or the form of ``low-storage``; ``numbers`` are its rows and
-    matrices, in the order of the scheme.
-    """
-
-    node: Node
-    scheme: str
-    numbers: tuple[Row | Rows, ...]
-    c: Row | None = None
-    further: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
-
-
-class RosenbrockText(Frozen):
-    """A Rosenbrock or W-method as in papers, or transformed as in programs; the latter has one
-    colour.
-    """
-
-    node: Node
-    alpha: tuple[tuple[Rows, ...], ...]
-    gamma: tuple[tuple[Rows, ...], ...]
-    b: Rows
-    c: Rows | None = None
-    d: Rows | None = None
-    diagonal: Row | None = None
-    error: Row | None = None
-    further: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
-
-
-class NystromText(Frozen):
-    """A Nyström method.
-
-    ``A`` is None if g depends on q only, ``c`` if it has the row sums of A. ``embedded`` has the
-    embedded weights in q and in q′, each None if they are those of the method; ``dense`` the
-    polynomials in q and in q′, the latter None if they are the slopes of the former.
-    """
-
-    node: Node
-    Abar: Rows
-    A: Rows | None
-    c: Row | None
-    bbar: Row
-    b: Row
-    embedded: tuple[Row | None, Row | None] | None = None
-    dense: tuple[Rows, Rows | None] | None = None
+    @property
+    def names(self) -> Sequence[str]:
+        return ("q", "p")
 
     @property
-    def further(self) -> tuple[FurtherText, ...]:
-        """The further weights of each component."""
-        if self.embedded is None and self.dense is None:
-            return ()
-        embedded, dense = self.embedded, self.dense or (None, None)
-        return tuple(
-            FurtherText(None if embedded is None else embedded[k] or own, dense[k])
-            for k, own in enumerate((self.bbar, self.b))
-        )
+    def beside(self) -> tuple[FurtherText, ...]:
+        return self.q.further, self.p.further
+
+    def places(self) -> Iterator[Place]:
+        yield from self.q.places(0)
+        yield from self.p.places(1)
 
 
-class NprkText(Frozen):
-    """A nonlinearly partitioned method; rows and matrices may end early, followed by zeros.
+class Made(NamedTuple):
+    """The tableau of a form of its own.
 
-    ``a`` has a matrix for each stage.
+    ``further`` returns the further weights of the form, None if it has those of all forms, which
+    ``finish`` changes.
     """
 
+    tableau: Tableau
+    further: Callable[[], Further] | None = None
+    finish: Callable[[Further], Further] | None = None
+
+
+class OwnContent(Content):
+    """The coefficients of a form of its own, which makes the tableau."""
+
     node: Node
-    a: tuple[Rows, ...]
-    b: Rows
-    embedded: Rows | None = None
 
     @property
-    def further(self) -> tuple[FurtherText, ...]:
-        """Empty: the tableau includes them."""
+    def names(self) -> Sequence[str] | None:
         return ()
 
-
-class DerivativesText(Frozen):
-    """A method that uses derivatives of f along the solution.
-
-    ``A`` has a matrix for f, one for f′f, and so on; ``c`` is None if it has the row sums of the
-    first matrix.
-    """
-
-    node: Node
-    A: tuple[Rows, ...]
-    b: Rows
-    c: Row | None = None
-    embedded: Rows | None = None
-
-    @property
-    def further(self) -> tuple[FurtherText, ...]:
-        """Empty: the tableau includes them."""
-        return ()
+    def made(self, values: Values, rounding: fmpq | None) -> Made:
+        """Returns the tableau; ``rounding`` is the largest error of its numbers, None if they are
+        exact.
+        """
+        raise NotImplementedError
 
 
 class PartText(Frozen):
@@ -298,8 +324,9 @@ class PartText(Frozen):
     def tolerance(self) -> fmpq | None:
         """The rounding of its coefficients."""
         content, rounding = self.description.content, self.description.rounding
-        made = content.tolerance if isinstance(content, ConstructionText) else None
-        return made if rounding is None else rounding
+        if rounding is None and isinstance(content, ConstructionText):
+            return content.tolerance
+        return rounding
 
 
 Make: TypeAlias = (
@@ -310,7 +337,7 @@ its coefficients.
 """
 
 
-class ConstructionText(Frozen):
+class ConstructionText(Content):
     """A method constructed from others.
 
     ``make`` makes it from the tableaus of the parts and the values of its coefficients;
@@ -322,24 +349,6 @@ class ConstructionText(Frozen):
     make: Make
     tolerance: fmpq | None = None
     kept: tuple[PartText, ...] = ()
-
-
-Content: TypeAlias = (
-    "MethodsText | TableauText | ArkText | PrkText | RegistersText | RosenbrockText | NystromText"
-    " | NprkText | DerivativesText | ConstructionText"
-)
-
-
-def further_of(content: Content) -> tuple[FurtherText, ...]:
-    """Returns the further weights of each colour of the file; for a prk those of q, then of p."""
-    match content:
-        case MethodsText():
-            return tuple(method.further for method in content.methods)
-        case PrkText():
-            return content.q.further, content.p.further
-        case ConstructionText():
-            return ()
-    return content.further
 
 
 class BlockRule(Frozen):
@@ -377,7 +386,7 @@ def left_behind(content: Content) -> tuple[str, ...]:
     for part in content.parts:
         inside = part.description.content
         found += left_behind(inside)
-        for text in further_of(inside):
+        for text in inside.beside:
             is_left = text.embedded is not None and part not in content.kept
             found += ["embedded weights"] if is_left else []
             found += ["dense output"] if text.dense is not None else []

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from garkcli.constructions.nprk import nprk as method
 from garkcli.errors import counted
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import NumbersReader, Rows
+from garkcli.methodfile.values import Values
+from garkcli.tableau.embedded import Further
 
 _FORM = "give {a: [[], [[], [1]]], b: [[], [1]]}: a matrix for each stage, and one of weights"
 _MATRIX = g.ValueKind(lambda: {"type": "array", "items": {"type": "array"}})
@@ -25,7 +30,28 @@ NPRK = g.mapping(
 """A nonlinearly partitioned method."""
 
 
-def nprk(at: NumbersReader, node: Node) -> d.NprkText | None:
+class NprkText(d.OwnContent):
+    """A nonlinearly partitioned method; rows and matrices may end early, followed by zeros.
+
+    ``a`` has a matrix for each stage.
+    """
+
+    a: tuple[Rows, ...]
+    b: Rows
+    embedded: Rows | None = None
+
+    def places(self) -> Iterator[d.Place]:
+        yield from d.places_of(self.embedded or (), 0, "embedded")
+
+    def made(self, values: Values, _: object) -> d.Made:
+        matrix = values.matrix
+        embedded = None if self.embedded is None else matrix(self.embedded)
+        tableau, row = method([*map(matrix, self.a)], matrix(self.b), embedded)
+        further = Further() if row is None else Further((row,) * tableau.size)
+        return d.Made(tableau, lambda: further)
+
+
+def nprk(at: NumbersReader, node: Node) -> NprkText | None:
     """Reads the form ``nprk``; None if it is not a method."""
     found: g.ReadMapping | None = NPRK.read(at, node, "nprk")
     if found is None or not found.is_right:
@@ -36,7 +62,7 @@ def nprk(at: NumbersReader, node: Node) -> d.NprkText | None:
     embedded = None
     if "embedded" in found:
         embedded = _matrix(at, found["embedded"], "embedded", len(stages))
-    return d.NprkText(node, tuple(a), b, embedded)
+    return NprkText(node, tuple(a), b, embedded)
 
 
 def _matrix(at: NumbersReader, node: Node, where: str, stages: int) -> Rows:

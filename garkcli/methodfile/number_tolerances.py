@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain
-from typing import TypeAlias
 
 from flint import fmpq
 
@@ -13,7 +11,7 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression
 from garkcli.grammar.nodes import Node, shortened
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import Coefficient, Row, Rows
+from garkcli.methodfile.numbers import Coefficient
 from garkcli.methodfile.printed import fewest_digits, unit_of
 from garkcli.methodfile.tolerance import DIGITS, OTHERS, Tolerance
 
@@ -32,7 +30,7 @@ class NumberTolerances:
         self.names = _names(content)
         self._kinds: dict[int, str] = {}
         self._keys: dict[int, str] = {}
-        for kind, l, entry in _places(content):
+        for kind, l, entry in content.places():
             self._kinds[id(entry)] = kind
             own = [kind, *self.names[l]] if l is not None else [kind]
             self._keys[id(entry)] = next((x for x in own if x in tolerance.offs), OTHERS)
@@ -84,86 +82,8 @@ class NumberTolerances:
 
 def _names(content: d.Content) -> list[tuple[str, ...]]:
     """Returns the names of each colour in the file: its number, and its name if it has one."""
-    match content:
-        case d.MethodsText(methods=methods):
-            names = [x.name if isinstance(x, d.ButcherText) else "" for x in methods]
-        case d.PrkText():
-            names = ["q", "p"]
-        case d.TableauText(b=b) | d.ArkText(b=b):
-            names = [""] * len(b)
-        case d.RosenbrockText(b=b) if len(b) > 1:
-            names = [""] * len(b)
-        case d.RegistersText() | d.RosenbrockText() | d.NystromText():
-            return [()]
-        case d.NprkText() | d.DerivativesText():
-            return [()]
-        case _:
-            return []
-    return [(str(l), name) if name else (str(l),) for l, name in enumerate(names, start=1)]
-
-
-_Place: TypeAlias = tuple[str, "int | None", Coefficient]
-"""A number: ``embedded``, ``dense`` or empty; its colour from 0, or None; its entry."""
-
-
-def _places(content: d.Content) -> Iterator[_Place]:
-    """Yields the numbers that belong to a colour, or to further weights.
-
-    A^{l,m} belongs to colour l, but A^{m} of colours with shared stages to colour m.
-    """
-    match content:
-        case d.MethodsText(methods=methods, transfer=transfer):
-            for l, method in enumerate(methods):
-                if isinstance(method, d.ButcherText):
-                    yield from _of_butcher(method, l)
-                else:
-                    yield from _of_rows([method.numbers], l)
-                    yield from _of_further(method.further, l)
-            for (l, _), block in transfer.blocks.items():
-                if isinstance(block, d.MatrixText):
-                    yield from _of_rows(block.rows, l)
-        case d.PrkText(q=q, p=p):
-            yield from _of_butcher(q, 0)
-            yield from _of_butcher(p, 1)
-        case d.TableauText():
-            for l, blocks in enumerate(content.A):
-                for block_rows in blocks:
-                    yield from _of_rows(block_rows or (), l)
-                yield from _of_rows([content.b[l], content.c[l] or ()], l)
-        case d.ArkText():
-            for m, rows in enumerate(content.A):
-                yield from _of_rows([*rows, content.b[m]], m)
-        case d.RosenbrockText(b=weights, error=error):
-            yield from _of_rows([error or ()], 0, "embedded")
-            for l in range(len(weights) if len(weights) > 1 else 0):
-                for of_colours in (content.alpha, content.gamma):
-                    yield from _of_rows(chain.from_iterable(of_colours[l]), l)
-                others = (x[l] for x in (content.c, content.d) if x is not None)
-                yield from _of_rows([weights[l], *others], l)
-        case d.NprkText() | d.DerivativesText():
-            yield from _of_rows(content.embedded or (), 0, "embedded")
-        case d.NystromText():
-            for row in content.embedded or ():
-                yield from _of_rows([row or ()], 0, "embedded")
-            for polynomials in content.dense or ():
-                yield from _of_rows(polynomials or (), 0, "dense")
-    if isinstance(content, d.TableauText | d.ArkText | d.RegistersText | d.RosenbrockText):
-        for l, further in enumerate(content.further):
-            yield from _of_further(further, l)
-
-
-def _of_butcher(text: d.ButcherText, l: int) -> Iterator[_Place]:
-    yield from _of_rows([*text.A, text.b, text.c or ()], l)
-    yield from _of_further(text.further, l)
-
-
-def _of_rows(rows: Iterable[Row], l: int, kind: str = "") -> Iterator[_Place]:
-    for row in rows:
-        for entry in row:
-            yield kind, l, entry
-
-
-def _of_further(text: d.FurtherText, l: int) -> Iterator[_Place]:
-    dense: Rows = text.dense or ()
-    yield from _of_rows([text.embedded or ()], l, "embedded")
-    yield from _of_rows(dense, l, "dense")
+    names = content.names
+    if names is None:
+        return []
+    numbered = enumerate(names, start=1)
+    return [(str(l), name) if name else (str(l),) for l, name in numbered] if names else [()]

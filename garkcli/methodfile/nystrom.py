@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from functools import partial
+
+from garkcli.constructions.nystrom import dense_of, weights_of
+from garkcli.constructions.nystrom import nystrom as method
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
 from garkcli.methodfile.numbers import NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
+from garkcli.methodfile.values import Values
+from garkcli.tableau.embedded import Further
+from garkcli.tableau.tableau import butcher
 
 _FORM = "give {Abar: [[], [1/2]], c: [0, 1], bbar: [1/2, 0], b: [1/2, 1/2]}, with A for g(q, q′)"
 _FORM_OF_EMBEDDED = "give {bbar: [1/2, 0], b: [1, 0]}, or one of them"
@@ -107,7 +115,60 @@ NYSTROM = g.mapping(
 """A Nyström method."""
 
 
-def nystrom(at: NumbersReader, node: Node) -> d.NystromText | None:
+class NystromText(d.OwnContent):
+    """A Nyström method.
+
+    ``A`` is None if g depends on q only, ``c`` if it has the row sums of A. ``embedded`` has the
+    embedded weights in q and in q′, each None if they are those of the method; ``dense`` the
+    polynomials in q and in q′, the latter None if they are the slopes of the former.
+    """
+
+    Abar: Rows
+    A: Rows | None
+    c: Row | None
+    bbar: Row
+    b: Row
+    embedded: tuple[Row | None, Row | None] | None = None
+    dense: tuple[Rows, Rows | None] | None = None
+
+    @property
+    def beside(self) -> tuple[d.FurtherText, ...]:
+        """The further weights of each component."""
+        if self.embedded is None and self.dense is None:
+            return ()
+        embedded, dense = self.embedded, self.dense or (None, None)
+        return tuple(
+            d.FurtherText(None if embedded is None else embedded[k] or own, dense[k])
+            for k, own in enumerate((self.bbar, self.b))
+        )
+
+    def places(self) -> Iterator[d.Place]:
+        for row in self.embedded or ():
+            yield from d.places_of([row or ()], 0, "embedded")
+        for polynomials in self.dense or ():
+            yield from d.places_of(polynomials or (), 0, "dense")
+
+    def made(self, values: Values, _: object) -> d.Made:
+        matrix, vector = values.matrix, values.vector
+        A = None if self.A is None else matrix(self.A)
+        c = vector(self.c or ()) if A is None or self.c else butcher(A, vector(self.b)).c
+        found = method(matrix(self.Abar), A, c, vector(self.bbar), vector(self.b))
+        return d.Made(found.tableau, partial(self._further, values))
+
+    def _further(self, values: Values) -> Further:
+        embedded = dense = None
+        if not self.beside:
+            return Further()
+        of_q, of_v = self.beside
+        if of_q.embedded is not None and of_v.embedded is not None:
+            embedded = weights_of(values.vector(of_q.embedded), values.vector(of_v.embedded))
+        if of_q.dense is not None:
+            b = None if of_v.dense is None else values.matrix(of_v.dense)
+            dense = dense_of(values.matrix(of_q.dense), b)
+        return Further(embedded, dense)
+
+
+def nystrom(at: NumbersReader, node: Node) -> NystromText | None:
     """Reads the form ``nystrom``; None if it is not a method."""
     found: g.ReadMapping | None = NYSTROM.read(at, node, "nystrom")
     if found is None or not found.is_right or not found["b"]:
@@ -140,7 +201,7 @@ def nystrom(at: NumbersReader, node: Node) -> d.NystromText | None:
         if embedded == (None, None):
             at.source.fault(inside.node, "embedded is empty", _FORM_OF_EMBEDDED, code="empty")
     dense = _dense(at, found["dense"], stages) if "dense" in found else None
-    return d.NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded, dense)
+    return NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded, dense)
 
 
 def _dense(at: NumbersReader, found: g.ReadMapping, stages: int) -> tuple[Rows, Rows | None] | None:

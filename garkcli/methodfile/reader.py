@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 from garkcli.errors import did_you_mean
 from garkcli.frozen import replace
 from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar import keys as g
 from garkcli.grammar.keys import FILE, entries_in
 from garkcli.grammar.nodes import Extent, MappingNode, Node, ScalarNode, extent, key_of, keys_of
 from garkcli.grammar.source import Entries, Source
@@ -60,7 +61,7 @@ class ContentReader(NumbersReader):
         content = self._content(form, structure, entries)
         if content is None:
             return None
-        texts = d.further_of(content)
+        texts = content.beside
         further = [x.node for x in texts if x.node is not None]
         further += [x.predictor.node for x in texts if x.predictor is not None]
         if is_conjugate and further:
@@ -139,31 +140,27 @@ class ContentReader(NumbersReader):
             parts = PartReader(self.numbers, *inside, self.tolerance, structure)
             found: d.ConstructionText | None = KEYS[form].kind.read(parts, node, form)
             return found
-        if form == "rosenbrock":
-            from garkcli.methodfile.rosenbrock import rosenbrock
+        if form == "prk":
+            from garkcli.methodfile.ark_prk import prk
 
-            return rosenbrock(self, node)
-        if form in ("shu-osher", "low-storage"):
-            from garkcli.methodfile.registers import low_storage, shu_osher
-
-            return (shu_osher if form == "shu-osher" else low_storage)(self, node)
-        if form == "nprk":
-            from garkcli.methodfile.nprk import nprk
-
-            return nprk(self, node)
-        if form == "derivatives":
-            from garkcli.methodfile.derivatives import derivatives
-
-            return derivatives(self, node)
-        if form == "nystrom":
-            from garkcli.methodfile.nystrom import nystrom
-
-            return nystrom(self, node)
-        from garkcli.methodfile.ark_prk import ark, prk
-
-        return ark(self, node) if form == "ark" else prk(self, node, structure)
+            return prk(self, node, structure)
+        content: d.Content | None = g.declared(*_READERS[form])(self, node)
+        return content
 
 
+_READERS = {
+    form: (f"garkcli.methodfile.{module}", function)
+    for form, module, function in (
+        ("ark", "ark_prk", "ark"),
+        ("shu-osher", "registers", "shu_osher"),
+        ("low-storage", "registers", "low_storage"),
+        ("rosenbrock", "rosenbrock", "rosenbrock"),
+        ("nystrom", "nystrom", "nystrom"),
+        ("nprk", "nprk", "nprk"),
+        ("derivatives", "derivatives", "derivatives"),
+    )
+}
+"""The functions that read rare forms; their modules are imported when they are needed."""
 _ABOUT = (
     *("gark", "name", "description", "aliases", "reference", "tolerance", "expect"),
     "parameters",

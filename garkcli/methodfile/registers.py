@@ -5,13 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from flint import fmpq
+
+from garkcli.constructions.registers import as_butcher
 from garkcli.errors import counted
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node, ScalarNode, SequenceNode
-from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
-from garkcli.methodfile.numbers import NumbersReader
+from garkcli.methodfile.description import NOTHING_FURTHER, FurtherText, Made, OwnContent
+from garkcli.methodfile.numbers import NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
+from garkcli.methodfile.values import Values
+from garkcli.tableau.forms import gark
 
 KEYS_OF_FORMS: Mapping[str, tuple[str, ...]] = {
     "2N": ("A", "B"),
@@ -93,7 +98,27 @@ LOW_STORAGE = g.mapping(
 """A low-storage scheme."""
 
 
-def shu_osher(at: NumbersReader, node: Node) -> d.RegistersText | None:
+class RegistersText(OwnContent):
+    """A method in the form used by codes with few registers.
+
+    ``scheme`` is ``shu-osher``, or the form of ``low-storage``; ``numbers`` are its rows and
+    matrices, in the order of the scheme.
+    """
+
+    scheme: str
+    numbers: tuple[Row | Rows, ...]
+    c: Row | None = None
+    beside: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
+
+    def made(self, values: Values, rounding: fmpq | None) -> Made:
+        numbers = [
+            values.matrix(x) if isinstance(x[0], tuple) else values.vector(x) for x in self.numbers
+        ]
+        c = None if self.c is None else values.vector(self.c)
+        return Made(gark([as_butcher(self.scheme, numbers, c, rounding or 0)], {}))
+
+
+def shu_osher(at: NumbersReader, node: Node) -> RegistersText | None:
     """Reads the form ``shu-osher``; None if it is not a method."""
     found: g.ReadMapping | None = SHU_OSHER.read(at, node, "shu-osher")
     if found is None or not found.is_right:
@@ -114,7 +139,7 @@ def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
     return is_zero(nodes["alpha"]) and is_zero(nodes["beta"])
 
 
-def low_storage(at: NumbersReader, node: Node) -> d.RegistersText | None:
+def low_storage(at: NumbersReader, node: Node) -> RegistersText | None:
     """Reads the form ``low-storage``; None if it is not a method."""
     found: g.ReadMapping | None = LOW_STORAGE.read(at, node, "low-storage")
     if found is None or not found.is_right:
@@ -155,9 +180,9 @@ def _text(
     found: g.ReadMapping,
     numbers: tuple[Any, ...],
     stages: int,
-) -> d.RegistersText | None:
+) -> RegistersText | None:
     c = found.get("c")
     if c is not None and not spelled_out.nodes_fit(at, found.nodes["c"], "c", c, stages):
         return None
     further = spelled_out.further_of_method(at, found.nodes, stages)
-    return d.RegistersText(node, scheme, numbers, c, (further,))
+    return RegistersText(node, scheme, numbers, c, (further,))

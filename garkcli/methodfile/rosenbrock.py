@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sized
+from collections.abc import Iterator, Sequence, Sized
+from functools import partial
+from itertools import chain
 
+from garkcli.constructions.rosenbrock import Rosenbrock, transformed, transformed_weights
+from garkcli.exact.matrix import Matrix
+from garkcli.frozen import replace
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node, ScalarNode, is_null
 from garkcli.methodfile import description as d
 from garkcli.methodfile import spelled_out
+from garkcli.methodfile.description import (
+    NOTHING_FURTHER,
+    FurtherText,
+    Made,
+    OwnContent,
+    Place,
+    places_of,
+)
 from garkcli.methodfile.numbers import Coefficient, NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, NUMBER, ROW
+from garkcli.methodfile.values import Values
+from garkcli.tableau.embedded import Further
 
 _FORM = (
     "give {alpha: [[0, 0], [1, 0]], gamma: [[1/2, 0], [-1, 1/2]], b: [1/2, 1/2]}, "
@@ -150,7 +165,61 @@ ROSENBROCK = g.mapping(
 """A Rosenbrock or W-method."""
 
 
-def rosenbrock(at: NumbersReader, node: Node) -> d.RosenbrockText | None:
+class RosenbrockText(OwnContent):
+    """A Rosenbrock or W-method as in papers, or transformed as in programs; the latter has one
+    colour.
+    """
+
+    alpha: tuple[tuple[Rows, ...], ...]
+    gamma: tuple[tuple[Rows, ...], ...]
+    b: Rows
+    c: Rows | None = None
+    d: Rows | None = None
+    diagonal: Row | None = None
+    error: Row | None = None
+    beside: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
+
+    @property
+    def names(self) -> Sequence[str]:
+        return [""] * len(self.b) if len(self.b) > 1 else ()
+
+    def places(self) -> Iterator[Place]:
+        """Yields the numbers; those of one colour are all alike."""
+        yield from places_of([self.error or ()], 0, "embedded")
+        for l in range(len(self.b) if len(self.b) > 1 else 0):
+            for of_colours in (self.alpha, self.gamma):
+                yield from places_of(chain.from_iterable(of_colours[l]), l)
+            others = (x[l] for x in (self.c, self.d) if x is not None)
+            yield from places_of([self.b[l], *others], l)
+        yield from super().places()
+
+    def made(self, values: Values, _: object) -> Made:
+        matrix, vector = values.matrix, values.vector
+        alpha, gamma = (
+            tuple(tuple(map(matrix, row)) for row in blocks) for blocks in (self.alpha, self.gamma)
+        )
+        finish = None
+        if self.diagonal is None:
+            found = Rosenbrock(alpha, gamma, matrix(self.b))
+        else:
+            b = vector(self.b[0])
+            found = transformed(alpha[0][0], gamma[0][0], vector(self.diagonal), b)
+            finish = partial(self._finished, values, found.tableau.size, found.gamma[0][0])
+        c, d_ = (None if x is None else matrix(x) for x in (self.c, self.d))
+        return Made(replace(found, c=c, d=d_).tableau, finish=finish)
+
+    def _finished(self, values: Values, size: int, gamma: Matrix, further: Further) -> Further:
+        """Returns the further weights of a transformed method, with those from ``e``; ``size`` is
+        the number of colours of its tableau.
+        """
+        if self.error is not None:
+            pairs = zip(values.vector(self.b[0]), values.vector(self.error), strict=True)
+            row = tuple(m - e for m, e in pairs)
+            further = Further((row,) * size, further.dense)
+        return transformed_weights(further, gamma)
+
+
+def rosenbrock(at: NumbersReader, node: Node) -> RosenbrockText | None:
     """Reads the form ``rosenbrock``; None if it is not a method."""
     entries: g.ReadMapping | None = ROSENBROCK.read(at, node, "rosenbrock")
     if entries is None or not entries.is_right:
@@ -165,7 +234,7 @@ def rosenbrock(at: NumbersReader, node: Node) -> d.RosenbrockText | None:
 
 def _text(
     at: NumbersReader, node: Node, found: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
-) -> d.RosenbrockText | None:
+) -> RosenbrockText | None:
     """Returns the method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
     b: Row = found[name_of_b]
@@ -184,10 +253,10 @@ def _text(
     further = spelled_out.further_of_method(at, found.nodes, stages)
     alpha, full = (((rows,),) for rows in matrices)
     c, d_ = ((row,) if row is not None else None for row in (rows["c"], rows["d"]))
-    return d.RosenbrockText(node, alpha, full, (b,), c, d_, diagonal, rows["e"], (further,))
+    return RosenbrockText(node, alpha, full, (b,), c, d_, diagonal, rows["e"], (further,))
 
 
-def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> d.RosenbrockText | None:
+def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> RosenbrockText | None:
     """Reads a method of several colours."""
     before = len(at.source.faults)
 
@@ -238,7 +307,7 @@ def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> d.Rosenbroc
     if len(at.source.faults) > before:
         return None
     further = tuple(map(d.FurtherText, embedded or (None,) * N))
-    return d.RosenbrockText(node, alpha, gamma, b, c, d_, further=further)
+    return RosenbrockText(node, alpha, gamma, b, c, d_, beside=further)
 
 
 def _row(at: NumbersReader, found: g.ReadMapping, name: str, stages: int) -> Row:

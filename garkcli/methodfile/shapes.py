@@ -500,19 +500,13 @@ UNKNOWN = g.mapping(
 """The number of stages, and the shape."""
 
 
-ShapedText: TypeAlias = (
-    "d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText | d.NystromText | d.RegistersText"
-    " | d.ConstructionText"
-)
-
-
 class Shaped(Frozen):
     """The tableau for ``unknown``: the form and the coefficients of the equivalent method file, the
     layout, and the place of ``unknown: …`` in the file.
     """
 
     form: d.Form
-    content: ShapedText
+    content: d.Content
     layout: UnknownLayout
     place: Extent
 
@@ -543,7 +537,7 @@ def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
 
-def _content(at: NumbersReader, layout: UnknownLayout, node: Node) -> ShapedText:
+def _content(at: NumbersReader, layout: UnknownLayout, node: Node) -> d.Content:
     """Returns the coefficients of a layout as in a method file."""
 
     def row(texts: TextRow, where: str) -> Row:
@@ -568,18 +562,24 @@ def _content(at: NumbersReader, layout: UnknownLayout, node: Node) -> ShapedText
         return d.PrkText(*(d.ButcherText(node, "", A, b, None, x) for A, b, x in parts))
     if layout.kind == "rosenbrock":
         alpha, gamma = matrices
-        return d.RosenbrockText(
-            node, ((alpha,),), ((gamma,),), tuple(weights[:1]), further=further[:1]
+        from garkcli.methodfile.rosenbrock import RosenbrockText  # few shapes need these
+
+        return RosenbrockText(
+            node, ((alpha,),), ((gamma,),), tuple(weights[:1]), beside=further[:1]
         )
     if layout.kind == "multirate":
         return _coupling(node, row(layout.c, "c"), matrices, tuple(embedded) or None)
     if layout.kind == "shu-osher":
-        return d.RegistersText(node, layout.kind, tuple(matrices), None, further)
+        from garkcli.methodfile.registers import RegistersText
+
+        return RegistersText(node, layout.kind, tuple(matrices), None, further)
     if layout.kind == "nystrom":
         Abar, *more = matrices
         bbar, b = weights
         q, v = (x.embedded for x in further) if layout.embedded else (None, None)
-        return d.NystromText(
+        from garkcli.methodfile.nystrom import NystromText
+
+        return NystromText(
             node,
             Abar,
             more[0] if more else None,

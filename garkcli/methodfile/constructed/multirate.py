@@ -30,7 +30,7 @@ from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
 from garkcli.methodfile.constructed.couplings import Infinitesimal, TableauOf, method_of_part
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
-from garkcli.methodfile.description import ConstructionText, Make, PartText, further_of
+from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.load import NO_SETTINGS, built, described
 from garkcli.methodfile.numbers import Coefficient, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
@@ -276,7 +276,7 @@ def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
 
 def _embedded_of(part: PartText) -> Row | None:
     """Returns the embedded weights of a method with one colour, or None."""
-    texts = further_of(part.description.content)
+    texts = part.description.content.beside
     return texts[0].embedded if len(texts) == 1 else None
 
 
