@@ -13,6 +13,7 @@ from contextlib import suppress
 from flint import fmpq
 
 from garkcli.convergence import ladder
+from garkcli.convergence.ladder import Solver
 from garkcli.convergence.result import (
     CLOSE,
     MAX_ORDER,
@@ -23,7 +24,7 @@ from garkcli.convergence.result import (
     observed_order,
     stiff_order,
 )
-from garkcli.convergence.solver import Solver
+from garkcli.convergence.solver import ROWS
 from garkcli.errors import UsageProblem
 from garkcli.order import deciding
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -154,7 +155,7 @@ def converge(
         solver.visible,
         short_time,
         short_order,
-        is_exact or (len(fitted) >= ladder.ROWS and ladder.has_settled(fitted)),
+        is_exact or (len(fitted) >= ROWS and ladder.has_settled(fitted)),
         steps is not None,
         stiff,
         all(row.error.is_zero() for row in rows) and solver.rests(),

@@ -9,17 +9,36 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import count
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq
 
 from garkcli.convergence.result import CLOSE, Row, observed_order
-from garkcli.convergence.solver import NoUniqueStep, Solver
+from garkcli.convergence.solver import ROWS, NoUniqueStep
 from garkcli.frozen import replace
 from garkcli.stepping.integrator import StepFailed
 from garkcli.stepping.linear import whole_steps
 
-ROWS = 5
-"""Step sizes of the default ladder; more only while the slopes still change."""
+if TYPE_CHECKING:
+    from garkcli.convergence.linear_solver import LinearSolver
+    from garkcli.convergence.stepped_solver import SteppedSolver
+
+Solver: TypeAlias = "LinearSolver | SteppedSolver"
+"""A method on a problem, up to a time: by exact powers of its step map, or step by step. Both have
+
+- ``problem``, ``t_end`` and ``visible``: what the problem can see of the method;
+- ``unit`` and ``longest``: a unit of time that is natural for it, the longest step of a ladder;
+- ``most_steps`` of a row, ``decades``: parts 10^−k of the usual time, short times that are tried;
+- ``row``: the errors of steps of one size, with a slope from the row before;
+- ``size`` of the solution: the sum of its numbers at the start and at the end;
+- ``rests``: whether it ends where it starts, as far as floats can tell;
+- ``rounding``: about the error that the rounding of coefficients makes; 0 for exact ones;
+- ``resolution``: h ‖∂f/∂y‖ of a right-hand side; 0 for other problems;
+- ``is_too_short``: whether a ladder ends before a step size, where a stiff problem would no longer
+  look so;
+- ``timed``: a row with what its steps cost when they are taken one by one;
+- ``over``: the same up to another time.
+"""
 MAX_ROWS = 10
 """Most step sizes of the default ladder."""
 MAX_COARSE = 20_000

@@ -1,9 +1,9 @@
-"""The interface of solvers for a convergence test: errors for any step size."""
+"""What solvers of a convergence test share: the cost of steps, and limits."""
 
 from __future__ import annotations
 
 from time import process_time
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any
 
 from flint import fmpq
 
@@ -11,37 +11,19 @@ from garkcli.convergence.result import Cost
 from garkcli.errors import UsageProblem
 from garkcli.stepping.integrator import Integrator, Stepper
 
-if TYPE_CHECKING:
-    from garkcli.convergence.linear_solver import LinearSolver
-    from garkcli.convergence.stepped_solver import SteppedSolver
-
 
 class NoUniqueStep(UsageProblem):
     """The stage equations of a linear problem are singular at one step size."""
 
 
-Solver: TypeAlias = "LinearSolver | SteppedSolver"
-"""A method on a problem, up to a time: by exact powers of its step map, or step by step. Both have
-
-- ``problem``, ``t_end`` and ``visible``: what the problem can see of the method;
-- ``unit`` and ``longest``: a unit of time that is natural for it, the longest step of a ladder;
-- ``most_steps`` of a row, ``decades``: parts 10^−k of the usual time, short times that are tried;
-- ``row``: the errors of steps of one size, with a slope from the row before;
-- ``size`` of the solution: the sum of its numbers at the start and at the end;
-- ``rests``: whether it ends where it starts, as far as floats can tell;
-- ``rounding``: about the error that the rounding of coefficients makes; 0 for exact ones;
-- ``resolution``: h ‖∂f/∂y‖ of a right-hand side; 0 for other problems;
-- ``is_too_short``: whether a ladder ends before a step size, where a stiff problem would no longer
-  look so;
-- ``timed``: a row with what its steps cost when they are taken one by one;
-- ``over``: the same up to another time.
-"""
 ENOUGH = 0.1
 """Processor seconds after which a run is not repeated."""
 MAX_RUNS = 20
 """Most repetitions of a run, of which the fastest counts."""
 MAX_DIGITS = 1000
 """Most digits of a step; a smaller error counts as zero."""
+ROWS = 5
+"""Step sizes of the default ladder; more only while the slopes still change."""
 REACHED = 0.1
 """The largest part of an error that round-off of floats may be."""
 

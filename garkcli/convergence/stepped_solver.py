@@ -13,10 +13,9 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.convergence.ladder import ROWS
 from garkcli.convergence.reference import ReferenceSolution, magnitude, reference, run
 from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
-from garkcli.convergence.solver import MAX_DIGITS, REACHED, cost_of, work_of
+from garkcli.convergence.solver import MAX_DIGITS, REACHED, ROWS, cost_of, work_of
 from garkcli.exact.display import to_float
 from garkcli.frozen import Mutable, field, replace
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
