@@ -282,7 +282,7 @@ class Builder(Generic[V]):
         if own is not None and own.further is not None:
             return self._at(description.node, own.further)
         texts = description.content.beside
-        if not texts:
+        if texts == (d.NOTHING_FURTHER,) * len(texts) and not (own and own.finish):
             return Further()
         given = [texts[colour.term] for colour in self.tableau.colours]
         embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]

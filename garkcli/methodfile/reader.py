@@ -61,15 +61,14 @@ class ContentReader(NumbersReader):
         content = self._content(form, structure, entries)
         if content is None:
             return None
-        texts = content.beside
-        further = [x.node for x in texts if x.node is not None]
-        further += [x.predictor.node for x in texts if x.predictor is not None]
-        if is_conjugate and further:
-            message = (
-                "conjugate: the symplectic conjugate has no embedded weights, dense output or"
-                " predictor"
-            )
-            self.source.fault(further[0], message, "leave them out", code="not-together")
+        if is_conjugate:
+            texts = content.beside
+            further = [x.node for x in texts if x.node is not None]
+            further += [x.predictor.node for x in texts if x.predictor is not None]
+            for place in further[:1]:
+                message = "conjugate: the symplectic conjugate has no embedded weights, dense "
+                message += "output or predictor"
+                self.source.fault(place, message, "leave them out", code="not-together")
         place = next(entries[key] for key in (form, "unknown", "b") if key in entries)
         return d.Description(form, content, place, structure, is_conjugate)
 

@@ -222,8 +222,10 @@ def package() -> Package:
 
 def own_folders() -> list[Shelf]:
     """Returns the existing folders of ``GARK_PATH``, in its order."""
-    folders = dict.fromkeys(x for x in os.environ.get(PATH_VARIABLE, "").split(os.pathsep) if x)
-    return [OwnFolder(x) for x in folders if os.path.isdir(x)]
+    given = os.environ.get(PATH_VARIABLE)
+    if not given:
+        return []
+    return [OwnFolder(x) for x in dict.fromkeys(given.split(os.pathsep)) if os.path.isdir(x)]
 
 
 @cache
