@@ -137,7 +137,7 @@ class Analysis(Shown, Frozen):
         """The weights whose sum differs from 1 by more than rounding explains, the embedded ones
         last.
         """
-        found: list[WrongSum] = []
+        wrong: list[WrongSum] = []
         method = meant(self.tableau, self.tolerance)
         asked = [(method, self.order, False)]
         if self.embedded is not None and self.further.embedded is not None:
@@ -148,8 +148,8 @@ class Analysis(Shown, Frozen):
                 continue
             from garkcli.order.sums import wrong_weights
 
-            found += wrong_weights(defects_of(tableau), is_embedded)
-        return tuple(found)
+            wrong += wrong_weights(defects_of(tableau), is_embedded)
+        return tuple(wrong)
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]
@@ -316,7 +316,7 @@ def analyse(
     symplectic = is_symplectic(method)
     if both is not None and pair_conditions is None:
         pair_order, pair_conditions = order, conditions
-    found = Analysis(
+    analysis = Analysis(
         tableau=tableau,
         order=order,
         simplifying=conditions,
@@ -338,7 +338,7 @@ def analyse(
         nonautonomous_order=nonautonomous(method, order, inconsistent, limit),
     )
     if not further:
-        return found
+        return analysis
     from garkcli.check.further import further_facts  # few files have them
 
     embedded, dense = further_facts(method, further, order, inconsistent, limit, spans)
@@ -347,7 +347,7 @@ def analyse(
         from garkcli.order.predictor import predictor_orders  # fewer still
 
         predictor = predictor_orders(tableau, further.predictor, limit)
-    return replace(found, embedded=embedded, dense=dense, predictor=predictor, further=further)
+    return replace(analysis, embedded=embedded, dense=dense, predictor=predictor, further=further)
 
 
 def looks_rounded(method: MethodFile) -> RoundingHint | None:
@@ -361,8 +361,8 @@ def looks_rounded(method: MethodFile) -> RoundingHint | None:
         return None
     from garkcli.check.remark import remark_on  # balls, which exact methods do without
 
-    found = remark_on(method.tableau, order, None)
-    return found if found is not None and found.line else None
+    remark = remark_on(method.tableau, order, None)
+    return remark if remark is not None and remark.line else None
 
 
 def remark_of(method: MethodFile, analysis: Analysis) -> RoundingHint | None:
@@ -370,20 +370,20 @@ def remark_of(method: MethodFile, analysis: Analysis) -> RoundingHint | None:
     asked = [("order", analysis.order)]
     if analysis.embedded is not None:
         asked.append(("embedded-order", analysis.embedded.order))
-    for key, found in asked:
-        if not is_doubtful(found, method.tolerance):
+    for key, order in asked:
+        if not is_doubtful(order, method.tolerance):
             continue
         from garkcli.check.remark import remark_on  # balls, which exact methods do without
 
-        remark = remark_on(method.tableau, found, method.tolerance, key, analysis.limit)
+        remark = remark_on(method.tableau, order, method.tolerance, key, analysis.limit)
         if remark is not None:
             return remark
     return None
 
 
-def is_doubtful(found: AnyOrder, tolerance: fmpq | None) -> bool:
+def is_doubtful(order: AnyOrder, tolerance: fmpq | None) -> bool:
     """Returns whether rounding may be the reason why an order is not higher."""
-    return found.witness is not None and (bool(tolerance) or within(found.witness.residual, TINY))
+    return order.witness is not None and (bool(tolerance) or within(order.witness.residual, TINY))
 
 
 def _capped(

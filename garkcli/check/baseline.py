@@ -104,11 +104,11 @@ def _is_whole_claim(claim: object) -> bool:
 
 def regressions(report: Mapping[str, Any], baseline: Earlier) -> list[Regression]:
     """Returns all changes for the worse since ``baseline``. A new file has to pass."""
-    found: list[Regression] = []
+    changes: list[Regression] = []
     for now in report["files"]:
         before = baseline.get(_path_of(now))
-        found += _new_file(now) if before is None else _changed(now, before)
-    return found
+        changes += _new_file(now) if before is None else _changed(now, before)
+    return changes
 
 
 def _new_file(now: File) -> list[Regression]:
@@ -130,15 +130,15 @@ def _changed(now: File, before: File) -> list[Regression]:
         return [Regression(file, "file", "a method", "unreadable")]
     held = {claim["claim"]: claim["holds"] for claim in before["claims"]}
     words = {True: "held", None: "undecided"}
-    found = []
+    changes = []
     for claim in now["claims"]:
         name, holds = claim["claim"], claim["holds"]
         was = held.get(name, True)
         if not holds and (was or (was is None and holds is False)):
             before_it = words[was] if name in held else "not claimed"
-            found.append(Regression(file, name, before_it, f"found {claim['found']}"))
+            changes.append(Regression(file, name, before_it, f"found {claim['found']}"))
     for order in ORDERS:
         old, new = before.get(order), now.get(order)
         if type(old) is int and (new is None or new < old):
-            found.append(Regression(file, order.replace("_", " "), str(old), str(new)))
-    return found
+            changes.append(Regression(file, order.replace("_", " "), str(old), str(new)))
+    return changes

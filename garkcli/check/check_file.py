@@ -72,21 +72,21 @@ def check_every(
             message = f"{further[0].key} is claimed, and {name} is free"
             cure = f"dense output and predictors are judged for values: --set {name}=1/2"
             return _refused(file, message, cure, "free-parameters")
-        found = every_value(family, max(limit, highest_order(family.claims) + 1))
+        facts = every_value(family, max(limit, highest_order(family.claims) + 1))
     except MethodFileError as error:
         return Outcome(file.source, file.source, faults=error.faults, text=file.text)
     except GarkError as error:
         return _refused(file, error.message, error.help, error.code)
     if want_constants:
-        name = found.parameters[0]
+        name = facts.parameters[0]
         message = "error constants are numbers, and a parameter is free"
         return _refused(file, message, f"choose a value: --set {name}=1/2", "free-parameters")
     return Outcome(
         file=family.source,
         name=family.name,
         structure=family.structure,
-        every=found,
-        claims=verify_every(family.claims, found),
+        every=facts,
+        claims=verify_every(family.claims, facts),
         text=file.text,
         left_behind=family.left_behind,
     )
@@ -136,30 +136,30 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
     from garkcli.constructions.nystrom import is_nystrom
     from garkcli.constructions.rosenbrock import is_rosenbrock
 
-    found = analyse_any(method, limit)
+    analysis = analyse_any(method, limit)
     outcome = Outcome(
         file=method.source,
         name=method.name,
-        claims=verify(method.claims, found),
+        claims=verify(method.claims, analysis),
         text=method.text,
-        constants=_constants(found) if want_constants else None,
+        constants=_constants(analysis) if want_constants else None,
         left_behind=method.left_behind,
     )
     if is_rosenbrock(method.tableau):
-        return replace(outcome, rosenbrock=found)
+        return replace(outcome, rosenbrock=analysis)
     if is_nprk(method.tableau):
-        return replace(outcome, nprk=found)
+        return replace(outcome, nprk=analysis)
     if is_nystrom(method.tableau):
-        return replace(outcome, nystrom=found)
+        return replace(outcome, nystrom=analysis)
     if method.tableau.uses_derivatives:
-        return replace(outcome, derivatives=found)
-    return replace(outcome, infinitesimal=found)
+        return replace(outcome, derivatives=analysis)
+    return replace(outcome, infinitesimal=analysis)
 
 
-def _constants(found: AnyAnalysis) -> ErrorConstants | None:
+def _constants(analysis: AnyAnalysis) -> ErrorConstants | None:
     """Returns the error constants; None if no condition is known to fail."""
-    if found.order.is_lower_bound:
+    if analysis.order.is_lower_bound:
         return None
     from garkcli.order.constants import error_constants  # numpy is paid for here
 
-    return error_constants(found.tableau, found.order.order + 1)
+    return error_constants(analysis.tableau, analysis.order.order + 1)

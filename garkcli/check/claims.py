@@ -55,12 +55,12 @@ def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim,
 def _held_against(claim: ClaimText, analysis: AnyAnalysis) -> Claim:
     if claim.key in KEYS:
         return verify_property(claim, analysis.subject)
-    found = found_value(claim.key, analysis)
-    shown = claimed_text(found)
-    if found is None:
+    value = found_value(claim.key, analysis)
+    shown = claimed_text(value)
+    if value is None:
         shown = f"none: {_why_none(claim.key, analysis)}"
-    is_open = claim.key == "dense-smooth" and analysis.dense is not None and found is None
-    return claim_of(claim, shown, None if is_open else agrees(claim.value, found))
+    is_open = claim.key == "dense-smooth" and analysis.dense is not None and value is None
+    return claim_of(claim, shown, None if is_open else agrees(claim.value, value))
 
 
 def _why_none(key: str, analysis: AnyAnalysis) -> str:
@@ -126,19 +126,19 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
     """Returns the value found for an order, a table of orders, or symplecticity; None if not
     applicable.
     """
-    found: Any = analysis
+    value: Any = analysis
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)
-        found = None if view is None else view[0]
+        value = None if view is None else view[0]
     elif isinstance(analysis, Analysis) and key in _OF_OTHERS:
         return None
     else:
         for name in PLACES.get(key, key.replace("-", "_")).split("."):
-            found = found and getattr(found, name, None)
-    if hasattr(found, "is_lower_bound"):
+            value = value and getattr(value, name, None)
+    if hasattr(value, "is_lower_bound"):
         # an order at which nothing is known to fail is at least that large, no more
-        return AtLeast(found.order) if found.is_lower_bound else found.order
-    return capped(found, analysis.limit)
+        return AtLeast(value.order) if value.is_lower_bound else value.order
+    return capped(value, analysis.limit)
 
 
 def verify_property(claim: ClaimText, subject: AnySubject) -> Claim:
@@ -165,12 +165,12 @@ def _holds(claim: ClaimText, verdict: Verdict, subject: AnySubject) -> bool | No
     return agrees(wanted, value)
 
 
-def claim_of(claim: ClaimText, found: str, holds: bool | None, reason: Reason = NO_REASON) -> Claim:
+def claim_of(claim: ClaimText, value: str, holds: bool | None, reason: Reason = NO_REASON) -> Claim:
     mark = claim.node.start_mark
     return Claim(
         claim=claim.key,
         expected=claimed_text(claim.value),
-        found=found,
+        found=value,
         holds=holds,
         line=mark.line + 1,
         column=mark.column + 1,
@@ -178,7 +178,7 @@ def claim_of(claim: ClaimText, found: str, holds: bool | None, reason: Reason = 
     )
 
 
-def agrees(wanted: object, found: object) -> bool | None:
+def agrees(wanted: object, value: object) -> bool | None:
     """Returns whether a value from a file, a number or a nested list, agrees with the value found.
 
     None if a lower bound leaves that open.
@@ -187,20 +187,20 @@ def agrees(wanted: object, found: object) -> bool | None:
     (True, False, None)
     """
     if isinstance(wanted, list):
-        if not isinstance(found, list) or len(found) != len(wanted):
+        if not isinstance(value, list) or len(value) != len(wanted):
             return False
-        answers = [agrees(x, y) for x, y in zip(wanted, found, strict=True)]
+        answers = [agrees(x, y) for x, y in zip(wanted, value, strict=True)]
         return False if False in answers else None if None in answers else True
-    if isinstance(found, AtLeast):
+    if isinstance(value, AtLeast):
         least = wanted.least if isinstance(wanted, AtLeast) else wanted
         if not isinstance(least, int):
             return False
-        if isinstance(wanted, AtLeast) and found.least >= least:
+        if isinstance(wanted, AtLeast) and value.least >= least:
             return True
-        return None if least >= found.least else False
+        return None if least >= value.least else False
     if isinstance(wanted, AtLeast):
-        return isinstance(found, int) and found >= wanted.least
-    return type(wanted) is type(found) and wanted == found
+        return isinstance(value, int) and value >= wanted.least
+    return type(wanted) is type(value) and wanted == value
 
 
 def capped(value: object, limit: int) -> object:

@@ -48,16 +48,16 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
     """Returns the cause of the first order below its claim; None if the next order is not known to
     fail, or rounding explains the failure.
     """
-    for key, tableau, found in _orders(method, analysis):
+    for key, tableau, actual in _orders(method, analysis):
         claimed = highest_order(method.claims, [key])
-        if found.order >= claimed:
+        if actual.order >= claimed:
             continue
-        if found.is_lower_bound or _is_explained(method, remark, claimed):
+        if actual.is_lower_bound or _is_explained(method, remark, claimed):
             return None
         from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
 
         first = None
-        for judged, order in _ways(method, tableau, found, key, remark):
+        for judged, order in _ways(method, tableau, actual, key, remark):
             if order.witness is None or order.order >= claimed:
                 continue
             missed = Missed(order.order + 1, claimed, key, key == "embedded-order")
@@ -82,13 +82,13 @@ def _is_explained(method: MethodFile, remark: RoundingHint | None, claimed: int)
 
 def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Tableau, AnyOrder]]:
     """Yields the orders that a file may claim, with the tableau whose entries may be wrong."""
-    for key, found in (
+    for key, order in (
         ("order", analysis.order),
         ("conjugate-order", analysis.conjugate_order),
         ("pair-order", analysis.pair_order),
     ):
-        if found is not None:
-            yield key, method.tableau, found
+        if order is not None:
+            yield key, method.tableau, order
     if analysis.embedded is not None:
         yield "embedded-order", analysis.embedded.tableau, analysis.embedded.order
 
@@ -99,28 +99,28 @@ def _unclaimed(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
     """
     claimed = {claim.key for claim in method.claims}
     is_made = method.form in CONSTRUCTIONS  # no file prints its embedded weights
-    for key, tableau, found in _orders(method, analysis):
+    for key, tableau, actual in _orders(method, analysis):
         if key in claimed or key not in UNASKED or (is_made and key == "embedded-order"):
             continue
         from garkcli.order.blame import Missed, slip_of  # CI makes claims
 
         missed = Missed(0, 0, key, is_embedded=key == "embedded-order")
-        for judged, order in _ways(method, tableau, found, key, remark):
+        for judged, order in _ways(method, tableau, actual, key, remark):
             if slip := slip_of(judged, missed, order):
                 return slip
     return None
 
 
 def _ways(
-    method: MethodFile, tableau: Tableau, found: AnyOrder, key: str, remark: RoundingHint | None
+    method: MethodFile, tableau: Tableau, order: AnyOrder, key: str, remark: RoundingHint | None
 ) -> Iterator[tuple[AnyTableau, AnyOrder]]:
     """Yields the method and its order: exactly or within the tolerance of the file; for decimals
     declared exact also as if they were rounded.
     """
-    if not isinstance(found, Order):
-        yield meant(method.tableau, method.tolerance, method.further), found
+    if not isinstance(order, Order):
+        yield meant(method.tableau, method.tolerance, method.further), order
         return
-    yield tableau, found
+    yield tableau, order
     if remark is not None:
         return  # it says how the coefficients are rounded
     from garkcli.methodfile.printed import left_open

@@ -190,16 +190,16 @@ def by_samples(family: EveryFamily, ask: Question) -> Fact:
     """Returns a fact that differs if two samples do, and is undecided otherwise."""
     first: tuple[Reason, Any] | None = None
     for values, method in family.samples():
-        found = answer(ask, method)
-        if found is UNDECIDED:
+        sample = answer(ask, method)
+        if sample is UNDECIDED:
             continue
         at = joined(
             ", ", [Reason("{} = {}", Formula(x), Formula(str(y))) for x, y in values.items()]
         )
         if first is None:
-            first = at, found
-        elif found != first[1]:
-            why = Reason("{} at {}, {} at {}", told(first[1]), first[0], told(found), at)
+            first = at, sample
+        elif sample != first[1]:
+            why = Reason("{} at {}, {} at {}", told(first[1]), first[0], told(sample), at)
             return Fact(None, is_undecided=True, differs=True, why=why)
     return Fact(None, is_undecided=True, why=NOT_DECIDED)
 
@@ -321,12 +321,12 @@ def _interval(interval: Interval, name: str) -> Reason:
     if interval.is_point:
         assert start is not None
         return values_reason([start], name)
-    found = Reason("{}", Formula(name))
+    reason = Reason("{}", Formula(name))
     if start is not None:
-        found = Reason(f"{{}} {'≤' if interval.has_start else '<'} {{}}", _number(start), found)
+        reason = Reason(f"{{}} {'≤' if interval.has_start else '<'} {{}}", _number(start), reason)
     if end is not None:
-        found = Reason(f"{{}} {'≤' if interval.has_end else '<'} {{}}", found, _number(end))
-    return found
+        reason = Reason(f"{{}} {'≤' if interval.has_end else '<'} {{}}", reason, _number(end))
+    return reason
 
 
 def _number(root: RealRoot) -> Value:

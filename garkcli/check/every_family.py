@@ -99,19 +99,19 @@ def _may_vanish(
     p: fmpq_mpoly, used: Sequence[int], inside: Sequence[Range], case: Sequence[_Chart]
 ) -> bool:
     """Returns whether the coefficients in u leave the existence of a zero open."""
-    found = {}
+    values = {}
     for exponents, a in _rewritten(p, used, case).to_dict().items():
-        found[tuple(map(int, exponents))] = fmpq(a)
+        values[tuple(map(int, exponents))] = fmpq(a)
     # a closed range has a corner at each end, the others at u = 0 alone
     degrees = [int(degree) for degree in p.degrees()]
     corners: list[tuple[int, ...]] = [(0,)] * len(degrees)
     for k, ends in zip(used, inside, strict=True):
         if None not in ends:
             corners[k] = (0, degrees[k])
-    at_corners = [found.get(corner, ZERO) for corner in checked(product(*corners))]
+    at_corners = [values.get(corner, ZERO) for corner in checked(product(*corners))]
     one = at_corners[0]
     are_signed_alike = all(a * one > 0 for a in at_corners)
-    opposes = any(a * one < 0 for a in found.values())
+    opposes = any(a * one < 0 for a in values.values())
     return opposes or not are_signed_alike
 
 
@@ -141,7 +141,7 @@ def carried(
     ``fixed`` has the values of the other parameters: numbers, or polynomials in those left. Raises
     MethodError if no value is left, or a range does not become one of a single parameter.
     """
-    found = {name: ranges[name] for name in left}
+    left_ranges = {name: ranges[name] for name in left}
     for name, value in fixed.items():
         least, greatest = ranges[name]
         if ranges[name] == FREE:
@@ -157,8 +157,10 @@ def carried(
             continue
         low = None if low is None else low / slope
         high = None if high is None else high / slope
-        found[other] = _common(other, found[other], (low, high) if slope > 0 else (high, low))
-    return found
+        left_ranges[other] = _common(
+            other, left_ranges[other], (low, high) if slope > 0 else (high, low)
+        )
+    return left_ranges
 
 
 def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, fmpq, fmpq]:
@@ -242,7 +244,7 @@ def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly
 
     Raises MethodError if one is zero there.
     """
-    found = []
+    polynomials = []
     for p in family.nonzero:
         value = value_of(p, family.ring, values)
         if not value:
@@ -250,8 +252,8 @@ def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly
             cure = "change its demands on the parameters, such as given nodes"
             raise MethodError(message, cure, code="division-by-zero")
         if isinstance(value, Parametric):
-            found.append(value.numerator)
-    return tuple(found)
+            polynomials.append(value.numerator)
+    return tuple(polynomials)
 
 
 def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
@@ -341,8 +343,8 @@ class EveryFamily(Frozen):
     def weights(self) -> list[fmpq_mpoly]:
         """Irreducible polynomials; where one is zero, a weight is."""
         numbers: list[object] = [b for colour in self.tableau.colours for b in colour.b]
-        found = factors(b.numerator for b in numbers if isinstance(b, Parametric))
-        return [p for p in found if not self.is_number(p)]
+        numerators = factors(b.numerator for b in numbers if isinstance(b, Parametric))
+        return [p for p in numerators if not self.is_number(p)]
 
     @property
     def lost(self) -> list[fmpq_mpoly]:
@@ -554,18 +556,18 @@ def _moved_bounds(
 
     Raises MethodError if several parameters are left or a value is out of its range.
     """
-    found = []
+    polynomials = []
     for p in family.not_negative:
         name = family.ring.names[unknowns_of(p)[0]]
         value = value_of(p, family.ring, values)
         if isinstance(value, Parametric):
-            found.append(value.numerator)
+            polynomials.append(value.numerator)
         elif cast("fmpq", value) < 0:
             message = f"{name} = {values[name]} follows, which is outside of its range"
             raise MethodError(message, "change the range", code="no-value-left")
-    if found and len(left) > 1:
-        name = left[unknowns_of(found[0])[0]]
+    if polynomials and len(left) > 1:
+        name = left[unknowns_of(polynomials[0])[0]]
         message = f"the range of {name} has an algebraic end, and {len(left)} parameters are free"
         cure = "write rational ends, or give values to the others with --set"
         raise MethodError(message, cure, code="no-value-left")
-    return tuple(found)
+    return tuple(polynomials)

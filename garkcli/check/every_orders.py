@@ -47,9 +47,9 @@ class EveryOrder(Frozen):
 
     @property
     def order(self) -> int:
-        found = self.fact.value
-        assert isinstance(found, int)
-        return found
+        value = self.fact.value
+        assert isinstance(value, int)
+        return value
 
 
 def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
@@ -110,9 +110,9 @@ def _higher(
             if dimension < 0:
                 return Fact(order), dimension
             if dimension == 0:
-                found = _real(family, whose, ideal)
-                if family.has_one or not found:
-                    return Fact(order, tuple(found)), dimension
+                real_values = _real(family, whose, ideal)
+                if family.has_one or not real_values:
+                    return Fact(order, tuple(real_values)), dimension
             return Fact(order, zeros=family.common_zeros(ideal.polynomials)), dimension
     except NotDecided:
         return Fact(order, zeros=family.common_zeros(zeros)), None
@@ -122,7 +122,7 @@ def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoo
     """Returns the admitted real solutions with their orders, by the value of the first
     parameter.
     """
-    found = []
+    real_values = []
     for solution in solutions(ideal):
         order = order_of(family.family, whose, solution)
         for root in solution.real:
@@ -131,5 +131,5 @@ def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoo
             }
             if is_admissible(family.family, solution, root):
                 least = None if order is None else order.order
-                found.append((next(iter(values.values())), least))
-    return sorted(found, key=_place)
+                real_values.append((next(iter(values.values())), least))
+    return sorted(real_values, key=_place)

@@ -76,10 +76,10 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
         return find(family, ask, is_of_stages=True)
     if family.has_one and key in STABLE:
         try:
-            found = stable_values(family.family, STABLE[key])
+            values = stable_values(family.family, STABLE[key])
         except GarkError:
             return Fact(None)
-        return _of_set(family, found.found, found.undecided)
+        return _of_set(family, values.found, values.undecided)
     if family.has_one and key in SIGNS:
         if key == "algebraically-stable" and not _is_complete(family.tableau):
             return Fact(None)
@@ -95,27 +95,27 @@ def _is_complete(tableau: Tableau) -> bool:
 
 
 def _of_set(
-    family: EveryFamily, found: tuple[Interval, ...], unknown: tuple[RealRoot, ...] = ()
+    family: EveryFamily, values: tuple[Interval, ...], unknown: tuple[RealRoot, ...] = ()
 ) -> Fact:
     """Returns the fact for a set of values: all admitted ones, none, or the set."""
-    if not found:
+    if not values:
         return Fact(False, unknown=unknown)
-    if _is_all(family, found):
+    if _is_all(family, values):
         return Fact(True, unknown=unknown)
-    return Fact(None, unknown=unknown, where=found)
+    return Fact(None, unknown=unknown, where=values)
 
 
-def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
+def _is_all(family: EveryFamily, values: tuple[Interval, ...]) -> bool:
     """Returns whether a set without gaps contains every admitted value."""
     least, greatest = family.ends
     poles = roots_of(map(in_one, family.poles))
-    first, last = found[0], found[-1]
+    first, last = values[0], values[-1]
     has_start = first.has_start or first.start in (None, *poles)
     has_end = last.has_end or last.end in (None, *poles)
     is_whole = first.start == least and last.end == greatest
     # between two intervals there is nothing but a pole
     are_joined = all(
-        left.end == right.start and left.end in poles for left, right in pairwise(found)
+        left.end == right.start and left.end in poles for left, right in pairwise(values)
     )
     return has_start and has_end and is_whole and are_joined
 
@@ -139,10 +139,10 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact
         if exact is None:
             unknown.append(root)
             return False
-        found = answer(ask, family.at(exact))
-        if found is UNDECIDED:
+        fact = answer(ask, family.at(exact))
+        if fact is UNDECIDED:
             unknown.append(root)
-        return found is True
+        return fact is True
 
     return _of_set(family, where(holds, critical), tuple(unknown))
 

@@ -129,8 +129,8 @@ class EveryValue(Frozen):
 
     @property
     def holding(self) -> list[str]:
-        found = {key: self.verdict(key) for key in TOLD}
-        return [key for key, fact in found.items() if fact.is_everywhere and fact.value is True]
+        facts = {key: self.verdict(key) for key in TOLD}
+        return [key for key, fact in facts.items() if fact.is_everywhere and fact.value is True]
 
 
 def every_value(file: FamilyFile, limit: int) -> EveryValue:
@@ -173,9 +173,9 @@ def _again(text: str, source: str, settings: dict[str, str], limit: int) -> Ever
 
 def _symplectic(family: EveryFamily) -> Fact:
     """Returns whether all values give a symplectic method, or the common zeros that do."""
-    found = find(family, is_symplectic)
-    if found.value is not False or not found.open:
-        return found
+    fact = find(family, is_symplectic)
+    if fact.value is not False or not fact.open:
+        return fact
     # what is zero where a method is symplectic
     numbers: list[object] = [*symplectic_defects(family.tableau)]
     if any(x and not isinstance(x, Parametric) for x in numbers):
@@ -187,22 +187,22 @@ def _symplectic(family: EveryFamily) -> Fact:
     return Fact(False, zeros=family.common_zeros(ideal.polynomials))
 
 
-def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim, ...]:
-    return tuple(_held_against(claim, found) for claim in claims)
+def verify_every(claims: Sequence[ClaimText], facts: EveryValue) -> tuple[Claim, ...]:
+    return tuple(_held_against(claim, facts) for claim in claims)
 
 
-def _held_against(claim: ClaimText, found: EveryValue) -> Claim:
-    fact = _fact(claim.key, found)
-    text = str(fact_reason(fact, next(iter(found.parameters), ""), claimed_text))
-    return claim_of(claim, text, _holds(claim, fact, found.limit))
+def _held_against(claim: ClaimText, facts: EveryValue) -> Claim:
+    fact = _fact(claim.key, facts)
+    text = str(fact_reason(fact, next(iter(facts.parameters), ""), claimed_text))
+    return claim_of(claim, text, _holds(claim, fact, facts.limit))
 
 
-def _fact(key: str, found: EveryValue) -> Fact:
+def _fact(key: str, facts: EveryValue) -> Fact:
     if key in KEYS:
-        return found.verdict(key)
+        return facts.verdict(key)
     if key in ("B", "C", "D") or key.endswith("bound"):
-        return found.simplifying(key)
-    value: EveryOrder | Fact | None = getattr(found, key.replace("-", "_"))
+        return facts.simplifying(key)
+    value: EveryOrder | Fact | None = getattr(facts, key.replace("-", "_"))
     return value.fact if isinstance(value, EveryOrder) else value or Fact(None)
 
 

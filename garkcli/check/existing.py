@@ -141,14 +141,14 @@ def _numbers_in(told: Told) -> Iterator[int]:
 
 
 def _numbers(search: Recovery, existence: Existence) -> list[PrintedNumber]:
-    found = []
+    numbers = []
     given = zip(search.box.numbers, search.box.radii, strict=True)
     moved = zip(existence.shifts, existence.widths, strict=True)
     for (x, t), (shift, width) in zip(given, moved, strict=True):
         if not isinstance(x, fmpq):
             raise Untold("a rounded number is printed as an irrational one")
-        found.append(PrintedNumber(x, t, x + t * shift, t * width))
-    return found
+        numbers.append(PrintedNumber(x, t, x + t * shift, t * width))
+    return numbers
 
 
 def _witness(rounded: RoundedTableau, order: RoundedOrder) -> Any:

@@ -60,16 +60,16 @@ PREDICTOR_ORDERS = ("predictor-order", "predictor-order-equal-steps")
 """Claims on a predictor."""
 
 
-def dense_witness_text(found: DenseWitness, colours: bool | Sequence[str]) -> Reason:
+def dense_witness_text(dense: DenseWitness, colours: bool | Sequence[str]) -> Reason:
     """Returns the tree and the power of θ whose condition fails, and the residual."""
-    tree = Code(format_tree(found.witness.tree, colours))
-    power = Formula(f"θ^{found.power}", rf"\theta^{{{found.power}}}")
-    return _told(found.witness, Reason("{}, at {}", tree, power))
+    tree = Code(format_tree(dense.witness.tree, colours))
+    power = Formula(f"θ^{dense.power}", rf"\theta^{{{dense.power}}}")
+    return _told(dense.witness, Reason("{}, at {}", tree, power))
 
 
-def predictor_witness_text(found: PredictorOrders, *, equal_steps: bool) -> Reason:
+def predictor_witness_text(orders: PredictorOrders, *, equal_steps: bool) -> Reason:
     """The condition that the first stage of least order misses; empty if nothing fails."""
-    missed = found.first_missed(equal_steps=equal_steps)
+    missed = orders.first_missed(equal_steps=equal_steps)
     if missed is None:
         return NO_REASON
     stage, where = missed
@@ -90,11 +90,17 @@ def _told(witness: Witness, condition: Code | Reason) -> Reason:
     )
 
 
-def bound_numbers(found: Simplifying) -> str:
+def bound_numbers(conditions: Simplifying) -> str:
     """Returns the numbers that the bounds of the order are made of."""
-    numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
+    numbers = {
+        "r": conditions.r,
+        "η": conditions.eta,
+        "ζ": conditions.zeta,
+        "ξ": conditions.xi,
+        "χ": conditions.chi,
+    }
     return ", ".join(
-        f"{name} {'≥' if found.is_open(number) else '='} {number}"
+        f"{name} {'≥' if conditions.is_open(number) else '='} {number}"
         for name, number in numbers.items()
     )
 
@@ -117,15 +123,15 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
     if analysis is None:
         return NO_REASON
     if claim.endswith("bound"):
-        found = analysis.simplifying
+        conditions = analysis.simplifying
         if claim.startswith("pair-"):
             if analysis.pair_simplifying is None:
                 return NO_REASON
-            found = analysis.pair_simplifying
-        equation = f"{found.bound} = {BOUND}"
+            conditions = analysis.pair_simplifying
+        equation = f"{conditions.bound} = {BOUND}"
         if claim.endswith("sharp-bound"):
-            equation = f"{found.sharp_bound} = {SHARP_BOUND}"
-        return Reason("{} with {}", equation, bound_numbers(found))
+            equation = f"{conditions.sharp_bound} = {SHARP_BOUND}"
+        return Reason("{} with {}", equation, bound_numbers(conditions))
     if claim in DENSE_ORDERS:
         dense = getattr(analysis.dense, DENSE_ORDERS[claim], None)
         if dense is None or dense.witness is None:
@@ -149,12 +155,12 @@ def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau |
         return embedded.nonautonomous_order, with_time(embedded.tableau)
     if claim == "nonautonomous-order":
         return analysis.nonautonomous_order, with_time(analysis.tableau)
-    found = {
+    by_claim = {
         "order": (analysis.order, analysis.tableau),
         "conjugate-order": (analysis.conjugate_order, analysis.conjugate),
         "pair-order": (analysis.pair_order, analysis.pair),
     }
-    return found.get(claim, (None, None))
+    return by_claim.get(claim, (None, None))
 
 
 def claim_hint(outcome: Outcome, claim: str) -> Reason:
@@ -172,12 +178,12 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
         return sum_text(analysis.wrong_rows[0], names)
     if claim not in {"order", "conjugate-order", "pair-order", "embedded-order"}:
         return NO_REASON
-    found = outcome.remark
-    if found is not None and (found.of == "embedded-order") <= (claim == "embedded-order"):
-        if not found.repairs:
-            order = f"{found.of.replace('-', ' ')} is {found.order}"
-            return Reason(f"with the line {{}} the {order}", found.line)
-        return Reason("an entry looks misprinted: {}", repair_text(found.repairs[0], names))
+    remark = outcome.remark
+    if remark is not None and (remark.of == "embedded-order") <= (claim == "embedded-order"):
+        if not remark.repairs:
+            order = f"{remark.of.replace('-', ' ')} is {remark.order}"
+            return Reason(f"with the line {{}} the {order}", remark.line)
+        return Reason("an entry looks misprinted: {}", repair_text(remark.repairs[0], names))
     if blame is not None and blame.of == claim and blame.repairs:
         first = repair_text(blame.repairs[0], names)
         return Reason("the claimed order would hold with {}", first)
@@ -196,21 +202,21 @@ def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
     return Reason(f"{kind}{{}} = {{}} instead of {{}}", place, new, old)
 
 
-def sum_text(found: WrongSum, names: Sequence[str]) -> Reason:
+def sum_text(wrong: WrongSum, names: Sequence[str]) -> Reason:
     """Returns a sum of weights or of a row with its actual and its expected value."""
-    if found.m is None or found.i is None:
-        kind = "embedded weights" if found.is_embedded else "weights"
-        whose = [Place("b", names_of([found.l], names))] if len(names) > 1 else []
+    if wrong.m is None or wrong.i is None:
+        kind = "embedded weights" if wrong.is_embedded else "weights"
+        whose = [Place("b", names_of([wrong.l], names))] if len(names) > 1 else []
         place = Reason(" ".join([f"the {kind}", *("{}" for _ in whose)]), *whose)
-        return Reason("{} have the sum {}", place, total_text(found.total))
-    place = Reason(f"row {found.i + 1}")
+        return Reason("{} have the sum {}", place, total_text(wrong.total))
+    place = Reason(f"row {wrong.i + 1}")
     if len(names) > 1:
-        place = Reason("{} of {}", place, Place("A", names_of([found.l, found.m], names)))
-    total, node, off = _short(found.total), _short(found.wanted), to_decimal(found.off, 2)
+        place = Reason("{} of {}", place, Place("A", names_of([wrong.l, wrong.m], names)))
+    total, node, off = _short(wrong.total), _short(wrong.wanted), to_decimal(wrong.off, 2)
     if str(total) == str(node):
         return Reason("{} has the sum {}, off its node by {}", place, total, off)
     text = Reason("{} has the sum {}, its node is {}", place, total, node)
-    return Reason("{}, off by {}", text, off) if abs(to_ball(found.off)) < NEAR else text
+    return Reason("{}, off by {}", text, off) if abs(to_ball(wrong.off)) < NEAR else text
 
 
 def total_text(total: Number) -> Formula | str:

@@ -64,8 +64,8 @@ def further_facts(
         changed = as_embedded(method, weights)
         other = order_of(changed, limit, spans)
         timed_order = nonautonomous(changed, other, inconsistent, limit)
-        found = estimate(method, weights, (order, other), limit, spans)
-        embedded = EmbeddedFacts(printed(changed), other, timed_order, found)
+        error = estimate(method, weights, (order, other), limit, spans)
+        embedded = EmbeddedFacts(printed(changed), other, timed_order, error)
     if dense is not None:
         facts = dense_facts(method, dense, limit, spans)
     return embedded, facts

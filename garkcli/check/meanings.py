@@ -87,14 +87,14 @@ def claim_meaning(key: str) -> Meaning:
     """
     from garkcli.properties.definitions import definition
 
-    found = definition(key)
+    meaning = definition(key)
     return Meaning(
         "claim under expect",
         key,
-        found.text,
-        values=found.values.replace("`", ""),
-        scope=found.meaning,
-        source=found.source,
+        meaning.text,
+        values=meaning.values.replace("`", ""),
+        scope=meaning.meaning,
+        source=meaning.source,
     )
 
 
@@ -159,12 +159,12 @@ def _findings(command: str) -> Sense:
     kinds = findings_of(command)
 
     def mean(code: str) -> Meaning:
-        found = kinds[code]
+        finding = kinds[code]
         return Meaning(
             f"finding of gark {command}",
             code,
-            found.text,
-            cure=found.cure,
+            finding.text,
+            cure=finding.cure,
             source=COMMANDS[command],
         )
 
@@ -181,12 +181,12 @@ def fault_meaning(code: str) -> Meaning:
 def field_meanings(word: str) -> list[Meaning]:
     """Returns the meanings of a field of JSON reports, one for each that differs."""
     wanted = plain(word)
-    found = []
+    meanings = []
     for name, text in field_entries().items():
         if wanted in {plain(name), plain(name.rpartition(".")[2])}:
             kind, page = "field of JSON reports", "docs/json-fields.md"
-            found.append(Meaning(kind, name, text, source=page))
-    return found
+            meanings.append(Meaning(kind, name, text, source=page))
+    return meanings
 
 
 def sentence(text: str) -> str:
@@ -268,12 +268,12 @@ def _near(text: str) -> str:
 
 @lru_cache(maxsize=1)
 def _by_plain() -> dict[str, list[tuple[Sense, str]]]:
-    found: dict[str, list[tuple[Sense, str]]] = {}
+    senses: dict[str, list[tuple[Sense, str]]] = {}
     for sense in every_sense():
         for name, spellings in sense.names.items():
             for spelling in {plain(x) for x in (name, *spellings)}:
-                found.setdefault(spelling, []).append((sense, name))
-    return found
+                senses.setdefault(spelling, []).append((sense, name))
+    return senses
 
 
 def known_words() -> list[str]:

@@ -49,10 +49,10 @@ class NystromOrders(ClaimedOrders):
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau]:
         """Returns the order that a claim is about and its tableau."""
-        found: AnyOrder = getattr(self, claim.replace("-", "_"))
+        order: AnyOrder = getattr(self, claim.replace("-", "_"))
         if claim == "order":
-            return found, self.tableau
-        return found, printed(seen(self.tableau, VIEWS[claim]))
+            return order, self.tableau
+        return order, printed(seen(self.tableau, VIEWS[claim]))
 
 
 class NystromDense(DenseFacts):
@@ -100,9 +100,9 @@ class NystromAnalysis(SeveralOrders[NystromOrders, NystromDense]):
         return LinearSubject.of(method, self.order.order, self.limit, OF_OSCILLATOR, _NO_PROPERTY)
 
     def __repr__(self) -> str:
-        found = self.orders
-        q, v = found.position_order.order, found.velocity_order.order
-        return f"<NystromAnalysis order {found.order.order}, q {q}, q′ {v}>"
+        orders = self.orders
+        q, v = orders.position_order.order, orders.velocity_order.order
+        return f"<NystromAnalysis order {orders.order.order}, q {q}, q′ {v}>"
 
 
 def analyse_nystrom(

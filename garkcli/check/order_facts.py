@@ -140,8 +140,8 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
         embedded = None
         if further.embedded is not None:
             other = orders_of.of(as_embedded(method, further.embedded), limit, spans)
-            found = estimate(method, further.embedded, (orders.order, other.order), limit, spans)
-            embedded = EmbeddedOrders(other, found)
+            error = estimate(method, further.embedded, (orders.order, other.order), limit, spans)
+            embedded = EmbeddedOrders(other, error)
         dense = None
         if further.dense is not None:
             dense = dense_of(method, further.dense, limit, spans)
@@ -199,8 +199,8 @@ class OrderFacts(Shown, Frozen):
         inconsistent = inconsistent_blocks(method)
         timed = nonautonomous(method, order, inconsistent, limit)
         embedded, _ = further_facts(method, further, order, inconsistent, limit, spans)
-        found = tableau, order, limit, tolerance, embedded, further, timed
-        return cls(*found, **besides)
+        values = tableau, order, limit, tolerance, embedded, further, timed
+        return cls(*values, **besides)
 
     @classmethod
     def besides(cls, method: AnyTableau, limit: int) -> dict[str, Any]:  # noqa: ARG003
@@ -225,9 +225,9 @@ class OrderFacts(Shown, Frozen):
             return None
         if claim == "order":
             return whose.order, whose.tableau
-        found = whose.nonautonomous_order if claim == "nonautonomous-order" else None
-        timed = with_time(whose.tableau) if found else None
-        return None if found is None or timed is None else (found, timed)
+        order = whose.nonautonomous_order if claim == "nonautonomous-order" else None
+        timed = with_time(whose.tableau) if order else None
+        return None if order is None or timed is None else (order, timed)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} order {self.order.order}>"

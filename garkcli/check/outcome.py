@@ -83,8 +83,8 @@ class Outcome(Shown, Frozen):
     @property
     def of_other_kind(self) -> OtherAnalysis | None:
         """The analysis of a method that is not a GARK method, or None."""
-        found = self.rosenbrock or self.nystrom or self.nprk
-        return found or self.derivatives or self.infinitesimal
+        analysis = self.rosenbrock or self.nystrom or self.nprk
+        return analysis or self.derivatives or self.infinitesimal
 
     @property
     def found(self) -> Analysis | EveryValue | OtherAnalysis | None:

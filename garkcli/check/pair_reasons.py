@@ -40,33 +40,33 @@ class PairReason(Frozen):
         return "; ".join(self.parts)
 
 
-def pair_reason(found: Analysis) -> PairReason | None:
+def pair_reason(analysis: Analysis) -> PairReason | None:
     """Returns the reason for the order of the pair; None if there is no pair.
 
     If a hypothesis of the theorem fails, the text says which one.
     """
-    if found.pair is None or found.pair_order is None:
+    if analysis.pair is None or analysis.pair_order is None:
         return None
-    tableau = found.pair if found.tableau.is_partitioned else found.tableau
-    doubt = _no_statement(found, tableau)
+    tableau = analysis.pair if analysis.tableau.is_partitioned else analysis.tableau
+    doubt = _no_statement(analysis, tableau)
     if doubt:
         return PairReason(None, (doubt,))
-    method = meant(found.tableau, found.tolerance)
-    if found.tableau.is_partitioned:
+    method = meant(analysis.tableau, analysis.tolerance)
+    if analysis.tableau.is_partitioned:
         method = derived(method, "pair")
-    criterion = pair_criterion(method, found.limit)
+    criterion = pair_criterion(method, analysis.limit)
     parts = [_held(criterion.order, tableau.size > 1)]
     if criterion.missing:
         names = [colour.name for colour in tableau.colours]
         missing = _missing(criterion.missing, names, sum(1 for _ in tableau.edges()))
         parts.append(f"order {criterion.order + 1} needs {missing}")
-    is_sharp, why = _is_sharp(found)
+    is_sharp, why = _is_sharp(analysis)
     if not is_sharp:
         parts.append(f"a larger order is not excluded: {why}")
     return PairReason(criterion.order, tuple(parts), is_sharp)
 
 
-def _no_statement(found: Analysis, tableau: Tableau) -> str:
+def _no_statement(analysis: Analysis, tableau: Tableau) -> str:
     """Returns the hypothesis that fails, so that the criterion does not apply; empty if none
     fails.
     """
@@ -74,7 +74,7 @@ def _no_statement(found: Analysis, tableau: Tableau) -> str:
         row = [m for m in range(tableau.size) if tableau.block(l, m) is not None]
         if not row:
             return f"colour {colour.name} sees no colour"
-        if all((l, m) in found.inconsistent for m in row):
+        if all((l, m) in analysis.inconsistent for m in row):
             return f"the nodes of colour {colour.name} are not row sums"
         if not tableau.is_partitioned:
             for m in row:
@@ -84,12 +84,12 @@ def _no_statement(found: Analysis, tableau: Tableau) -> str:
     return ""
 
 
-def _is_sharp(found: Analysis) -> tuple[bool, str]:
+def _is_sharp(analysis: Analysis) -> tuple[bool, str]:
     """Returns whether the criterion is necessary too, and otherwise why not."""
-    for colour in found.tableau.colours:
+    for colour in analysis.tableau.colours:
         if colour.is_linear:
             return False, f"colour {colour.name} is linear"
-    positive = found.subject.verdict("positive-weights")
+    positive = analysis.subject.verdict("positive-weights")
     if positive.is_undecided:
         return False, "rounding leaves the signs of weights open"
     if not positive.value:
@@ -152,17 +152,17 @@ MOST_RULES = 150
 """The largest number of blocks by rules that are examined."""
 
 
-def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
+def rule_reasons(analysis: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
     """Yields for each block made by a rule whether it preserves the least pair order of the
     diagonal methods; nothing if the theorem does not apply.
     """
-    tableau = found.tableau
+    tableau = analysis.tableau
     if len(rules) > MOST_RULES:
         yield f"{len(rules)} blocks were not examined for the order (limit {MOST_RULES})"
         return
-    if not rules or found.tolerance or tableau.is_partitioned or not _is_sharp(found)[0]:
+    if not rules or analysis.tolerance or tableau.is_partitioned or not _is_sharp(analysis)[0]:
         return
-    if _no_statement(found, tableau):
+    if _no_statement(analysis, tableau):
         return
     methods = []
     for l, colour in enumerate(tableau.colours):

@@ -87,8 +87,8 @@ def analyse_nprk(
     if further.embedded is not None:
         changed = as_embedded(method, further.embedded)
         other = order_of(changed, limit, spans)
-        found = estimate(method, further.embedded, (order, other), limit, spans)
-        embedded = EmbeddedFacts(printed(changed), other, None, found)
+        error = estimate(method, further.embedded, (order, other), limit, spans)
+        embedded = EmbeddedFacts(printed(changed), other, None, error)
     return NprkAnalysis(tableau, order, limit, tolerance, embedded, further)
 
 

@@ -53,26 +53,26 @@ class RoundingHint(Frozen):
 
 def remark_on(
     tableau: Tableau,
-    found: AnyOrder,
+    actual: AnyOrder,
     tolerance: fmpq | None,
     of: str = "order",
     limit: int = DEFAULT_LIMIT,
 ) -> RoundingHint | None:
     """Returns the remark on the digits of a method; None if they add nothing to the file.
 
-    ``found`` is its order, or that of its embedded weights, as ``of`` says, with the tolerance of
+    ``actual`` is its order, or that of its embedded weights, as ``of`` says, with the tolerance of
     the file or exactly.
     """
-    if not _is_rounding(found):
+    if not _is_rounding(actual):
         return None
     full, own = within_digits(tableau, at_full_length), within_digits(tableau, left_open)
     if full is None or own is None:
         return None
     units = dict(zip(own.search.box.numbers, own.search.box.radii, strict=True))
-    order, best = found.order, None
-    judgements = [_judged(full, of, found, limit)]
+    order, best = actual.order, None
+    judgements = [_judged(full, of, actual, limit)]
     if _is_rounding(judgements[0][1]) and own.search.box.radii != full.search.box.radii:
-        judgements.append(_judged(own, of, found, limit))
+        judgements.append(_judged(own, of, actual, limit))
     goal = max(within_rounding.order for _, within_rounding in judgements)
     for judged, within_rounding in judgements:
         reached = within_rounding.order
@@ -89,23 +89,23 @@ def remark_on(
     return None if exponent is None else RoundingHint(order, of, exponent)
 
 
-def _is_rounding(found: AnyOrder) -> bool:
+def _is_rounding(order: AnyOrder) -> bool:
     """Returns whether a residual is so small that rounding, or a wrong digit, may explain it."""
-    missed = found.witness
-    return missed is not None and within(missed.residual, unnatural(found.order + 1))
+    missed = order.witness
+    return missed is not None and within(missed.residual, unnatural(order.order + 1))
 
 
 def _judged(
-    rounded: RoundedTableau, of: str, found: AnyOrder, limit: int
+    rounded: RoundedTableau, of: str, order: AnyOrder, limit: int
 ) -> tuple[RoundedTableau, AnyOrder]:
-    """Returns the method within its digits and its order, which is ``found`` if the digits do not
+    """Returns the method within its digits and its order, which is ``actual`` if the digits do not
     explain why it is not higher.
     """
     judged = derived(rounded, of)
     assert isinstance(judged, RoundedTableau)
-    assert found.witness is not None
-    is_explained = judged.explains(found.witness.tree)
-    return judged, order_of(judged, limit) if is_explained else found
+    assert order.witness is not None
+    is_explained = judged.explains(order.witness.tree)
+    return judged, order_of(judged, limit) if is_explained else order
 
 
 def _off(

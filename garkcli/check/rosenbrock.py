@@ -80,21 +80,21 @@ class RosenbrockOrders(ClaimedOrders):
             method = seen(self.method, which)
         except SingularMatrixError:
             return None
-        found = order_of(method, most.order)
-        if found.order < most.order:
-            return found
+        order = order_of(method, most.order)
+        if order.order < most.order:
+            return order
         told = (name for name in ("witness", "undecided") if hasattr(most, name))
-        return replace(found, **{name: getattr(most, name) for name in told})
+        return replace(order, **{name: getattr(most, name) for name in told})
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """Returns the order that a claim is about and its tableau; None if there is none."""
-        found: AnyOrder | None = getattr(self, claim.replace("-", "_"))
-        if found is None:
+        order: AnyOrder | None = getattr(self, claim.replace("-", "_"))
+        if order is None:
             return None
         tableau = printed(self.method)
         if claim != "order":
             tableau = printed(seen(tableau, {**VIEWS, **DAE_VIEWS}[claim]))
-        return found, tableau
+        return order, tableau
 
 
 class RosenbrockAnalysis(SeveralOrders[RosenbrockOrders, DenseFacts]):
@@ -144,8 +144,8 @@ class RosenbrockAnalysis(SeveralOrders[RosenbrockOrders, DenseFacts]):
         return self.subject.at_infinity
 
     def __repr__(self) -> str:
-        found = self.orders
-        return f"<RosenbrockAnalysis order {found.order.order}, W-order {found.w_order.order}>"
+        orders = self.orders
+        return f"<RosenbrockAnalysis order {orders.order.order}, W-order {orders.w_order.order}>"
 
 
 def analyse_rosenbrock(

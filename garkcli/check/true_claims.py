@@ -64,15 +64,15 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
     """
     if not isinstance(analysis, Analysis):
         return [*true_claims(analysis, OF_OTHER_KINDS[analysis.kind])]
-    found = [*true_claims(analysis, ORDERS)]
+    keys = [*true_claims(analysis, ORDERS)]
     if analysis.inconsistent and analysis.nonautonomous_order is not None:
-        found.append("nonautonomous-order")
+        keys.append("nonautonomous-order")
     for key in KEYS:
         if not find(key).is_cheap:
             continue
         if analysis.subject.verdict(key).value is True or key == "stage-order":
-            found.append(key)
-    return found
+            keys.append(key)
+    return keys
 
 
 def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
@@ -81,14 +81,14 @@ def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
     Claims that do not apply or are undecided are left out.
     """
     wanted = set(keys)
-    found = {}
+    claims = {}
     for key in CLAIMS:
         if key not in wanted:
             continue
         text = _text(key, analysis)
         if text is not None:
-            found[key] = text
-    return found
+            claims[key] = text
+    return claims
 
 
 def _text(key: str, analysis: AnyAnalysis) -> str | None:
@@ -104,8 +104,8 @@ def _text(key: str, analysis: AnyAnalysis) -> str | None:
         if verdict.is_at_least and isinstance(value, int):
             return _written(AtLeast(value))
         return claimed_text(value)
-    found = found_value(key, analysis)
-    return None if found is None else _written(found)
+    claimed = found_value(key, analysis)
+    return None if claimed is None else _written(claimed)
 
 
 def _written(value: object) -> str:

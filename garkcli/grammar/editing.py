@@ -40,8 +40,8 @@ def block_text(entries: list[tuple[Node, Node]]) -> str:
 
 def mapping_under(root: MappingNode, name: str) -> MappingNode | None:
     """Returns the mapping that is the value of a key; None without one."""
-    found = (x for key, x in root.value if key.value == name and isinstance(x, MappingNode))
-    return next(found, None)
+    mappings = (x for key, x in root.value if key.value == name and isinstance(x, MappingNode))
+    return next(mappings, None)
 
 
 INDENT = "  "

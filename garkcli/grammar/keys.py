@@ -48,8 +48,8 @@ class ValueKind(Frozen):
         """
 
         def read(at: Any, node: Node, where: str) -> Any:
-            found: ReadMapping | None = self.read(at, node, where)
-            return make(at, found, where) if found is not None and found.is_right else None
+            values: ReadMapping | None = self.read(at, node, where)
+            return make(at, values, where) if values is not None and values.is_right else None
 
         return ValueKind(self.schema, read, self.inside)
 
@@ -169,11 +169,11 @@ class Ways(Frozen):
 
     def given(self, entries: Entries) -> list[str]:
         """Returns the first key of each alternative that a mapping has."""
-        found = []
+        present = []
         for way in self.ways:
             keys = (way,) if isinstance(way, str) else way.keys
-            found += [key for key in keys if key in entries][:1]
-        return found
+            present += [key for key in keys if key in entries][:1]
+        return present
 
     def schema(self) -> Schema:
         each = [required(x) if isinstance(x, str) else _any_given(x.keys) for x in self.ways]
@@ -274,14 +274,14 @@ def homes(keys: Iterable[Key]) -> dict[str, Home]:
 
     Names that are also keys at the top, or other spellings of them, are left out.
     """
-    found: dict[str, Home] = {}
+    places: dict[str, Home] = {}
     known = list(keys)
     taken = {word.lower() for key in known for word in (key.name, *key.also)}
     for key in known:
         for inner in key.kind.inside():
             if inner.name.lower() not in taken:
-                found.setdefault(inner.name, Home(key.name, inner.line))
-    return found
+                places.setdefault(inner.name, Home(key.name, inner.line))
+    return places
 
 
 def entries_in(
@@ -329,25 +329,25 @@ def mapping(
     def read(at: Any, node: Node, where: str) -> ReadMapping | None:
         source: Source = at.source
         before = len(source.faults)
-        found = ReadMapping(node, entries_in(source, node, where, every(), cures, form))
+        values = ReadMapping(node, entries_in(source, node, where, every(), cures, form))
         if not isinstance(node, MappingNode):
             return None
-        for name, value in found.nodes.items():
+        for name, value in values.nodes.items():
             place = name if where == FILE else f"{where}, {name}"
             one = every()[name].kind.read(at, value, place)
             if one is not None:
-                found[name] = one
-        missing = [x.name for x in every().values() if x.is_needed and x.name not in found.nodes]
+                values[name] = one
+        missing = [x.name for x in every().values() if x.is_needed and x.name not in values.nodes]
         if missing:
             message = placed(where, f"{' and '.join(missing)} missing")
             source.fault(node, message, form, code="missing-key")
         way = ""
         for rule in rules:
-            rule.refuse(source, node, where, found.nodes, way)
+            rule.refuse(source, node, where, values.nodes, way)
             if isinstance(rule, Ways):
-                way = next(iter(rule.given(found.nodes)), "")
-        found.is_right = len(source.faults) == before
-        return found
+                way = next(iter(rule.given(values.nodes)), "")
+        values.is_right = len(source.faults) == before
+        return values
 
     return ValueKind(schema, read, lambda: every().values())
 
@@ -398,8 +398,8 @@ YES_AND_NO = {"yes": True, "no": False, "true": True, "false": False}
 def _flag(at: Any, node: Node, where: str) -> bool | None:
     if isinstance(node, ScalarNode) and node.value.lower() in YES_AND_NO:
         return YES_AND_NO[node.value.lower()]
-    found = at.source.choice(node, where, ("true", "false"))
-    return None if found is None else found == "true"
+    choice = at.source.choice(node, where, ("true", "false"))
+    return None if choice is None else choice == "true"
 
 
 FLAG = ValueKind(lambda: {"type": "boolean"}, _flag)
@@ -477,8 +477,8 @@ def one_or_more(
 
     def read(at: Any, node: Node, where: str) -> list[Any] | None:
         if isinstance(node, SequenceNode) or (is_plain and isinstance(node, MappingNode)):
-            found: list[Any] | None = several.read(at, node, where)
-            return found
+            values: list[Any] | None = several.read(at, node, where)
+            return values
         one = item.read(at, node, where)
         return None if one is None else [one]
 
@@ -499,8 +499,8 @@ def later(module: str, name: str) -> ValueKind:
     """Returns the kind declared in a module that is imported when it is needed."""
 
     def kind() -> ValueKind:
-        found: ValueKind = declared(module, name)
-        return found
+        declaration: ValueKind = declared(module, name)
+        return declaration
 
     return ValueKind(
         lambda: kind().schema(),

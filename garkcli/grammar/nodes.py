@@ -33,16 +33,16 @@ def keys_of(node: Node) -> set[str]:
 
 def key_nodes(node: Node) -> dict[str, ScalarNode]:
     """Returns the nodes of the keys of a mapping, the first of equal ones."""
-    found: dict[str, ScalarNode] = {}
+    nodes: dict[str, ScalarNode] = {}
     for key, _ in node.value if isinstance(node, MappingNode) else ():
         if isinstance(key, ScalarNode):
-            found.setdefault(str(key.value), key)
-    return found
+            nodes.setdefault(str(key.value), key)
+    return nodes
 
 
 def key_of(root: MappingNode, value: Node) -> Node:
-    found: Node = next(key for key, other in root.value if other is value)
-    return found
+    key_node: Node = next(key for key, other in root.value if other is value)
+    return key_node
 
 
 def extent(text: str, first: Node, last: Node) -> Extent:
@@ -233,10 +233,10 @@ def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
     elif node.style:
         position += 1
     for sign in node.value[:offset]:
-        found = position if sign.isspace() else text.find(sign, position) + 1
-        if not found:  # written as an escape
+        after = position if sign.isspace() else text.find(sign, position) + 1
+        if not after:  # written as an escape
             break
-        position = found
+        position = after
     while position < len(text) and text[position].isspace():
         position += 1
     return _line_and_column(text, position)

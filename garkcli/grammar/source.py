@@ -40,17 +40,17 @@ class NotedFault(Frozen):
     is_one: bool = False
 
 
-def place_of(found: NotedFault) -> Place:
-    return found.fault.line, found.fault.column
+def place_of(noted: NotedFault) -> Place:
+    return noted.fault.line, noted.fault.column
 
 
-def told_once(found: Sequence[NotedFault]) -> list[Remark]:
+def told_once(noted: Sequence[NotedFault]) -> list[Remark]:
     """Returns the faults in file order; those of one cause at its first place, with the others
     listed.
     """
-    causes = Counter(one.cause for one in found)
+    causes = Counter(one.cause for one in noted)
     together: dict[object, list[NotedFault]] = {}
-    for number, one in enumerate(found):
+    for number, one in enumerate(noted):
         is_shared = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
         together.setdefault(one.cause if is_shared else number, []).append(one)
     told: list[Remark] = []

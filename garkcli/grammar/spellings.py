@@ -126,16 +126,16 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
     if len(text) > MAX_PRINTED:
         return error, ""
     for pattern, better in _SPELLINGS:
-        found = re.search(pattern, text, re.ASCII)
+        match = re.search(pattern, text, re.ASCII)
         # the fault lies in what the pattern found, or right behind it
-        if found and found.start() <= start <= found.end():
+        if match and match.start() <= start <= match.end():
             message, code = error.message, error.code
             if not isinstance(error, UndefinedValue):
-                what = shortened(found.group())
+                what = shortened(match.group())
                 message = f"{what} is not how a number is written here"
                 code = "not-a-number"
-            cure = better.format(**found.groupdict())
-            explanation = ExpressionError(message, cure, found.start(), found.end(), code=code)
+            cure = better.format(**match.groupdict())
+            explanation = ExpressionError(message, cure, match.start(), match.end(), code=code)
             return explanation, pattern
     # a tableau copied with its symbols; a slip in the name of a parameter is another matter
     is_name = isinstance(error, UndefinedValue) and not error.help.startswith("did you mean")

@@ -50,8 +50,8 @@ def read_settings(
         shown = str(value).lower() if isinstance(value, bool) else str(value)
         return ScalarNode(f"{TAG}{type(value).__name__}", shown, mark, mark)
 
-    found: ReadMapping = kind.read(SimpleNamespace(source=source), node(table, top), where)
-    return found
+    settings: ReadMapping = kind.read(SimpleNamespace(source=source), node(table, top), where)
+    return settings
 
 
 def _places(text: str, before: str, start: int) -> dict[str, yaml.Mark]:
@@ -62,8 +62,8 @@ def _places(text: str, before: str, start: int) -> dict[str, yaml.Mark]:
     places: dict[str, yaml.Mark] = {}
     line, seen = 0, 0
     pattern = re.compile(rf"^[ \t]*[\"']?{before}([^\n=\"']*+)[\"']?[ \t]*=", re.MULTILINE)
-    for found in pattern.finditer(text, start):
-        line += text.count("\n", seen, found.start())
-        seen = found.start()
-        places.setdefault(found[1].rstrip(), yaml.Mark("", seen, line, 0, None, 0))
+    for match in pattern.finditer(text, start):
+        line += text.count("\n", seen, match.start())
+        seen = match.start()
+        places.setdefault(match[1].rstrip(), yaml.Mark("", seen, line, 0, None, 0))
     return places

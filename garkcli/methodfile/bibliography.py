@@ -112,8 +112,8 @@ def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
     """Returns a reference in one line, and its fields if it has any."""
     if not isinstance(node, MappingNode):
         return at.source.scalar(node, where) or "", None
-    found: ReadMapping = _REFERENCE.read(at, node, where)
-    reference = Reference(**found)
+    fields: ReadMapping = _REFERENCE.read(at, node, where)
+    reference = Reference(**fields)
     return str(reference), reference
 
 
@@ -175,8 +175,8 @@ def aliases_of(text: str, name: str) -> tuple[str, ...]:
     >>> aliases_of("aliases: [DOPRI5, RK45]", "a file")
     ('DOPRI5', 'RK45')
     """
-    found: tuple[str, ...] | None = _value_of(Source(name, text, METHOD_FILE), "aliases", ALIASES)
-    return found or ()
+    aliases: tuple[str, ...] | None = _value_of(Source(name, text, METHOD_FILE), "aliases", ALIASES)
+    return aliases or ()
 
 
 def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
@@ -189,9 +189,9 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
     ('Runge 1895', None)
     """
     source = Source(name, text, METHOD_FILE)
-    found: tuple[str, Reference | None] | None = _value_of(source, "reference", REFERENCE)
+    reference: tuple[str, Reference | None] | None = _value_of(source, "reference", REFERENCE)
     source.close()
-    return found or ("", None)
+    return reference or ("", None)
 
 
 def _value_of(source: Source, name: str, kind: ValueKind) -> Any:

@@ -101,9 +101,9 @@ class BlockBuilder:
             raise MethodError("it has no rule", cure, code="missing-key")
         if isinstance(text, d.MatrixText):
             wanted = self.methods[l].stages, self.methods[m].stages
-            found = len(text.rows), len(text.rows[0])
-            if found != wanted:
-                message = "a matrix of {} by {} should be {} by {}".format(*found, *wanted)
+            shape = len(text.rows), len(text.rows[0])
+            if shape != wanted:
+                message = "a matrix of {} by {} should be {} by {}".format(*shape, *wanted)
                 cure = (
                     f"a row for each stage of method {l + 1}, a column for each of method {m + 1}"
                 )
@@ -292,8 +292,8 @@ class Builder(Generic[V]):
             degree = max(len(block[0]) for block in blocks)
             dense = DenseOutput(tuple(padded(x, degree) for x in blocks))
         predictor = self._predictor(texts[0].predictor)
-        found = Further(tuple(embedded) or None, dense, predictor)
-        return found if own is None or own.finish is None else own.finish(found)
+        further = Further(tuple(embedded) or None, dense, predictor)
+        return further if own is None or own.finish is None else own.finish(further)
 
     def _predictor(self, text: d.PredictorText | None) -> Predictor | None:
         """Returns the predictor of a method of one colour; None without one."""

@@ -84,34 +84,34 @@ class DerivativesText(d.OwnContent):
 
 def derivatives(at: NumbersReader, node: Node) -> DerivativesText | None:
     """Reads the form ``derivatives``; None if it is not a method."""
-    found: g.ReadMapping | None = DERIVATIVES.read(at, node, "derivatives")
-    if found is None or not found.is_right:
+    entries: g.ReadMapping | None = DERIVATIVES.read(at, node, "derivatives")
+    if entries is None or not entries.is_right:
         return None
     before = len(at.source.faults)
-    items = at.source.items(found["A"], "A", _FORM)
+    items = at.source.items(entries["A"], "A", _FORM)
     if not items:
-        at.source.fault(found["A"], "A is empty", _FORM, code="empty")
+        at.source.fault(entries["A"], "A is empty", _FORM, code="empty")
         return None
     if len(items) > MOST:
         message = f"A has {len(items)} matrices (limit {MOST})"
-        at.source.fault(found["A"], message, "give one for f, one for f′f, …", code="too-many")
+        at.source.fault(entries["A"], message, "give one for f, one for f′f, …", code="too-many")
         return None
-    b = _weights(at, found["b"], "b", len(items))
+    b = _weights(at, entries["b"], "b", len(items))
     stages = len(b[0]) if b else 0
     if not stages:
         return None
     A = tuple(_matrix(at, x, f"A, matrix {k}", stages) for k, x in enumerate(items, start=1))
     embedded = None
     rows = [("b", b)]
-    if "embedded" in found:
-        embedded = _weights(at, found["embedded"], "embedded", len(items))
+    if "embedded" in entries:
+        embedded = _weights(at, entries["embedded"], "embedded", len(items))
         rows.append(("embedded", embedded))
     for name, weights in rows:
         for k, row in enumerate(weights, start=1):
-            _one_each(at, found[name], f"{name}, row {k}", row, stages)
-    c: Row | None = found.get("c")
+            _one_each(at, entries[name], f"{name}, row {k}", row, stages)
+    c: Row | None = entries.get("c")
     if c is not None:
-        _one_each(at, found.nodes["c"], "c", c, stages)
+        _one_each(at, entries.nodes["c"], "c", c, stages)
     if len(at.source.faults) > before:
         return None
     return DerivativesText(node, A, b, c, embedded)

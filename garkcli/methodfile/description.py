@@ -366,12 +366,12 @@ def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
     if description.is_conjugate or not isinstance(content, MethodsText):
         return ()
     size, transfer = len(content.methods), content.transfer
-    found = []
+    rules = []
     for l, m in ((l, m) for l in range(size) for m in range(size) if l != m):
         text = transfer.blocks.get((l, m)) or transfer.default
         if isinstance(text, RuleText) and text.terms[0][1] is None:
-            found.append(BlockRule(l, m, text.terms[0][0], text.degree))
-    return tuple(found)
+            rules.append(BlockRule(l, m, text.terms[0][0], text.degree))
+    return tuple(rules)
 
 
 def left_behind(content: Content) -> tuple[str, ...]:
@@ -382,24 +382,24 @@ def left_behind(content: Content) -> tuple[str, ...]:
     """
     if not isinstance(content, ConstructionText):
         return ()
-    found: list[str] = []
+    kinds: list[str] = []
     for part in content.parts:
         inside = part.description.content
-        found += left_behind(inside)
+        kinds += left_behind(inside)
         for text in inside.beside:
             is_left = text.embedded is not None and part not in content.kept
-            found += ["embedded weights"] if is_left else []
-            found += ["dense output"] if text.dense is not None else []
-    return tuple(dict.fromkeys(found))
+            kinds += ["embedded weights"] if is_left else []
+            kinds += ["dense output"] if text.dense is not None else []
+    return tuple(dict.fromkeys(kinds))
 
 
 def works_of(said: Description) -> tuple[Work, ...]:
     """Returns the references of a method; without one those of its parts and rules."""
     if said.reference:
         return ((said.reference, said.bibliography),)
-    found: list[Work] = []
+    publications: list[Work] = []
     if isinstance(said.content, ConstructionText):
-        found += [x for part in said.content.parts for x in works_of(part.description)]
+        publications += [x for part in said.content.parts for x in works_of(part.description)]
     elif isinstance(said.content, MethodsText):
         from garkcli.families.registry import FAMILIES
 
@@ -409,8 +409,8 @@ def works_of(said: Description) -> tuple[Work, ...]:
         texts = [transfer.default, *transfer.blocks.values()]
         rules = {rule for x in texts if isinstance(x, RuleText) for rule, _ in x.terms}
         works += [ZANNA] if len(said.content.methods) > 1 and rules - {"legendre"} else []
-        found += [(str(work), work) for work in works]
-    return tuple(dict.fromkeys(found))
+        publications += [(str(work), work) for work in works]
+    return tuple(dict.fromkeys(publications))
 
 
 class ClaimText(FrozenBut):

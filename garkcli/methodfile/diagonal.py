@@ -80,7 +80,7 @@ def methods(
     if are_too_many(at, items, node):
         return None
     every = [_method(at, item, l) for l, item in enumerate(items, start=1)]
-    found = [x for x in every if x is not None]
+    texts = [x for x in every if x is not None]
     if not items and isinstance(node, SequenceNode):
         at.source.fault(node, "methods is empty", "list at least one diagonal method", code="empty")
     if structure != "general" and len(items) != 2:
@@ -91,11 +91,11 @@ def methods(
         from garkcli.methodfile.transfers import rules_of  # one method has none
 
         rules = rules_of(at, transfer, [1 if x is None else _stages(x) for x in every])
-    if not found or len(found) < len(items) or _is_too_large(at, found, node):
+    if not texts or len(texts) < len(items) or _is_too_large(at, texts, node):
         return None
-    names = [f"method {l}" for l in range(1, len(found) + 1)]
-    refuse_partial(at, [x.further for x in found], names, node)
-    return d.MethodsText(tuple(found), rules)
+    names = [f"method {l}" for l in range(1, len(texts) + 1)]
+    refuse_partial(at, [x.further for x in texts], names, node)
+    return d.MethodsText(tuple(texts), rules)
 
 
 def _stages(text: d.FamilyText | d.ButcherText) -> int:
@@ -103,10 +103,10 @@ def _stages(text: d.FamilyText | d.ButcherText) -> int:
 
 
 def _is_too_large(
-    at: NumbersReader, found: Sequence[d.FamilyText | d.ButcherText], node: Node
+    at: NumbersReader, texts: Sequence[d.FamilyText | d.ButcherText], node: Node
 ) -> bool:
     """Reports whether the blocks between the methods have too many entries in total."""
-    stages = list(map(_stages, found))
+    stages = list(map(_stages, texts))
     entries = sum(stages) ** 2 - sum(s * s for s in stages)
     if entries > d.MAX_ENTRIES:
         message = f"{entries} entries in the blocks between the methods (limit {d.MAX_ENTRIES})"
@@ -136,19 +136,19 @@ def _method(at: NumbersReader, node: Node, l: int) -> d.FamilyText | d.ButcherTe
     b = d.of_colour("b", l - 1)
     if "family" not in keys and isinstance(node, MappingNode):
         return butcher(at, node, where, (d.block_name(l - 1, l - 1), b, d.of_colour("c", l - 1)))
-    found = _family(at, node, where)
-    if found is None:
+    family_text = _family(at, node, where)
+    if family_text is None:
         return None
-    family, entries = found
+    family, entries = family_text
     return replace(family, further=further_of_method(at, entries, family.stages, names_beside(b)))
 
 
 def _in_a_word(node: Node) -> MappingNode | None:
     """Returns ``gauss-2`` as ``{family: gauss, stages: 2}``; None for any other node."""
-    found = member_named(node.value) if isinstance(node, ScalarNode) else None
-    if found is None:
+    member = member_named(node.value) if isinstance(node, ScalarNode) else None
+    if member is None:
         return None
-    name, size = found
+    name, size = member
     marks = node.start_mark, node.end_mark
     written = [("family", name, "str")]
     if size is not None:

@@ -43,19 +43,19 @@ class ClaimedNumber(Frozen):
     def __str__(self) -> str:
         return self.text
 
-    def agrees(self, found: RealRoot | None, rounding: fmpq = ZERO) -> bool:
+    def agrees(self, root: RealRoot | None, rounding: fmpq = ZERO) -> bool:
         """Returns whether the claim is true of a number, None for ∞.
 
         ``rounding`` is the largest error of the number, for coefficients within a tolerance.
         """
         if self.number is None:
-            return found is None
-        if found is None:
+            return root is None
+        if root is None:
             return self.is_least
         if self.is_least:
-            return _root(self.number - rounding) <= found
+            return _root(self.number - rounding) <= root
         off = self.half_unit + rounding
-        return _root(self.number - off) <= found <= _root(self.number + off)
+        return _root(self.number - off) <= root <= _root(self.number + off)
 
 
 def _root(number: Number) -> RealRoot:
@@ -197,5 +197,5 @@ def highest_order(claims: tuple[ClaimText, ...], keys: Collection[str] = OF_ORDE
 def _largest(wanted: object) -> int:
     if isinstance(wanted, list):
         return max(map(_largest, wanted), default=0)
-    found = wanted.least if isinstance(wanted, AtLeast) else wanted
-    return found if isinstance(found, int) else 0
+    least = wanted.least if isinstance(wanted, AtLeast) else wanted
+    return least if isinstance(least, int) else 0

@@ -279,11 +279,11 @@ def _blocks(description: Description, text: str) -> Iterator[tuple[Extent, str]]
     """Yields the places where "?" stands for a whole block, and the text of the block."""
     if not isinstance(description.content, MethodsText):
         return
-    found: dict[int, dict[tuple[int, int], MatrixText]] = {}
+    by_method: dict[int, dict[tuple[int, int], MatrixText]] = {}
     for edge, block in description.content.transfer.blocks.items():
         if isinstance(block, MatrixText) and isinstance(block.node, ScalarNode):
-            found.setdefault(id(block.node), {})[edge] = block
-    for blocks in found.values():
+            by_method.setdefault(id(block.node), {})[edge] = block
+    for blocks in by_method.values():
         from garkcli.methodfile.transfers import spelled
 
         [node, *_] = [block.node for block in blocks.values()]

@@ -139,8 +139,8 @@ class _FamilyDomain(Domain):
         change: Callable[[Expression], Expression] | None = None,
     ) -> None:
         self._change = change
-        found = dict.fromkeys(chain.from_iterable(map(roots_in, expressions)))
-        self._names = {root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)}
+        roots = dict.fromkeys(chain.from_iterable(map(roots_in, expressions)))
+        self._names = {root: f"{ROOT}{i}" for i, root in enumerate(roots, start=1)}
         self.ring = Parameters([*names, *self._names.values()])
         self.radicals: list[Radical] = []
         self.divisors: list[fmpq_mpoly] = []
@@ -148,7 +148,7 @@ class _FamilyDomain(Domain):
         self._are_real = True
         self._size = self._terms = 0
         self.field = None
-        for root in found:  # the inner ones first
+        for root in roots:  # the inner ones first
             self._values[root] = self._root(root)
 
     def _root(self, root: Root | AlgebraicRoot) -> Number:
@@ -206,13 +206,13 @@ class _FamilyDomain(Domain):
             self._note_divisor(right)
             u, v = v, u
         if sign in "*/":
-            found = [terms_of_product(p, u), terms_of_product(q, v)]
+            lengths = [terms_of_product(p, u), terms_of_product(q, v)]
         elif q == v:
-            found = [terms_of_sum(p, u)]
+            lengths = [terms_of_sum(p, u)]
         else:
-            found = [terms_of_product(p, v) + terms_of_product(u, q), terms_of_product(q, v)]
+            lengths = [terms_of_product(p, v) + terms_of_product(u, q), terms_of_product(q, v)]
         degree = sum(max(0, x.total_degree()) for x in (p, q, u, v))
-        self._limit(max(found), 0 if sign in "+-" and q == v else degree, at)
+        self._limit(max(lengths), 0 if sign in "+-" and q == v else degree, at)
         return super()._apply(sign, left, right, at)
 
     def _terms_of(self, polynomial: fmpq_mpoly) -> int:

@@ -22,18 +22,18 @@ def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
     Links to folders are not followed. Links out of the folder are left out; ``told`` is called with
     a message.
     """
-    found: list[str] = []
+    paths: list[str] = []
 
     def keep(error: OSError) -> None:
-        found.append(error.filename)
+        paths.append(error.filename)
 
     for place, _, names in os.walk(folder, onerror=keep):
-        found += [os.path.join(place, name) for name in names if name.endswith(SUFFIX)]
+        paths += [os.path.join(place, name) for name in names if name.endswith(SUFFIX)]
     # slow to import, and of no use to a check of one file
     from pathlib import Path
 
     # as pathlib writes them: without ./ before
-    return within(sorted(str(Path(path)) for path in found), folder, told)
+    return within(sorted(str(Path(path)) for path in paths), folder, told)
 
 
 def within(paths: list[str], folder: str, told: Callable[[str], None]) -> list[str]:

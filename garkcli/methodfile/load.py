@@ -44,10 +44,10 @@ _READ: ContextVar[list[MethodFile] | None] = ContextVar("read", default=None)
 @contextmanager
 def noting() -> Iterator[list[MethodFile]]:
     """Collects the methods that are read while it is open."""
-    found: list[MethodFile] = []
-    token = _READ.set(found)
+    methods: list[MethodFile] = []
+    token = _READ.set(methods)
     try:
-        yield found
+        yield methods
     finally:
         _READ.reset(token)
 
@@ -141,8 +141,8 @@ def loads(
     if rounded is not None:
 
         def box() -> tuple[Box, Further]:
-            found = rounded.box(made.text)
-            return replace(found, make=Remade(found.make, _maker, *file)), made.further
+            file_box = rounded.box(made.text)
+            return replace(file_box, make=Remade(file_box.make, _maker, *file)), made.further
 
         remember(method.tableau, method.tolerance, Remade(box, _box, *file))
 
@@ -155,9 +155,9 @@ def loads(
             radii[:] = radii_of(numbers)
             return radii
 
-        found = box_of(made, reader.numbers, description.content, kept)
-        make = Remade(found.make, _maker_by_digits, *file, radii)
-        return replace(found, make=make), made.further
+        digits_box = box_of(made, reader.numbers, description.content, kept)
+        make = Remade(digits_box.make, _maker_by_digits, *file, radii)
+        return replace(digits_box, make=make), made.further
 
     remember_digits(method.tableau, Remade(box_by_digits, _box_by_digits, *file))
     return method

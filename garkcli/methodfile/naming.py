@@ -113,12 +113,12 @@ def look_up(name: str) -> Shelved | None:
     key = key_of(name)
     for shelves in _in_turn():
         for shelf in shelves:
-            if found := shelf.named(key):
-                return _only(name, found)
-        found = _called(key, (shelf.aliases for shelf in shelves))
-        found = found or _called(letters_of(name), (shelf.spellings for shelf in shelves))
-        if found:
-            return _only(name, found)
+            if methods := shelf.named(key):
+                return _only(name, methods)
+        methods = _called(key, (shelf.aliases for shelf in shelves))
+        methods = methods or _called(letters_of(name), (shelf.spellings for shelf in shelves))
+        if methods:
+            return _only(name, methods)
     return _of_family(name)
 
 
@@ -134,8 +134,8 @@ def _of_family(name: str) -> Shelved | None:
 
     text = name.strip()
     if text.startswith("{") and text.endswith("}") and "family" in text:
-        found = re.search(r"family:\s*([^\s,}]+)", text)
-        meant = FAMILIES.get(found[1]) if found else None
+        match = re.search(r"family:\s*([^\s,}]+)", text)
+        meant = FAMILIES.get(match[1]) if match else None
         return _made(text, None if meant is None else meant.reference)
     member = member_named(text)
     if member is None:
@@ -166,11 +166,11 @@ def _in_turn() -> Iterator[Sequence[Shelf]]:
 
 def _called(key: str, known: Iterable[Found]) -> list[Shelved]:
     """Returns the methods under a key, the first of those with the same name."""
-    found: dict[str, Shelved] = {}
+    by_name: dict[str, Shelved] = {}
     for methods in known:
         for method in methods.get(key, ()):
-            found.setdefault(key_of(method.name), method)
-    return list(found.values())
+            by_name.setdefault(key_of(method.name), method)
+    return list(by_name.values())
 
 
 def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
@@ -259,9 +259,9 @@ def names_beginning(start: str) -> list[str]:
     key = key_of(start)
     shelves = every_shelf()
     names = [method.name for _, method in visible(shelves)]
-    found = [name for name in names if key_of(name).startswith(key)]
-    if found:
-        return found
+    beginning = [name for name in names if key_of(name).startswith(key)]
+    if beginning:
+        return beginning
     called = chain.from_iterable(shelf.called(method) for shelf, method in visible(shelves))
     return [x for x in called if key_of(x).startswith(key) and len(x.split()) == 1]
 
@@ -315,14 +315,14 @@ def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
     whole = path.parts[1:] if start else path.parts
     # in a row they say no more than one
     parts = [x for x, then in zip(whole, (*whole[1:], ""), strict=True) if not x == then == "**"]
-    found: set[str] = set()
+    paths: set[str] = set()
     root = fixed_part(pattern)
     for match in _expanded(start, parts, root):
         if os.path.isdir(match) and not leads_away(match, root):
-            found.update(files_below(match, told))
+            paths.update(files_below(match, told))
         else:
-            found.add(match)
-    return within(sorted(found), root, told)
+            paths.add(match)
+    return within(sorted(paths), root, told)
 
 
 def fixed_part(pattern: str) -> str:

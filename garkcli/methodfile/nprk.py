@@ -53,15 +53,15 @@ class NprkText(d.OwnContent):
 
 def nprk(at: NumbersReader, node: Node) -> NprkText | None:
     """Reads the form ``nprk``; None if it is not a method."""
-    found: g.ReadMapping | None = NPRK.read(at, node, "nprk")
-    if found is None or not found.is_right:
+    entries: g.ReadMapping | None = NPRK.read(at, node, "nprk")
+    if entries is None or not entries.is_right:
         return None
-    stages = at.source.items(found["a"], "a", _FORM)
+    stages = at.source.items(entries["a"], "a", _FORM)
     a = [_matrix(at, x, f"a, stage {i}", len(stages)) for i, x in enumerate(stages, start=1)]
-    b = _matrix(at, found["b"], "b", len(stages))
+    b = _matrix(at, entries["b"], "b", len(stages))
     embedded = None
-    if "embedded" in found:
-        embedded = _matrix(at, found["embedded"], "embedded", len(stages))
+    if "embedded" in entries:
+        embedded = _matrix(at, entries["embedded"], "embedded", len(stages))
     return NprkText(node, tuple(a), b, embedded)
 
 

@@ -79,10 +79,10 @@ def name_of_place(where: str) -> str | None:
     >>> name_of_place("multirate, mri, embedded, row 1, entry 2")
     'bh1_2'
     """
-    found = re.fullmatch(_PLACE, where)
-    if found is None:
+    match = re.fullmatch(_PLACE, where)
+    if match is None:
         return None
-    part, array, colours, matrix, row, entry = found.groups()
+    part, array, colours, matrix, row, entry = match.groups()
     before = colours or matrix
     # one value in place of a row of one is its only entry
     indices = [entry or "1"]
@@ -141,9 +141,9 @@ class Free(Between, kw_only=True):
     node: Node
     where: str = ""
 
-    def within(self, found: Between) -> Free:
+    def within(self, other: Between) -> Free:
         """Returns the parameter with a further range."""
-        ranges, bounds = (*self.ranges, *found.ranges), (*self.bounds, *found.bounds)
+        ranges, bounds = (*self.ranges, *other.ranges), (*self.bounds, *other.bounds)
         return replace(self, ranges=ranges, bounds=bounds)
 
 
@@ -264,13 +264,13 @@ class Numbers(Mutable):
         """
         if text in self._read:
             return self._read[text]
-        found = expanded(parse(text), self.parameters, self.used)
-        check_size(found.size, text)
-        if found.depth > MAX_DEPTH:
+        value = expanded(parse(text), self.parameters, self.used)
+        check_size(value.size, text)
+        if value.depth > MAX_DEPTH:
             message = f"nested more than {MAX_DEPTH} deep, with the parameters written out"
             raise LimitExceeded(message, "give the parameter its value", 0, len(text))
-        self._read[text] = found
-        return found
+        self._read[text] = value
+        return value
 
     def row(self, node: Node, where: str) -> Row:
         """Reads a row of coefficients; a single value is a row of one."""
@@ -376,8 +376,8 @@ class Numbers(Mutable):
         """Reports rows of different lengths as one fault, at the first of another length."""
         wrong = [i for i, length in enumerate(lengths, 1) if length != columns]
         first, others = wrong[0], wrong[1:]
-        found = counted(lengths[first - 1], "entry", "entries")
-        message = f"{where}, row {first} has {found} and should have {columns}"
+        entries = counted(lengths[first - 1], "entry", "entries")
+        message = f"{where}, row {first} has {entries} and should have {columns}"
         if others:
             noun = "row" if len(others) == 1 else "rows"
             numbers = ", ".join(map(str, others[:_SHOWN_ROWS]))

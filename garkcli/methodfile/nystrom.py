@@ -152,8 +152,8 @@ class NystromText(d.OwnContent):
         matrix, vector = values.matrix, values.vector
         A = None if self.A is None else matrix(self.A)
         c = vector(self.c or ()) if A is None or self.c else butcher(A, vector(self.b)).c
-        found = method(matrix(self.Abar), A, c, vector(self.bbar), vector(self.b))
-        return d.Made(found.tableau, partial(self._further, values))
+        nystrom_method = method(matrix(self.Abar), A, c, vector(self.bbar), vector(self.b))
+        return d.Made(nystrom_method.tableau, partial(self._further, values))
 
     def _further(self, values: Values) -> Further:
         embedded = dense = None
@@ -170,17 +170,17 @@ class NystromText(d.OwnContent):
 
 def nystrom(at: NumbersReader, node: Node) -> NystromText | None:
     """Reads the form ``nystrom``; None if it is not a method."""
-    found: g.ReadMapping | None = NYSTROM.read(at, node, "nystrom")
-    if found is None or not found.is_right or not found["b"]:
+    fields: g.ReadMapping | None = NYSTROM.read(at, node, "nystrom")
+    if fields is None or not fields.is_right or not fields["b"]:
         return None
-    b: Row = found["b"]
+    b: Row = fields["b"]
     stages = len(b)
     why = f"b has {spelled_out.entries_of(stages)}"
 
     def matrix(key: str) -> Rows | None:
-        if key not in found:
+        if key not in fields:
             return None
-        return at.numbers.fitted(found[key], found.nodes[key], key, (stages, stages), why)
+        return at.numbers.fitted(fields[key], fields.nodes[key], key, (stages, stages), why)
 
     def row(entries: g.ReadMapping, key: str, name: str) -> Row | None:
         if key not in entries:
@@ -191,30 +191,32 @@ def nystrom(at: NumbersReader, node: Node) -> NystromText | None:
         return given
 
     Abar = matrix("Abar")
-    bbar = row(found, "bbar", "bbar")
+    bbar = row(fields, "bbar", "bbar")
     if not Abar or not bbar:
         return None
     embedded = None
-    if "embedded" in found:
-        inside: g.ReadMapping = found["embedded"]
+    if "embedded" in fields:
+        inside: g.ReadMapping = fields["embedded"]
         embedded = row(inside, "bbar", "embedded, bbar"), row(inside, "b", "embedded, b")
         if embedded == (None, None):
             at.source.fault(inside.node, "embedded is empty", _FORM_OF_EMBEDDED, code="empty")
-    dense = _dense(at, found["dense"], stages) if "dense" in found else None
-    return NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded, dense)
+    dense = _dense(at, fields["dense"], stages) if "dense" in fields else None
+    return NystromText(node, Abar, matrix("A"), row(fields, "c", "c"), bbar, b, embedded, dense)
 
 
-def _dense(at: NumbersReader, found: g.ReadMapping, stages: int) -> tuple[Rows, Rows | None] | None:
+def _dense(
+    at: NumbersReader, entries: g.ReadMapping, stages: int
+) -> tuple[Rows, Rows | None] | None:
     """Reads the polynomials of both components; None for q′ if they are the slopes of the
     others.
     """
 
     def rows(key: str) -> Rows | None:
-        node, where = found.nodes[key], f"dense, {key}"
-        return spelled_out.polynomials(at, node, where, stages, found["degree"])
+        node, where = entries.nodes[key], f"dense, {key}"
+        return spelled_out.polynomials(at, node, where, stages, entries["degree"])
 
-    if not {"degree", "bbar"} <= found.keys():
+    if not {"degree", "bbar"} <= entries.keys():
         return None
     bbar = rows("bbar")
-    b = rows("b") if "b" in found else None
+    b = rows("b") if "b" in entries else None
     return None if bbar is None else (bbar, b)

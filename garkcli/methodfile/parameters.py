@@ -144,11 +144,11 @@ def _free(at: Any, node: Node, where: str) -> Free:
     """Reads a free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
     if isinstance(node, ScalarNode):
         return Free(node=node)
-    found: ReadMapping = _FREE.read(at, node, where)
-    if "free" in found.nodes and "free" not in found:
+    entries: ReadMapping = _FREE.read(at, node, where)
+    if "free" in entries.nodes and "free" not in entries:
         message = f"{where} is a mapping without free: true"
         at.source.fault(node, message, _FREE_FORM, code="mapping-expected")
-    return Free(node=node).within(found.get("range", Between()))
+    return Free(node=node).within(entries.get("range", Between()))
 
 
 PARAMETERS = ValueKind(

@@ -137,8 +137,8 @@ class ContentReader(NumbersReader):
 
             inside = self._inside, self._open
             parts = PartReader(self.numbers, *inside, self.tolerance, structure)
-            found: d.ConstructionText | None = KEYS[form].kind.read(parts, node, form)
-            return found
+            construction: d.ConstructionText | None = KEYS[form].kind.read(parts, node, form)
+            return construction
         if form == "prk":
             from garkcli.methodfile.ark_prk import prk
 
@@ -201,8 +201,8 @@ class MethodReader(NumbersReader):
         }
         tolerance: Tolerance | None = said.get("tolerance")
         self.content.tolerance = tolerance
-        found = self.content.read(root, entries)
-        if found is None:
+        description = self.content.read(root, entries)
+        if description is None:
             return None
         if self.numbers.settings:
             refuse_unknown_settings(self.numbers)
@@ -212,10 +212,10 @@ class MethodReader(NumbersReader):
             self.wishes = read_wishes(self, self.design)
         if self.content.shaped is not None:
             self._refuse_unused(self.content.shaped.layout.unknowns)
-        tolerance = self._tolerance(tolerance, found.content)
+        tolerance = self._tolerance(tolerance, description.content)
         reference, bibliography = said.get("reference", ("", None))
         return replace(
-            found,
+            description,
             name=said.get("name") or "",
             description=said.get("description") or "",
             tolerance=tolerance,
@@ -257,13 +257,13 @@ class MethodReader(NumbersReader):
         from garkcli.methodfile.constructed.parts import Opened
         from garkcli.methodfile.naming import read_argument
 
-        text, found = read_argument(f"catalogue:{name}")
-        source = Source(found, text, METHOD_FILE)
-        if found in self._inside:
-            message, cure = f"{found} is made from itself", "name another method"
+        text, method = read_argument(f"catalogue:{name}")
+        source = Source(method, text, METHOD_FILE)
+        if method in self._inside:
+            message, cure = f"{method} is made from itself", "name another method"
             source.fault(None, message, cure, code="made-from-itself")
             raise source.error()
-        reader = MethodReader(source, {}, (*self._inside, found))
+        reader = MethodReader(source, {}, (*self._inside, method))
         description = reader.read()
         if description is None:
             raise source.error()

@@ -120,11 +120,11 @@ class RegistersText(OwnContent):
 
 def shu_osher(at: NumbersReader, node: Node) -> RegistersText | None:
     """Reads the form ``shu-osher``; None if it is not a method."""
-    found: g.ReadMapping | None = SHU_OSHER.read(at, node, "shu-osher")
-    if found is None or not found.is_right:
+    entries: g.ReadMapping | None = SHU_OSHER.read(at, node, "shu-osher")
+    if entries is None or not entries.is_right:
         return None
-    stages = len(found["alpha"]) - _begins_with_zeros(found.nodes)
-    return _text(at, node, "shu-osher", found, (found["alpha"], found["beta"]), stages)
+    stages = len(entries["alpha"]) - _begins_with_zeros(entries.nodes)
+    return _text(at, node, "shu-osher", entries, (entries["alpha"], entries["beta"]), stages)
 
 
 def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
@@ -141,26 +141,26 @@ def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
 
 def low_storage(at: NumbersReader, node: Node) -> RegistersText | None:
     """Reads the form ``low-storage``; None if it is not a method."""
-    found: g.ReadMapping | None = LOW_STORAGE.read(at, node, "low-storage")
-    if found is None or not found.is_right:
+    entries: g.ReadMapping | None = LOW_STORAGE.read(at, node, "low-storage")
+    if entries is None or not entries.is_right:
         return None
-    form = found["form"]
+    form = entries["form"]
     wanted = KEYS_OF_FORMS[form]
     known = {key for keys in KEYS_OF_FORMS.values() for key in keys}
     cure = f"{form} has {', '.join(wanted)}"
-    for key in found.nodes:
+    for key in entries.nodes:
         if key in known and key not in wanted:
             message = f"low-storage: {form} has no {key}"
-            at.source.fault(found.nodes[key], message, cure, code="not-together")
+            at.source.fault(entries.nodes[key], message, cure, code="not-together")
             return None
-    missing = [key for key in wanted if key not in found.nodes]
+    missing = [key for key in wanted if key not in entries.nodes]
     if missing:
         message = f"low-storage: {form} needs {' and '.join(missing)}"
         at.source.fault(node, message, cure, code="missing-key")
         return None
-    numbers: list[Any] = [found[key] for key in wanted]
+    numbers: list[Any] = [entries[key] for key in wanted]
     if "A" in wanted:
-        place = found.nodes["A"]
+        place = entries.nodes["A"]
         if form in ("3R", "4R", "5R"):
             rows = at.numbers.matrix(place, "A")
             if len(rows) != int(form[0]) - 1:
@@ -170,19 +170,19 @@ def low_storage(at: NumbersReader, node: Node) -> RegistersText | None:
             numbers[0] = rows
         else:
             numbers[0] = at.numbers.row(place, "A")
-    return _text(at, node, form, found, tuple(numbers), len(found[wanted[-1]]))
+    return _text(at, node, form, entries, tuple(numbers), len(entries[wanted[-1]]))
 
 
 def _text(
     at: NumbersReader,
     node: Node,
     scheme: str,
-    found: g.ReadMapping,
+    entries: g.ReadMapping,
     numbers: tuple[Any, ...],
     stages: int,
 ) -> RegistersText | None:
-    c = found.get("c")
-    if c is not None and not spelled_out.nodes_fit(at, found.nodes["c"], "c", c, stages):
+    c = entries.get("c")
+    if c is not None and not spelled_out.nodes_fit(at, entries.nodes["c"], "c", c, stages):
         return None
-    further = spelled_out.further_of_method(at, found.nodes, stages)
+    further = spelled_out.further_of_method(at, entries.nodes, stages)
     return RegistersText(node, scheme, numbers, c, (further,))

@@ -200,13 +200,18 @@ class RosenbrockText(OwnContent):
         )
         finish = None
         if self.diagonal is None:
-            found = Rosenbrock(alpha, gamma, matrix(self.b))
+            rosenbrock_method = Rosenbrock(alpha, gamma, matrix(self.b))
         else:
             b = vector(self.b[0])
-            found = transformed(alpha[0][0], gamma[0][0], vector(self.diagonal), b)
-            finish = partial(self._finished, values, found.tableau.size, found.gamma[0][0])
+            rosenbrock_method = transformed(alpha[0][0], gamma[0][0], vector(self.diagonal), b)
+            finish = partial(
+                self._finished,
+                values,
+                rosenbrock_method.tableau.size,
+                rosenbrock_method.gamma[0][0],
+            )
         c, d_ = (None if x is None else matrix(x) for x in (self.c, self.d))
-        return Made(replace(found, c=c, d=d_).tableau, finish=finish)
+        return Made(replace(rosenbrock_method, c=c, d=d_).tableau, finish=finish)
 
     def _finished(self, values: Values, size: int, gamma: Matrix, further: Further) -> Further:
         """Returns the further weights of a transformed method, with those from ``e``; ``size`` is
@@ -227,43 +232,45 @@ def rosenbrock(at: NumbersReader, node: Node) -> RosenbrockText | None:
     if "blocks" in entries:
         return _several(at, node, entries["blocks"])
     if "transformed" in entries:
-        found: g.ReadMapping = entries["transformed"]
-        return _text(at, node, found, ("A", "C", "m"), found["C"])
+        stored: g.ReadMapping = entries["transformed"]
+        return _text(at, node, stored, ("A", "C", "m"), stored["C"])
     return _text(at, node, entries, ("alpha", "gamma", "b"), entries["gamma"])
 
 
 def _text(
-    at: NumbersReader, node: Node, found: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
+    at: NumbersReader, node: Node, entries: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
 ) -> RosenbrockText | None:
     """Returns the method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
-    b: Row = found[name_of_b]
+    b: Row = entries[name_of_b]
     stages = len(b)
     if not stages:
         return None
     why = f"{name_of_b} has {spelled_out.entries_of(stages)}"
     matrices = [
-        at.numbers.fitted(rows, found.nodes[name], name, (stages, stages), why)
-        for name, rows in ((name_of_alpha, found[name_of_alpha]), (name_of_gamma, gamma))
+        at.numbers.fitted(rows, entries.nodes[name], name, (stages, stages), why)
+        for name, rows in ((name_of_alpha, entries[name_of_alpha]), (name_of_gamma, gamma))
     ]
-    rows = {key: _row(at, found, key, stages) if key in found else None for key in ("c", "d", "e")}
+    rows = {
+        key: _row(at, entries, key, stages) if key in entries else None for key in ("c", "d", "e")
+    }
     diagonal = None
     if name_of_gamma == "C":
-        diagonal = _diagonal(at, found.nodes["gamma"], stages)
-    further = spelled_out.further_of_method(at, found.nodes, stages)
+        diagonal = _diagonal(at, entries.nodes["gamma"], stages)
+    further = spelled_out.further_of_method(at, entries.nodes, stages)
     alpha, full = (((rows,),) for rows in matrices)
     c, d_ = ((row,) if row is not None else None for row in (rows["c"], rows["d"]))
     return RosenbrockText(node, alpha, full, (b,), c, d_, diagonal, rows["e"], (further,))
 
 
-def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> RosenbrockText | None:
+def _several(at: NumbersReader, node: Node, entries: g.ReadMapping) -> RosenbrockText | None:
     """Reads a method of several colours."""
     before = len(at.source.faults)
 
     def rows(key: str) -> Rows | None:
-        if key not in found:
+        if key not in entries:
             return None
-        items = spelled_out.colours_in(at, found[key], key) or []
+        items = spelled_out.colours_in(at, entries[key], key) or []
         return tuple(at.numbers.row(x, d.of_colour(key, l)) for l, x in enumerate(items))
 
     b = rows("b") or ()
@@ -276,8 +283,8 @@ def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> RosenbrockT
         return spelled_out.one_each(at, place, name, items, noun, "colour", N, cure)
 
     def blocks(key: str) -> tuple[tuple[Rows, ...], ...]:
-        lines = at.source.items(found[key], key, _FORM_OF_BLOCKS)
-        if not is_one_each(found[key], key, lines, "row"):
+        lines = at.source.items(entries[key], key, _FORM_OF_BLOCKS)
+        if not is_one_each(entries[key], key, lines, "row"):
             return ()
         return tuple(tuple(line(key, l, x)) for l, x in enumerate(lines))
 
@@ -296,10 +303,10 @@ def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> RosenbrockT
 
     def beside(key: str) -> Rows | None:
         given = rows(key)
-        if given is not None and is_one_each(found[key], key, given, "row"):
+        if given is not None and is_one_each(entries[key], key, given, "row"):
             for l, (row, own) in enumerate(zip(given, b, strict=True)):
                 name, cure = d.of_colour(key, l), "give one per stage"
-                spelled_out.one_each(at, found[key], name, row, "entry", "stage", len(own), cure)
+                spelled_out.one_each(at, entries[key], name, row, "entry", "stage", len(own), cure)
         return given
 
     alpha, gamma = blocks("alpha"), blocks("gamma")
@@ -310,10 +317,10 @@ def _several(at: NumbersReader, node: Node, found: g.ReadMapping) -> RosenbrockT
     return RosenbrockText(node, alpha, gamma, b, c, d_, beside=further)
 
 
-def _row(at: NumbersReader, found: g.ReadMapping, name: str, stages: int) -> Row:
-    row: Row = found[name]
+def _row(at: NumbersReader, entries: g.ReadMapping, name: str, stages: int) -> Row:
+    row: Row = entries[name]
     cure = "give one per stage, or leave it out"
-    spelled_out.one_each(at, found.nodes[name], name, row, "entry", "stage", stages, cure)
+    spelled_out.one_each(at, entries.nodes[name], name, row, "entry", "stage", stages, cure)
     return row
 
 

@@ -95,7 +95,7 @@ class Rounded:
             id(x): x.expression if apart is None else _copied(x.expression, apart)
             for x in coefficients
         }
-        found: list[_Rounded] = []
+        rounded: list[_Rounded] = []
         mixed: list[_Rounded] = []
         printed: list[_Rounded] = []
         for entry in coefficients:
@@ -110,24 +110,24 @@ class Rounded:
                 number = _value(expression)
             if number:
                 printed.append((entry, expression, number))
-                found += [(entry, *x) for x in _rounded_in(expression, number)]
-        is_bare = not found and all(id(x) in given for _, x, _ in mixed)
+                rounded += [(entry, *x) for x in _rounded_in(expression, number)]
+        is_bare = not rounded and all(id(x) in given for _, x, _ in mixed)
         if is_bare and tolerances.tolerance.is_single:
-            found = printed
-        found += mixed
+            rounded = printed
+        rounded += mixed
         radii: dict[int, fmpq] = {}
         numbers: dict[int, Number] = {}
         written: dict[int, Expression] = {}
         self.keys: set[str] = set()
         self._largest: dict[str, fmpq] = {}
-        for entry, part, value in found:
+        for entry, part, value in rounded:
             t = tolerances.radius(entry, part)
             numbers.setdefault(id(part), value)
             written[id(part)] = part
             radii[id(part)] = min(t, radii.get(id(part), t))
             if t:
                 self.keys.add(tolerances.key_of(entry))
-        for entry, part, _ in found:
+        for entry, part, _ in rounded:
             kind, t = tolerances.kind_of(entry), radii[id(part)]
             self._largest[kind] = max(t, self._largest.get(kind, t))
         kept = [key for key, t in radii.items() if t or key in given]
@@ -170,7 +170,7 @@ class Rounded:
         """Returns names for the rounded numbers, including those in sums that are 0 as printed, and
         for the roots of known numbers, by the identity of the expressions.
         """
-        found: dict[int, Expression] = {}
+        names: dict[int, Expression] = {}
         for entry in self._coefficients:
             expression = self.expressions[id(entry)]
             every = list(_all_parts(expression))
@@ -179,8 +179,8 @@ class Rounded:
             roots = (x for x in every if isinstance(x, Root | AlgebraicRoot))
             named += [x for x in roots if not is_of_unknowns(x, ())]
             for x in named:
-                found.setdefault(id(x), Name(f"{INDETERMINATE}{len(found)}"))
-        return found
+                names.setdefault(id(x), Name(f"{INDETERMINATE}{len(names)}"))
+        return names
 
     @staticmethod
     def changer(instead: Mapping[int, Expression]) -> Callable[[Expression], Expression]:

@@ -516,19 +516,19 @@ def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
 
     ``key`` is the node of the word ``unknown``, ``node`` that of its value.
     """
-    found: g.ReadMapping | None = UNKNOWN.read(at, node, "unknown")
-    if found is None or not found.is_right:
+    entries: g.ReadMapping | None = UNKNOWN.read(at, node, "unknown")
+    if entries is None or not entries.is_right:
         return None
-    if found["stages"] > MAX_STAGES:
-        message = f"{found['stages']} stages of unknowns (limit {MAX_STAGES})"
-        at.source.fault(found.nodes["stages"], message, "use fewer stages", code="too-many")
+    if entries["stages"] > MAX_STAGES:
+        message = f"{entries['stages']} stages of unknowns (limit {MAX_STAGES})"
+        at.source.fault(entries.nodes["stages"], message, "use fewer stages", code="too-many")
         return None
     try:
-        layout = layout_of(found["stages"], found["shape"])
+        layout = layout_of(entries["stages"], entries["shape"])
     except MethodError as error:
-        at.source.fault(found.nodes["shape"], error.message, error.help, code=error.code)
+        at.source.fault(entries.nodes["shape"], error.message, error.help, code=error.code)
         return None
-    if found.get("embedded"):
+    if entries.get("embedded"):
         layout = with_embedded(layout)
     for name in layout.unknowns:
         if name not in at.numbers.parameters:  # it has a value or a range there

@@ -82,11 +82,11 @@ Found = Mapping[str, Sequence[Shelved]]
 
 
 def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) -> Found:
-    found: dict[str, list[Shelved]] = {}
+    by_key: dict[str, list[Shelved]] = {}
     for method in methods:
         for key in dict.fromkeys(keys(method)):
-            found.setdefault(key, []).append(method)
-    return found
+            by_key.setdefault(key, []).append(method)
+    return by_key
 
 
 class Shelf:

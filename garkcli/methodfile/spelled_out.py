@@ -208,13 +208,13 @@ def one_each(
     ``noun`` is what the items are, such as ``row``; ``each`` what they belong to, such as
     ``colour``; ``wanted`` the number of the latter.
     """
-    found = len(items)
-    if found != wanted:
+    count = len(items)
+    if count != wanted:
         cure = _spelled(node, wanted, each) or cure
-        has = entries_of(found) if noun == "entry" else counted(found, noun)
+        has = entries_of(count) if noun == "entry" else counted(count, noun)
         message = f"{name} has {has} for {counted(wanted, each)}"
         at.source.fault(node, message, cure, code="wrong-size")
-    return found == wanted
+    return count == wanted
 
 
 def depth_of_lists(node: Node) -> int:
@@ -261,11 +261,11 @@ def butcher(at: NumbersReader, node: Node, where: str, names: Names) -> d.Butche
     entries: g.ReadMapping | None = _METHOD.read(at, node, where)
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
-    found = _method(at, entries, names)
-    if found is None:
+    method = _method(at, entries, names)
+    if method is None:
         return None
-    beside = further_of_method(at, entries, len(found[1]), names_beside(names[1]))
-    return d.ButcherText(node, entries.get("name", ""), *found, beside)
+    beside = further_of_method(at, entries, len(method[1]), names_beside(names[1]))
+    return d.ButcherText(node, entries.get("name", ""), *method, beside)
 
 
 def _method(
@@ -314,13 +314,13 @@ def tableau_of(at: NumbersReader, entries: Entries, linear: Node | None) -> d.Ta
     # [[null]] may be a row of blocks as well; [[]] is the short form of [[0]]
     is_one_matrix = depth <= 2 and (_holds_a_number(A) or (is_one_row and _has_an_empty_row(A)))
     if is_one_matrix and is_one_row:
-        found = _method(at, entries, ("A", "b", "c"))
-        if found is None:
+        method = _method(at, entries, ("A", "b", "c"))
+        if method is None:
             return None
-        beside = further_of_method(at, entries, len(found[1]))
-        beside = _with_predictor(at, entries, beside, len(found[1]))
+        beside = further_of_method(at, entries, len(method[1]))
+        beside = _with_predictor(at, entries, beside, len(method[1]))
         colours = _linear(at, linear, 1)
-        return d.TableauText(((found[0],),), (found[1],), (found[2],), colours, (beside,))
+        return d.TableauText(((method[0],),), (method[1],), (method[2],), colours, (beside,))
     if is_one_matrix:
         cure = "write the second row as embedded: […], beside b"
         if len(b.value) == 1:
@@ -351,10 +351,10 @@ def _with_predictor(
 
 def _predictor(at: NumbersReader, node: Node, stages: int) -> d.PredictorText | None:
     """Returns the matrices of a predictor."""
-    found: g.ReadMapping | None = PREDICTOR.read(at, node, "predictor")
-    if found is None or not found:
+    entries: g.ReadMapping | None = PREDICTOR.read(at, node, "predictor")
+    if entries is None or not entries:
         return None
-    given = {key: _powers(at, found[key], f"predictor, {key}", stages) for key in found}
+    given = {key: _powers(at, entries[key], f"predictor, {key}", stages) for key in entries}
     if not all(given.values()):
         return None
     return d.PredictorText(node, given.get("old", ()), given.get("new", ()))
@@ -368,15 +368,15 @@ def _powers(at: NumbersReader, node: Node, where: str, stages: int) -> tuple[Row
         message = f"{where} has {len(items)} matrices (limit {MAX_POWERS})"
         at.source.fault(node, message, "take polynomials of a lower degree", code="too-many")
         return ()
-    found = []
+    matrices = []
     for k, item in enumerate(items, start=1):
         name = where if is_one else f"{where}, matrix {k}"
         rows = at.numbers.matrix(item, name)
         zero = at.numbers.written("0", item, name)
         rows = tuple(row + (zero,) * (stages - len(row)) for row in rows)
         why = f"b has {entries_of(stages)}"
-        found.append(at.numbers.fitted(rows, item, name, (stages, stages), why))
-    return tuple(found) if all(found) else ()
+        matrices.append(at.numbers.fitted(rows, item, name, (stages, stages), why))
+    return tuple(matrices) if all(matrices) else ()
 
 
 def _blocks(at: NumbersReader, entries: Entries, linear: Node | None) -> d.TableauText | None:
@@ -432,27 +432,27 @@ def _node_rows(at: NumbersReader, node: Node | None, b: Weights) -> tuple[Row | 
     cure = "give a row per colour, null where they are left out"
     if node is None or not one_each(at, node, "c", items, "row", "colour", len(b), cure):
         return (None,) * len(b)
-    found: list[Row | None] = []
+    rows: list[Row | None] = []
     for l, item in enumerate(items):
         where = d.of_colour("c", l)
         row = None if is_null(item) else at.numbers.row(item, where)
         if row and b[l]:
             nodes_fit(at, item, where, row, len(b[l]))
-        found.append(row)
-    return tuple(found)
+        rows.append(row)
+    return tuple(rows)
 
 
 def _linear(at: NumbersReader, node: Node | None, colours: int) -> tuple[int, ...]:
     """Reads the linear colours, numbered from 0."""
-    found: list[int] = []
+    numbers: list[int] = []
     for item in () if node is None else at.source.items(node, "linear"):
         colour = at.source.whole(item, "linear", smallest=1)
         if colour is not None and colour > colours:
             there = "there is 1" if colours == 1 else f"there are {colours}"
             at.source.fault(item, f"linear: there is no colour {colour}", there, code="wrong-value")
         elif colour is not None:
-            found.append(colour - 1)
-    return tuple(found)
+            numbers.append(colour - 1)
+    return tuple(numbers)
 
 
 def names_beside(name_of_b: str) -> tuple[str, str]:
@@ -519,8 +519,8 @@ def _a_colour(
         key, comma, part = where.partition(",")
         yield from ((l, x, d.of_colour(key, l) + comma + part) for l, x in enumerate(items))
     elif isinstance(node, SequenceNode):
-        found = f"one {noun}" if is_one else counted(len(items), noun)
-        message = f"{where} has {found} for {counted(colours, 'colour')}"
+        count = f"one {noun}" if is_one else counted(len(items), noun)
+        message = f"{where} has {count} for {counted(colours, 'colour')}"
         at.source.fault(node, message, cure, code="wrong-size")
 
 
@@ -548,12 +548,12 @@ def _weights(at: NumbersReader, node: Node, where: str, stages: int) -> Row | No
 
 def _parts(at: NumbersReader, entries: Entries, where: str) -> tuple[int, Node | None]:
     """Reads the degree and the weights of dense output; None without them."""
-    found: g.ReadMapping | None = (
+    fields: g.ReadMapping | None = (
         DENSE.read(at, entries["dense"], where) if "dense" in entries else None
     )
-    if found is None or not {"degree", "weights"} <= found.keys():
+    if fields is None or not {"degree", "weights"} <= fields.keys():
         return 0, None
-    return found["degree"], found["weights"]
+    return fields["degree"], fields["weights"]
 
 
 def polynomials(at: NumbersReader, node: Node, where: str, stages: int, degree: int) -> Rows | None:

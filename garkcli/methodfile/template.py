@@ -50,10 +50,10 @@ def _lines(values: Values) -> Iterator[str]:
             yield from (comment, f"{key.name}:", *(f"  - {item}" for item in value))
 
 
-def of_tableau(name: str, found: Pasted) -> str:
-    rows = {"b": found.b, "c": found.c, "embedded": found.embedded}
+def of_tableau(name: str, pasted: Pasted) -> str:
+    rows = {"b": pasted.b, "c": pasted.c, "embedded": pasted.embedded}
     given = {key: _row(row) for key, row in rows.items() if row is not None}
-    return new_file({"name": quoted(name), "A": [_row(row) for row in found.A], **given})
+    return new_file({"name": quoted(name), "A": [_row(row) for row in pasted.A], **given})
 
 
 def of_families(name: str, members: Sequence[Member], transfer: str) -> str:

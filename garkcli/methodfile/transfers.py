@@ -88,10 +88,10 @@ def _block_of(key: str) -> tuple[int, int]:
     """Returns the colours of a key such as ``1,2``, counted from 0; equal ones if it is not
     valid.
     """
-    found = _BLOCK.fullmatch(key)
-    if found is None:
+    match = _BLOCK.fullmatch(key)
+    if match is None:
         return 0, 0
-    l, m = map(int, found.groups())
+    l, m = map(int, match.groups())
     return l - 1, m - 1
 
 
@@ -112,9 +112,9 @@ def rules_of(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.Transfer
                 at.source.fault(key, message, cure, code="given-twice")
                 return d.TransferText(None, {})
         return d.TransferText(_rule(at, node, "transfer"), {})
-    found: g.ReadMapping = _PARTS.read(at, node, "transfer")
-    blocks = _blocks(at, found["blocks"], stages) if "blocks" in found else {}
-    return d.TransferText(found.get("default"), blocks)
+    entries: g.ReadMapping = _PARTS.read(at, node, "transfer")
+    blocks = _blocks(at, entries["blocks"], stages) if "blocks" in entries else {}
+    return d.TransferText(entries.get("default"), blocks)
 
 
 def _is_unknown(node: Node) -> bool:
@@ -192,10 +192,10 @@ def _rule(at: NumbersReader, node: Node, where: str) -> d.RuleText | None:
         rule = at.source.choice(node, where, ALL_RULES)
         return d.RuleText(node, ((rule, None),)) if rule else None
     if keys_of(node) & {"rule", "degree"}:
-        found: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
-        if found is None or not found.is_right:
+        of_degree: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
+        if of_degree is None or not of_degree.is_right:
             return None
-        return d.RuleText(node, (("legendre", None),), found.get("degree"))
+        return d.RuleText(node, (("legendre", None),), of_degree.get("degree"))
     of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
     if of_pairs:
         why = "makes both blocks of a pair of colours"

@@ -46,8 +46,8 @@ class Values:
         decided = self.__dict__.setdefault("decided", {})
         if key not in decided:
             decided[key] = find()
-        found: T = decided[key]
-        return found
+        decision: T = decided[key]
+        return decision
 
     def decide_as(self, other: Values) -> None:
         """Uses the decisions of ``once`` from other numbers of the same file."""

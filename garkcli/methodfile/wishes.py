@@ -139,12 +139,12 @@ def read_wishes(at: Any, node: Node) -> Wishes:
     """
     numbers: Numbers = at.numbers
     before = len(numbers.entries)
-    found: ReadMapping | dict[str, Any] = DESIGN.read(at, node, "design") or {}
+    demands: ReadMapping | dict[str, Any] = DESIGN.read(at, node, "design") or {}
     entries = tuple(numbers.entries[before:])
     del numbers.entries[before:]
-    order, fixed = found.pop("order", None), found.pop("fix", ())
-    ranges = found.pop("range", NO_RANGES)
-    wishes = tuple(chain.from_iterable(found.values()))
+    order, fixed = demands.pop("order", None), demands.pop("fix", ())
+    ranges = demands.pop("range", NO_RANGES)
+    wishes = tuple(chain.from_iterable(demands.values()))
     return Wishes(order, tuple(fixed), wishes, ranges, entries)
 
 

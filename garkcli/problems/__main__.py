@@ -85,8 +85,8 @@ def answers_of_clock() -> Record:
 
 
 def _write(name: str, records: Iterable[Record]) -> None:
-    found = {x.name: made for record in records for x, made in record.items()}
-    text = json.dumps(found, indent=1, ensure_ascii=True)
+    made_by_name = {x.name: made for record in records for x, made in record.items()}
+    text = json.dumps(made_by_name, indent=1, ensure_ascii=True)
     (KNOWN / f"{name}.json").write_bytes(text.encode("ascii") + b"\n")
 
 

@@ -103,8 +103,8 @@ def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
     path = KNOWN / f"{problem}.json"
     if not path.exists():
         return {}
-    found: dict[str, dict[str, Answer]] = msgspec.json.decode(path.read_bytes())
-    return found
+    answers: dict[str, dict[str, Answer]] = msgspec.json.decode(path.read_bytes())
+    return answers
 
 
 def recorded(work: Callable[[], object]) -> Record:

@@ -93,12 +93,12 @@ class _Form(Frozen):
 
 def _forms(draw: Draw, variables: int, sums: int, divisor: int) -> list[_Form]:
     """Random forms in ``variables`` variables, for ``sums`` sums."""
-    found = []
+    forms = []
     for _ in range(_FORMS):
         slopes = [fmpq(draw.sign() * draw.between(3, 12), 20) for _ in range(variables)]
         factors = [fmpq(draw.sign() * draw.between(5, 20), divisor) for _ in range(sums)]
-        found.append(_Form(tuple(slopes), tuple(factors)))
-    return found
+        forms.append(_Form(tuple(slopes), tuple(factors)))
+    return forms
 
 
 def _sums(forms: list[_Form], y: Vector, degree: int) -> Exprs:

@@ -152,9 +152,9 @@ def _spelled_out(code: StraightLineCode) -> dict[str, list[str]]:
 def _written(expressions: Vector, arguments: Vector, is_for_balls: bool) -> StraightLineCode:
     import sympy
 
-    found, reduced = sympy.cse(list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in count()))
+    shared, reduced = sympy.cse(list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in count()))
     writer = _Writer({x: f"{{a{i}}}" for i, x in enumerate(arguments)}, is_for_balls)
-    for symbol, expression in found:
+    for symbol, expression in shared:
         writer.symbols[symbol] = writer.named(writer.text(expression))
     results = ["0" if x == 0 else writer.text(x) for x in reduced]
     return StraightLineCode(
@@ -308,12 +308,12 @@ def function(
 
 def enclosed(codes: Sequence[StraightLineCode]) -> dict[str, arb]:
     """The rational constants of programs for balls, at the current precision."""
-    found = {}
+    balls = {}
     for code in codes:
         for x in code.constants:
             if code.is_for_balls and x is not None:
-                found[constant_name(x)] = arb(x)
-    return found
+                balls[constant_name(x)] = arb(x)
+    return balls
 
 
 def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:

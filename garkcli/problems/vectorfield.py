@@ -204,9 +204,9 @@ def _differs(x: Expr, names: Exprs) -> bool:
     """
     bits = _BITS[0]
     while bits <= _BITS[1]:
-        found = _differs_at(x, names, bits)
-        if found is not None:
-            return found
+        differs = _differs_at(x, names, bits)
+        if differs is not None:
+            return differs
         bits *= 4
     return False
 

@@ -86,9 +86,9 @@ class SweptMethod(Frozen):
         """The method whose properties are decided; for a Rosenbrock method the method with the same
         steps on linear problems.
         """
-        found = on_linear_problems(self.tableau)
-        known = self.simplifying if found is self.tableau else simplifying(found, DEFAULT_LIMIT)
-        return Subject(found, self.order.order, known, DEFAULT_LIMIT)
+        linear = on_linear_problems(self.tableau)
+        known = self.simplifying if linear is self.tableau else simplifying(linear, DEFAULT_LIMIT)
+        return Subject(linear, self.order.order, known, DEFAULT_LIMIT)
 
     @cached_property
     def phase(self) -> PhaseError | None:
@@ -104,8 +104,8 @@ def _constants(tableau: Tableau, order: Order) -> ErrorConstants | None:
     """Returns None if the order is a lower bound or there are too many trees."""
     if order.is_lower_bound:
         return None
-    found = error_constants(tableau, order.order + 1)
-    return found if found is not None and found.is_exact else None
+    constants = error_constants(tableau, order.order + 1)
+    return constants if constants is not None and constants.is_exact else None
 
 
 Value: TypeAlias = "bool | int | float | str | None"
@@ -184,8 +184,8 @@ def _phase_constant(judged: SweptMethod) -> Value:
     return abs(_rounded(ball_decimal(to_ball(phase.constant, 20), DIGITS)))
 
 
-def _order(found: object) -> int | None:
-    order = getattr(found, "order", None)
+def _order(result: object) -> int | None:
+    order = getattr(result, "order", None)
     return order if isinstance(order, int) else None
 
 
@@ -198,16 +198,16 @@ def _view(which: Which, judged: SweptMethod) -> int | None:
         timed = with_time(judged.tableau) if which == "with_time" else None
         return None if timed is None else find_order(timed).order
     try:
-        found = seen(judged.tableau, which)
+        view = seen(judged.tableau, which)
     except SingularMatrixError:
         return None
-    return find_order(printed(found)).order
+    return find_order(printed(view)).order
 
 
-def _bound(found: Simplifying | None, is_sharp: bool) -> int | None:
-    if found is None:
+def _bound(conditions: Simplifying | None, is_sharp: bool) -> int | None:
+    if conditions is None:
         return None
-    return found.sharp_bound if is_sharp else found.bound
+    return conditions.sharp_bound if is_sharp else conditions.bound
 
 
 _PLAIN = (
@@ -269,11 +269,11 @@ _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 
 @cache
 def columns() -> Mapping[str, Column]:
-    found = {column.name: column for column in _PLAIN}
+    by_name = {column.name: column for column in _PLAIN}
     for key in KEYS:
         text = f"gark check --explain {key}"
-        found[key] = Column(key, partial(_property, key), text, key not in _LESS_IS_BETTER)
-    return found
+        by_name[key] = Column(key, partial(_property, key), text, key not in _LESS_IS_BETTER)
+    return by_name
 
 
 def value_of(name: str, judged: SweptMethod) -> Value:

@@ -76,10 +76,10 @@ def _grid(at: Any, node: Node, where: str) -> list[fmpq]:
     """Reads the values of a parameter; equidistant ones include both ends."""
     if not isinstance(node, MappingNode):
         return _VALUES.read(at, node, where) or []
-    found: g.ReadMapping = _STEPS.read(at, node, where)
-    if len(found) < 3:
+    ends: g.ReadMapping = _STEPS.read(at, node, where)
+    if len(ends) < 3:
         return []
-    first, last, steps = (found[key] for key in ("from", "to", "steps"))
+    first, last, steps = (ends[key] for key in ("from", "to", "steps"))
     return [first + (last - first) * fmpq(k, steps) for k in range(steps + 1)]
 
 
@@ -145,8 +145,8 @@ def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
 
 
 def _truth(at: Any, node: Node, where: str) -> tuple[str, bool] | None:
-    found = g.FLAG.read(at, node, where)
-    return None if found is None else ("=", found)
+    flag = g.FLAG.read(at, node, where)
+    return None if flag is None else ("=", flag)
 
 
 _OWN = {

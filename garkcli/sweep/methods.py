@@ -69,11 +69,11 @@ def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Value
 
     def read(at: Any, node: Node, where: str) -> range | None:
         text = node.value if isinstance(node, ScalarNode) else ""
-        found = _SPAN.fullmatch(text)
-        if found is None:
+        match = _SPAN.fullmatch(text)
+        if match is None:
             whole = at.source.whole(node, where, least)
             return None if whole is None else range(whole, whole + 1)
-        first, last = map(int, found.groups())
+        first, last = map(int, match.groups())
         if least <= first <= last and (most is None or last <= most or first == last):
             return range(first, last + 1)
         at.source.fault(
@@ -130,8 +130,8 @@ def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Re
         found_degree: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
         return found_degree
     entries = at.source.mapping(node, where, RULES)
-    found = {rule: _weight(at, x, f"{where}, weight of {rule}") for rule, x in entries.items()}
-    return {rule: text for rule, text in found.items() if text is not None}
+    weights = {rule: _weight(at, x, f"{where}, weight of {rule}") for rule, x in entries.items()}
+    return {rule: text for rule, text in weights.items() if text is not None}
 
 
 _RULES = g.by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
@@ -230,20 +230,20 @@ class MethodsReader:
         stages.
         """
         families: list[str] = entry.get("family", [])
-        found: dict[tuple[str, int], None] = {}
+        members: dict[tuple[str, int], None] = {}
         for family in families:
             if BY_STAGES[family].is_single:
-                found[family, BY_STAGES[family].smallest] = None
+                members[family, BY_STAGES[family].smallest] = None
                 continue
             for s in chain.from_iterable(entry.get("stages", ())):
                 with suppress(UnknownFamily):
-                    found[family, recipe_of(family, s).stages] = None
-        if families and not found:
+                    members[family, recipe_of(family, s).stages] = None
+        if families and not members:
             message = f"methods: no member of {', '.join(families)} has these stages"
             self.source.fault(
                 entry.node, message, "write stages: 2, [1, 3] or 1..4", code="wrong-value"
             )
-        return list(found)
+        return list(members)
 
     def read_files(self, node: Node, folder: Path) -> None:
         """Reads method files beside the spec file."""
@@ -280,9 +280,9 @@ class MethodsReader:
             cure = f"write search: {{{order}seeds: 1..100}}"
             self.source.fault(node, message, cure, code="free-parameters")
             return 0
-        found: int = self.search.get("order", own)
-        if not found:
+        wanted: int = self.search.get("order", own)
+        if not wanted:
             message = f"{shortened(name)}: a search is for an order"
             cure = "write search: {order: 4, seeds: 1..100}, or in a file design: {order: 4}"
             self.source.fault(node, message, cure, code="option-alone")
-        return found
+        return wanted

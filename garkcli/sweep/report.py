@@ -24,13 +24,13 @@ def kept(rows: Iterable[Row]) -> list[Row]:
 
 def distinct(rows: Iterable[Row]) -> list[Row]:
     """Returns the first row of each method: several seeds may find the same one."""
-    found: dict[str, Row] = {}
+    by_method: dict[str, Row] = {}
     for row in rows:
         known_by = str(row["key"])
         if "values" in row:  # it was searched for
             known_by = json.dumps([row.get(x) for x in ("method", "parameters", "values")])
-        found.setdefault(known_by, row)
-    return list(found.values())
+        by_method.setdefault(known_by, row)
+    return list(by_method.values())
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
@@ -65,13 +65,13 @@ def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
     """Returns for each column whether the value is missing, and a number that is smaller for better
     values.
     """
-    found = []
+    numbers = []
     for name in by:
         value = row.get(name)
         assert not isinstance(value, dict)
         size = 0.0 if value is None else number(value)
-        found.append((value is None, -size if columns()[name].more_is_better else size))
-    return found
+        numbers.append((value is None, -size if columns()[name].more_is_better else size))
+    return numbers
 
 
 class SweepReport(Shown, Frozen):
@@ -108,8 +108,8 @@ class SweepReport(Shown, Frozen):
     @property
     def best(self) -> list[Row]:
         """The kept rows, the best first."""
-        found = self.kept
-        return best_first(found, self.plan.best) if self.plan.best else found
+        rows = self.kept
+        return best_first(rows, self.plan.best) if self.plan.best else rows
 
     @property
     def front(self) -> list[Row]:

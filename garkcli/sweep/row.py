@@ -62,10 +62,10 @@ def _drawn(point: Point, draw: Draw) -> Method:
     raise MethodError(message, cure, code="not-found")
 
 
-def method_found(point: Point, found: Method) -> Tableau:
+def method_found(point: Point, method: Method) -> Tableau:
     """Returns an exact method as read from the text of its file."""
-    claim = f"{'pair-' * point.template.is_drawn}order: {found.order}"
-    return loads(with_values(_asked(point).family, found.values, "", claim), point.key).tableau
+    claim = f"{'pair-' * point.template.is_drawn}order: {method.order}"
+    return loads(with_values(_asked(point).family, method.values, "", claim), point.key).tableau
 
 
 def _asked(point: Point) -> FileSearch:
@@ -171,13 +171,13 @@ def _searched(point: Point, row: Row) -> Tableau | None:
 
     None if its coefficients are not known exactly; then no columns are reported.
     """
-    found = first_find(point)
-    if found is None:
+    method = first_find(point)
+    if method is None:
         starts = counted(point.template.starts, "start")
         raise MethodError(f"nothing found from {starts}", "take more", code="not-found")
-    row["proof"] = found.proof
-    row["values"] = dict(found.values)
-    return method_found(point, found) if found.is_exact else None
+    row["proof"] = method.proof
+    row["values"] = dict(method.values)
+    return method_found(point, method) if method.is_exact else None
 
 
 @lru_cache(maxsize=32)

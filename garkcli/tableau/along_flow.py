@@ -96,11 +96,11 @@ def weights_of(row: Vector, space: Jets) -> Weights:
     """The weights of f, f' f, … in a row of such a tableau."""
     nodes = flow_nodes(space.order)
     parts = [row[i : i + space.order] for i in range(0, len(row), space.order)]
-    found = []
+    weights = []
     for k in range(space.derivatives):
         powers = [x**k * fmpq(1, factorial(k)) for x in nodes]
-        found.append(tuple(dot(part, powers) for part in parts))
-    return tuple(found)
+        weights.append(tuple(dot(part, powers) for part in parts))
+    return tuple(weights)
 
 
 def _sums(matrix: Matrix) -> Vector:

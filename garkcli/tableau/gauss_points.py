@@ -49,8 +49,8 @@ def has_gauss_nodes(space: StageSpace) -> bool:
 
 def nodes_and_weights(stages: int) -> tuple[list[arb], list[arb]]:
     """The nodes in ascending order, and the weights, at the current precision."""
-    found = [arb.legendre_p_root(stages, k, weight=True) for k in reversed(range(stages))]
-    return [(1 + x) / 2 for x, _ in found], [w / 2 for _, w in found]
+    pairs = [arb.legendre_p_root(stages, k, weight=True) for k in reversed(range(stages))]
+    return [(1 + x) / 2 for x, _ in pairs], [w / 2 for _, w in pairs]
 
 
 _BITS_OF_A_STAGE = 1.3
@@ -84,9 +84,9 @@ def _orthonormal(x: arb, count: int) -> list[arb]:
 
 def _integrated(row: list[arb], xi: list[arb]) -> list[arb]:
     """A row of W times X."""
-    found = [arb(0) for _ in row]
-    found[0] = row[0] / 2
+    integral_row = [arb(0) for _ in row]
+    integral_row[0] = row[0] / 2
     for k, (x, (before, after)) in enumerate(zip(xi, pairwise(row), strict=True)):
-        found[k] = found[k] + after * x
-        found[k + 1] = found[k + 1] - before * x
-    return found
+        integral_row[k] = integral_row[k] + after * x
+        integral_row[k + 1] = integral_row[k + 1] - before * x
+    return integral_row

@@ -60,9 +60,9 @@ def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
     for precision in (bits, 2 * bits, 4 * bits):
         block = numeric_entries(tableau, int(precision / BITS_OF_A_DIGIT)).A[0][0]
         with ctx.workprec(precision):
-            found = _of_matrix(arb_mat([[_as_ball(x) for x in row] for row in block or ()]))
-        if found is not None and _is_fine(found, digits):
-            return replace(found, digits=digits)
+            result = _of_matrix(arb_mat([[_as_ball(x) for x in row] for row in block or ()]))
+        if result is not None and _is_fine(result, digits):
+            return replace(result, digits=digits)
     message = "A has no inverse, or a double eigenvalue, so no such transformation is found"
     raise MethodError(message, "leave --transformation out", code="cannot-construct")
 
@@ -116,8 +116,8 @@ def _of_length_one(column: Sequence[acb]) -> list[arb]:
     return [x / length for x in real]
 
 
-def _is_fine(found: Transformation, digits: int) -> bool:
+def _is_fine(result: Transformation, digits: int) -> bool:
     bound = arb(10) ** -digits
-    numbers = [*found.real, *(x for pair in found.pairs for x in pair)]
-    numbers += [x for row in (*found.T, *found.inverse) for x in row]
+    numbers = [*result.real, *(x for pair in result.pairs for x in pair)]
+    numbers += [x for row in (*result.T, *result.inverse) for x in row]
     return all(x.rad() < bound for x in numbers)

@@ -120,33 +120,33 @@ _KEYS = g.mapping(
 )
 
 
-def _read(at: PartReader, found: g.ReadMapping, where: str) -> ConstructionText | None:
+def _read(at: PartReader, entries: g.ReadMapping, where: str) -> ConstructionText | None:
     """Reads the methods and their substeps."""
-    before, node = len(at.source.faults), found.node
-    steps = [*_steps(at, found, where)]
-    if "processor" in found:
+    before, node = len(at.source.faults), entries.node
+    steps = [*_steps(at, entries, where)]
+    if "processor" in entries:
         # π after, and its inverse before: the adjoint with the step −1
         one, back = (at.numbers.written(x, node, where) for x in ("1", "-1"))
-        steps = [(found["processor"], back, True), *steps, (found["processor"], one, False)]
+        steps = [(entries["processor"], back, True), *steps, (entries["processor"], one, False)]
     if len(at.source.faults) > before:
         return None
-    scheme = found.get("scheme")
+    scheme = entries.get("scheme")
     rounding = scheme and scheme.tolerance and read_decimal(scheme.tolerance)
     return at.made(node, _maker(steps), rounding or None)
 
 
-def _steps(at: PartReader, found: g.ReadMapping, where: str) -> Iterator[_Step]:
+def _steps(at: PartReader, entries: g.ReadMapping, where: str) -> Iterator[_Step]:
     """Yields the substeps between those of the processor."""
-    whole: Any = found.get("of")
-    if "scheme" in found:
-        place = found.nodes["scheme"]
-        scheme = found["scheme"]
-        for text, is_adjoint in scheme.parts(*_orders(at, found, scheme)):
+    whole: Any = entries.get("of")
+    if "scheme" in entries:
+        place = entries.nodes["scheme"]
+        scheme = entries["scheme"]
+        for text, is_adjoint in scheme.parts(*_orders(at, entries, scheme)):
             yield whole, at.numbers.written(text, place, scheme.name), is_adjoint
-    elif "steps" not in found and whole is not None:
-        yield whole, at.numbers.written("1", found.node, where), False
-    places = found.nodes["steps"].value if "steps" in found else ()
-    for number, (place, step) in enumerate(zip(places, found.get("steps", ()), strict=True), 1):
+    elif "steps" not in entries and whole is not None:
+        yield whole, at.numbers.written("1", entries.node, where), False
+    places = entries.nodes["steps"].value if "steps" in entries else ()
+    for number, (place, step) in enumerate(zip(places, entries.get("steps", ()), strict=True), 1):
         is_number = isinstance(step, Coefficient)
         part = whole if is_number else step.get("of", whole)
         if part is None:
@@ -158,26 +158,26 @@ def _steps(at: PartReader, found: g.ReadMapping, where: str) -> Iterator[_Step]:
             yield part, step["step"], step.get("adjoint", False)
 
 
-def _orders(at: PartReader, found: g.ReadMapping, scheme: Scheme) -> tuple[int, int]:
+def _orders(at: PartReader, entries: g.ReadMapping, scheme: Scheme) -> tuple[int, int]:
     """Returns the order of the method and that of the result for a repeated scheme.
 
     The substeps that raise a symmetric method of order p contain a root of degree p + 1.
     """
     if not scheme.has_orders:
-        for key in found.nodes.keys() & {"order", "from"}:
+        for key in entries.nodes.keys() & {"order", "from"}:
             message = f"{scheme.name} has one order, {scheme.order}"
-            at.source.fault(found.nodes[key], message, "leave it out", code="not-together")
+            at.source.fault(entries.nodes[key], message, "leave it out", code="not-together")
         return 0, 0
-    base = found.get("from", 2)
+    base = entries.get("from", 2)
     wanted = base + 2
-    if "order" in found:
-        wanted = at.source.whole(found.nodes["order"], "compose, order", wanted) or base
+    if "order" in entries:
+        wanted = at.source.whole(entries.nodes["order"], "compose, order", wanted) or base
     degree = prod(order + 1 for order in range(base, wanted, 2))
     if degree > MAX_DEGREE:
         message = f"{scheme.name} from order {base} to {wanted} has radicals of"
         message += f" degree {degree} together (limit {MAX_DEGREE})"
         cure = "take fewer repetitions, or a rounded scheme, such as yoshida-8"
-        at.source.fault(found.nodes["order"], message, cure, code="no-radicals")
+        at.source.fault(entries.nodes["order"], message, cure, code="no-radicals")
         return base, base
     return base, wanted
 

@@ -113,20 +113,20 @@ _KEYS = g.mapping(
 )
 
 
-def _read(at: PartReader, found: g.ReadMapping, _: str) -> ConstructionText:
+def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText:
     """Reads the method and the numbers of its substeps."""
     plan = _Plan(
-        found.get("sequence", "harmonic"),
-        found.get("order", 0),
-        found.get("from"),
-        found.get("symmetric"),
+        entries.get("sequence", "harmonic"),
+        entries.get("order", 0),
+        entries.get("from"),
+        entries.get("symmetric"),
         at.rounding(at.tolerance),
     )
 
     def made(tableau_of: Callable[[PartText], Tableau], numbers: Numbers) -> Tableau:
-        return plan.made(tableau_of(found["of"]), numbers)
+        return plan.made(tableau_of(entries["of"]), numbers)
 
-    return at.made(found.node, made)
+    return at.made(entries.node, made)
 
 
 class _Plan(Frozen):

@@ -280,21 +280,21 @@ def _embedded_of(part: PartText) -> Row | None:
     return texts[0].embedded if len(texts) == 1 else None
 
 
-def _generalized(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
+def _generalized(at: PartReader, entries: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
     """Returns the coupling by α, β and γ."""
-    stages = len(found["beta"])
+    stages = len(entries["beta"])
     parts = [
-        _whole(at, found[key], found.nodes[key], key, stages + 1)
+        _whole(at, entries[key], entries.nodes[key], key, stages + 1)
         for key in ("alpha", "beta", "gamma")
     ]
     return lambda _, values: generalized(*map(values.matrix, parts))
 
 
 def _coupling_by_name(
-    at: PartReader, found: g.ReadMapping
+    at: PartReader, entries: g.ReadMapping
 ) -> Callable[[TableauOf, Values], Coupling]:
     """Returns the coupling of another multirate infinitesimal method."""
-    part: PartText = found["mri"]
+    part: PartText = entries["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
     content = part.description.content
     if isinstance(content, ConstructionText) and isinstance(content.make, Infinitesimal):
@@ -303,60 +303,60 @@ def _coupling_by_name(
         return make.coupling
     message = "multirate, mri: no coupling of slow stages is in this method"
     cure = "name a method of gark list methods --kind mri, or write mis: NAME"
-    at.source.fault(found.nodes["mri"], message, cure, code="wrong-value")
+    at.source.fault(entries.nodes["mri"], message, cure, code="wrong-value")
     return lambda *_: following((), ())
 
 
-def _read(at: PartReader, found: g.ReadMapping, _: str) -> ConstructionText | None:
+def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText | None:
     """Reads the methods and their coupling."""
     before = len(at.source.faults)
     kept: tuple[PartText, ...] = ()
     rounding = None
-    if "slow" in found:
-        make = _coupled(at, found)
+    if "slow" in entries:
+        make = _coupled(at, entries)
     else:
-        if isinstance(found.get("mri"), PartText):
-            coupling = _coupling_by_name(at, found)
-            rounding = found["mri"].tolerance
-        elif "mri" in found:
-            coupling = _polynomials(at, found["mri"])
-        elif isinstance(found["mis"], g.ReadMapping):
-            coupling = _generalized(at, found["mis"])
+        if isinstance(entries.get("mri"), PartText):
+            coupling = _coupling_by_name(at, entries)
+            rounding = entries["mri"].tolerance
+        elif "mri" in entries:
+            coupling = _polynomials(at, entries["mri"])
+        elif isinstance(entries["mis"], g.ReadMapping):
+            coupling = _generalized(at, entries["mis"])
         else:
-            coupling, kept = _mis(found["mis"]), (found["mis"],)
-        fast = None if found["fast"] == EXACT else found["fast"]
-        make = Infinitesimal(fast, coupling, found.get("steps", 1))
+            coupling, kept = _mis(entries["mis"]), (entries["mis"],)
+        fast = None if entries["fast"] == EXACT else entries["fast"]
+        make = Infinitesimal(fast, coupling, entries.get("steps", 1))
     if len(at.source.faults) > before:
         return None
-    return replace(at.made(found.node, make, rounding), kept=kept)
+    return replace(at.made(entries.node, make, rounding), kept=kept)
 
 
-def _coupled(at: PartReader, found: g.ReadMapping) -> Make:
+def _coupled(at: PartReader, entries: g.ReadMapping) -> Make:
     """Returns two methods with a coupling by name, or by matrices."""
-    coupling = found.get("coupling", SLOWEST_FIRST)
-    is_exact = found["fast"] == EXACT
+    coupling = entries.get("coupling", SLOWEST_FIRST)
+    is_exact = entries["fast"] == EXACT
     if isinstance(coupling, g.ReadMapping) and "gamma" in coupling:
         rows = {key: coupling[key] for key in ("gamma", "embedded") if key in coupling}
         for key, matrix in rows.items():
             at.numbers.rectangular(matrix, coupling.nodes[key], key)
-        fast = None if is_exact else found["fast"]
-        return StepPredictor(found["slow"], fast, rows, found.get("steps", 1))
+        fast = None if is_exact else entries["fast"]
+        return StepPredictor(entries["slow"], fast, rows, entries.get("steps", 1))
     if is_exact and coupling != SLOWEST_FIRST:
         message = (
             "multirate: fast: exact goes with slowest-first or gamma, not with another coupling"
         )
         cure = "name a fast method and its steps"
-        at.source.fault(found.nodes["fast"], message, cure, code="not-together")
+        at.source.fault(entries.nodes["fast"], message, cure, code="not-together")
         coupling = SLOWEST_FIRST
     if is_exact:
-        return StepPredictor(found["slow"], None, {}, 1)
-    steps: int = found.get("steps", 1)
+        return StepPredictor(entries["slow"], None, {}, 1)
+    steps: int = entries.get("steps", 1)
     keys = _BLOCKS if isinstance(coupling, g.ReadMapping) else ()
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
-        slow = method_of_part(tableau_of, found["slow"], "slow")
-        fast = method_of_part(tableau_of, found["fast"], "fast")
+        slow = method_of_part(tableau_of, entries["slow"], "slow")
+        fast = method_of_part(tableau_of, entries["fast"], "fast")
         if coupling == SLOWEST_FIRST:
             return slowest_first(slow, fast, steps)
         if isinstance(coupling, str):
@@ -371,9 +371,9 @@ def _coupled(at: PartReader, found: g.ReadMapping) -> Make:
 
 def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None:
     """Raises MethodError if the shape of a coupling matrix does not fit its methods."""
-    found, wanted = (len(matrix), len(matrix[0])), (seeing.stages, seen.stages)
-    if found != wanted:
-        message = f"{key} is {found[0]} by {found[1]} and should be {wanted[0]} by {wanted[1]}"
+    shape, wanted = (len(matrix), len(matrix[0])), (seeing.stages, seen.stages)
+    if shape != wanted:
+        message = f"{key} is {shape[0]} by {shape[1]} and should be {wanted[0]} by {wanted[1]}"
         cure = "give a row for each stage that sees, a column for each seen"
         raise MethodError(message, cure, code="wrong-size")
 
@@ -404,18 +404,18 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
             numbers.define(name, value)
 
 
-def _polynomials(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
+def _polynomials(at: PartReader, entries: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
     """Returns the polynomial couplings between nodes, the explicit part before the implicit one."""
-    c: Row = found["c"]
-    restart = found.get("restart")
+    c: Row = entries["c"]
+    restart = entries.get("restart")
     matrices: dict[str, list[Rows]] = {}
-    rows = _embedded_rows(at, found)
+    rows = _embedded_rows(at, entries)
     for key in ("omega", "gamma"):
-        if key in found:
-            each = enumerate(zip(found[key], found.nodes[key].value, strict=True), start=1)
+        if key in entries:
+            each = enumerate(zip(entries[key], entries.nodes[key].value, strict=True), start=1)
             matrices[key] = [_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each]
     if restart:
-        _check_restart(at, found, matrices)
+        _check_restart(at, entries, matrices)
 
     def coupling(_: TableauOf, values: Values) -> Coupling:
         nodes = values.vector(c)
@@ -445,37 +445,37 @@ def _polynomials(at: PartReader, found: g.ReadMapping) -> Callable[[TableauOf, V
 
 
 def _check_restart(
-    at: PartReader, found: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
+    at: PartReader, entries: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
 ) -> None:
     """Reports what a method with restarts cannot have."""
-    restart = found["restart"]
+    restart = entries["restart"]
     if restart == "merk" and len(matrices) > 1:
         message = "multirate, mri: restart: merk goes with omega, not with omega and gamma"
         cure = "give omega alone, or restart: sr"
-        at.source.fault(found.nodes["restart"], message, cure, code="not-together")
+        at.source.fault(entries.nodes["restart"], message, cure, code="not-together")
     elif restart == "sr" and "omega" not in matrices:
         message = "multirate, mri: omega missing beside restart: sr"
         cure = "write omega for gamma: the forcing"
-        at.source.fault(found.nodes["restart"], message, cure, code="missing-key")
+        at.source.fault(entries.nodes["restart"], message, cure, code="missing-key")
     elif restart == "sr" and len(matrices.get("gamma", ())) > 1:
         message = f"multirate, mri: gamma has {len(matrices['gamma'])} matrices, and is added once"
         cure = "restart: sr has one matrix gamma: [[[…]]]"
-        at.source.fault(found.nodes["gamma"], message, cure, code="wrong-size")
-    rows = found.get("embedded")
+        at.source.fault(entries.nodes["gamma"], message, cure, code="wrong-size")
+    rows = entries.get("embedded")
     count = len(rows.get("gamma", ())) if isinstance(rows, g.ReadMapping) else 0
     if restart == "sr" and count > 1:
         message = f"multirate, mri, embedded: gamma has {count} rows, and is added once"
         cure = "restart: sr has one row gamma: [[…]]"
-        at.source.fault(found["embedded"].nodes["gamma"], message, cure, code="wrong-size")
+        at.source.fault(entries["embedded"].nodes["gamma"], message, cure, code="wrong-size")
 
 
-def _embedded_rows(at: PartReader, found: g.ReadMapping) -> dict[str, Rows] | None:
+def _embedded_rows(at: PartReader, entries: g.ReadMapping) -> dict[str, Rows] | None:
     """Returns the embedded rows for each slow part, with one entry for each node."""
-    given = found.get("embedded")
+    given = entries.get("embedded")
     if given is None:
         return None
-    node = found.nodes["embedded"]
-    keys = [key for key in ("omega", "gamma") if key in found]
+    node = entries.nodes["embedded"]
+    keys = [key for key in ("omega", "gamma") if key in entries]
     if not isinstance(given, g.ReadMapping):
         if len(keys) > 1:
             message = "multirate, mri, embedded: a mapping is expected here"
@@ -490,7 +490,7 @@ def _embedded_rows(at: PartReader, found: g.ReadMapping) -> dict[str, Rows] | No
         if key not in keys:
             message = f"multirate, mri: {key} missing beside embedded rows of it"
             at.source.fault(places[key], message, "leave them out", code="missing-key")
-        rows[key] = _widened(at, matrix, places[key], name, len(found["c"]))
+        rows[key] = _widened(at, matrix, places[key], name, len(entries["c"]))
     return rows
 
 

@@ -144,5 +144,7 @@ class PartReader(NumbersReader):
 
     def rounding(self, *others: fmpq | None) -> fmpq | None:
         """Returns the largest tolerance of the parts; None if all are exact."""
-        found = [x for x in (*(part.tolerance for part in self.parts), *others) if x is not None]
-        return max(found, default=None)
+        tolerances = [
+            x for x in (*(part.tolerance for part in self.parts), *others) if x is not None
+        ]
+        return max(tolerances, default=None)

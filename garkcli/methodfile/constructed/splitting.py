@@ -63,21 +63,21 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
     """Reads the parts and their flows."""
     source = at.source
     before = len(source.faults)
-    found: g.ReadMapping | None = _KEYS.read(at, node, where)
-    if found is None:
+    entries: g.ReadMapping | None = _KEYS.read(at, node, where)
+    if entries is None:
         return None
-    terms = _terms(at, found, where)
+    terms = _terms(at, entries, where)
     if len(source.faults) > before:
         return None
     rounding = None
-    if "scheme" in found:
-        flows = [*_by_scheme(at, found, terms, where)]
-        tolerance = SPLITTINGS[found["scheme"]].tolerance
+    if "scheme" in entries:
+        flows = [*_by_scheme(at, entries, terms, where)]
+        tolerance = SPLITTINGS[entries["scheme"]].tolerance
         rounding = read_decimal(tolerance) if tolerance else None
-    elif "flows" in found:
-        flows = [*_one_by_one(at, found["flows"], terms)]
+    elif "flows" in entries:
+        flows = [*_one_by_one(at, entries["flows"], terms)]
     else:
-        flows = [*_alternating(at, found, where)]
+        flows = [*_alternating(at, entries, where)]
     if len(source.faults) > before:
         return None
     idle = set(range(terms)) - {l for l, _ in flows}
@@ -88,19 +88,19 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
 
     def made(tableau_of: Callable[[PartText], Tableau], values: Values) -> Tableau:
         numbers = [(l, values.number(entry)) for l, entry in flows]
-        if "of" not in found:
+        if "of" not in entries:
             return drift_and_kick(numbers, at.structure == "nystrom")
         what = "a part of a splitting is one vector field, and the method has several"
-        methods = [one_field(tableau_of(part), what) for part in found["of"]]
+        methods = [one_field(tableau_of(part), what) for part in entries["of"]]
         return split(methods * (terms if len(methods) == 1 else 1), numbers)
 
     return at.made(node, made, rounding)
 
 
-def _terms(at: PartReader, found: g.ReadMapping, where: str) -> int:
+def _terms(at: PartReader, entries: g.ReadMapping, where: str) -> int:
     """Returns the number of parts; one method for each of them is required."""
-    of = found.nodes.get("of")
-    terms: int | None = found.get("terms")
+    of = entries.nodes.get("of")
+    terms: int | None = entries.get("terms")
     if isinstance(of, SequenceNode):
         given = len(of.value)
         terms = terms or given
@@ -108,11 +108,11 @@ def _terms(at: PartReader, found: g.ReadMapping, where: str) -> int:
             message = f"{where}, of: {given} methods for {terms} parts"
             at.source.fault(of, message, "give one for each part", code="wrong-size")
         return terms
-    terms = terms or _largest(found.nodes.get("flows"))
+    terms = terms or _largest(entries.nodes.get("flows"))
     if of is None and terms > 2:
         message = f"{where}: exact flows of {terms} parts are not a Runge-Kutta method"
         cure = "give of: METHOD, which takes the steps of the parts"
-        at.source.fault(found.node, message, cure, code="wrong-size")
+        at.source.fault(entries.node, message, cure, code="wrong-size")
     return terms
 
 
@@ -127,13 +127,13 @@ def _largest(flows: Node | None) -> int:
     return min(max(numbers), MAX_TERMS)
 
 
-def _alternating(at: PartReader, found: g.ReadMapping, where: str) -> Iterator[_Flow]:
+def _alternating(at: PartReader, entries: g.ReadMapping, where: str) -> Iterator[_Flow]:
     """Yields a_1 of part 1, b_1 of part 2, and so on."""
-    a, b = found["a"], found["b"]
+    a, b = entries["a"], entries["b"]
     if len(a) - len(b) not in {0, 1}:
         message = f"{where}: a has {len(a)} numbers and b has {len(b)}"
         cure = "give as many, or one more to a: part 1 flows first"
-        at.source.fault(found.nodes["b"], message, cure, code="wrong-size")
+        at.source.fault(entries.nodes["b"], message, cure, code="wrong-size")
         return
     for i, entry in enumerate(a):
         yield 0, entry
@@ -148,9 +148,9 @@ def _one_by_one(at: PartReader, items: list[Node], terms: int) -> Iterator[_Flow
             yield int(name) - 1, at.numbers.entry(value, where)
 
 
-def _by_scheme(at: PartReader, found: g.ReadMapping, terms: int, where: str) -> Iterator[_Flow]:
+def _by_scheme(at: PartReader, entries: g.ReadMapping, terms: int, where: str) -> Iterator[_Flow]:
     """Yields the flows of a named splitting."""
-    scheme, node = SPLITTINGS[found["scheme"]], found.nodes["scheme"]
+    scheme, node = SPLITTINGS[entries["scheme"]], entries.nodes["scheme"]
     if scheme.terms and scheme.terms != terms:
         message = f"{where}, scheme: {scheme.name} is for {scheme.terms} parts"
         at.source.fault(node, message, "strang is for any number", code="not-together")

@@ -54,11 +54,11 @@ def _terms(f: Expr, v: Expr) -> int:
     """
     import sympy
 
-    found = _fraction(f)
+    size = _fraction(f)
     # odd powers of square roots with v in them
     powers = [x.exp for x in f.atoms(sympy.Pow) if v in x.free_symbols]
     has_root = any(exponent.is_Rational and exponent.q == 2 for exponent in powers)
-    return max(found.terms**2 if has_root else found.terms, found.inside)
+    return max(size.terms**2 if has_root else size.terms, size.inside)
 
 
 Size: TypeAlias = tuple[int, int]

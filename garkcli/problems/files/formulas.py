@@ -65,8 +65,8 @@ class FormulaReader(Mutable):
             return expression
         # each name without a meaning is noted at its first place
         allowed = {*self.values, *CONSTANTS, *(name for name, cure in names.items() if not cure)}
-        found = [x for x in names_in(expression) if x.name not in allowed]
-        strangers = {x.name: x for x in reversed(found)}
+        unknown = [x for x in names_in(expression) if x.name not in allowed]
+        strangers = {x.name: x for x in reversed(unknown)}
         for name, place in strangers.items():
             message = f"{where}: {shortened(name)} is not a {noun}"
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
@@ -94,8 +94,8 @@ class FormulaReader(Mutable):
 
     def rational(self, node: Node, where: str) -> fmpq | None:
         """Returns a number, exact if rational and to ``PLACES`` decimals otherwise."""
-        found = self.constant(node, where)
-        return None if found is None else nearby(found[1])
+        constant = self.constant(node, where)
+        return None if constant is None else nearby(constant[1])
 
     def translator(self, symbols: Mapping[str, Any]) -> Translator:
         return Translator({**self.made, **symbols}, self.values)
@@ -109,11 +109,11 @@ class FormulaReader(Mutable):
             if message:
                 cure = "choose another name"
                 self.source.fault(value_node, f"{where} {message}", cure, code="name-taken")
-            found = self.constant(value_node, where)
+            constant = self.constant(value_node, where)
             if name in self.given:
-                found = (Literal(self.given[name]), self.given[name])
+                constant = (Literal(self.given[name]), self.given[name])
             # a faulty parameter is 1, so that formulas with it are still read
-            expression, value = found or (Literal(fmpq(1)), fmpq(1))
+            expression, value = constant or (Literal(fmpq(1)), fmpq(1))
             self.made[name] = (
                 rational(value)
                 if isinstance(value, fmpq)
@@ -195,7 +195,7 @@ class Maker:
         known = names if self.text.are_named else None
         allowed = [name for name, cure in (known or {}).items() if not cure]
         translator = self.formulas.translator({name: self.symbols[name] for name in allowed})
-        found = []
+        terms = []
         for node, where in items:
             expression = self.formulas.parsed(node, where, known, noun)
             if expression is None or known is None:
@@ -205,8 +205,8 @@ class Maker:
             except ExpressionError as error:
                 self.source.expression_fault(node, where, error)
             else:
-                found.append(FormulaTerm(node, where, expression, made))
-        return found
+                terms.append(FormulaTerm(node, where, expression, made))
+        return terms
 
     def invariants(self, names: Mapping[str, str], noun: str) -> list[FormulaTerm]:
         """Returns the first integrals; ``names`` and ``noun`` are those of ``terms``."""
@@ -280,8 +280,8 @@ class Maker:
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]
-            found = f"second derivatives of {sum(sizes)} operations"
-            message = f"{largest.where}: {found} (limit {MAX_SIZE})"
+            operations = f"second derivatives of {sum(sizes)} operations"
+            message = f"{largest.where}: {operations} (limit {MAX_SIZE})"
             cure = "write it shorter, or with fewer variables"
             self.source.fault(largest.node, message, cure, code="too-many")
 

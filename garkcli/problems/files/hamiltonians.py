@@ -129,14 +129,14 @@ class HamiltonianMaker(Maker):
         is_one = len(moving) == 1 or not has_velocities
         known = at if is_one else {x: at[x] for x in self.q}
         transformed = (self._transform(term, known) for term in lagrangians)
-        found = [term for term in transformed if term is not None]
+        terms = [term for term in transformed if term is not None]
         self.source.close()
-        self.check_size(found)
-        self.check_numbers(found)
+        self.check_size(terms)
+        self.check_numbers(terms)
         self.source.close()
         if has_velocities:
-            start = start | self._momenta(lagrangians, found, at, moving[0])
-        return found, start
+            start = start | self._momenta(lagrangians, terms, at, moving[0])
+        return terms, start
 
     def _transform(self, term: FormulaTerm, known: Place) -> FormulaTerm | None:
         """Returns the Hamiltonian of a term; None, with a fault, if it is not found."""
@@ -174,14 +174,14 @@ class HamiltonianMaker(Maker):
             message = f"initial: {error.message}"
             self.source.fault(self.text.initial, message, error.help, code=error.code)
             self.source.close()
-        found: dict[str, fmpq] = {}
+        by_name: dict[str, fmpq] = {}
         for p, value in zip(self.p, momenta, strict=True):
             if not (value.is_finite() and value.rad() < _GOOD):
                 message = f"{moving.where}: the momenta do not exist at the initial values"
                 self.source.fault(moving.node, message, "start elsewhere", code="no-formula")
                 self.source.close()
-            found[str(p)] = nearby(value)
-        return found
+            by_name[str(p)] = nearby(value)
+        return by_name
 
     def _refuse_constants(
         self, terms: Sequence[FormulaTerm], invariants: Sequence[FormulaTerm]

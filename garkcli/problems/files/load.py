@@ -210,10 +210,10 @@ class _ProblemReader:
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _t_end(self, node: Node | None) -> fmpq:
-        found = None if node is None else self.formulas.constant(node, "t_end")
-        if found is None:
+        constant = None if node is None else self.formulas.constant(node, "t_end")
+        if constant is None:
             return DEFAULT_T_END
-        _, value = found
+        _, value = constant
         if isinstance(value, fmpq) and value > 0:
             return value
         message = "t_end: a positive rational number is expected"

@@ -102,10 +102,10 @@ class SidesMaker(Maker):
         entries = self.source.mapping(node, "exact", self.variables)
         items = tuple((name, formula, f"exact: {name}") for name, formula in entries.items())
         names = dict.fromkeys(map(str, self.y), "the solution is a formula in t") | {TIME: ""}
-        found = self._by_name(items, names, "parameter, nor t")
+        solution = self._by_name(items, names, "parameter, nor t")
         cure = f"a formula, such as {{}}: cos({TIME})"
         self.refuse_missing(node, "exact", self.variables, entries, cure)
-        return found if len(self.source.faults) == before else None
+        return solution if len(self.source.faults) == before else None
 
     def _initial(self, exact: ByName | None) -> Start | None:
         """Returns the initial values by names; None if they are incomplete."""
@@ -136,13 +136,13 @@ class SidesMaker(Maker):
 
     def _start_of(self, exact: ByName) -> Start | None:
         """Returns the exact solution at t = 0; None if it has no value there."""
-        found = {}
+        start = {}
         for name, term in exact.items():
             where = f"{term.where} at t = 0"
             value = self.formulas.value(term.expression, term.node, where, {TIME: fmpq(0)})
             if value is not None:
-                found[name] = nearby(value)
-        return found if len(found) == len(exact) else None
+                start[name] = nearby(value)
+        return start if len(start) == len(exact) else None
 
     def _refuse_constants(
         self,
