@@ -38,6 +38,8 @@ LINKED, ENOUGH = 12, 10
 """So many bits that link matrix and weights speak against another reading of the same numbers; or
 where that has order 1 alone, and none is declared.
 """
+SURE = 60
+"""And so many whatever its order is where none is declared."""
 FEWEST_ROWS = 3
 """So many rows of several entries have their nodes for sums where one other is wrong."""
 MAX_BLAMED = 12
@@ -174,9 +176,13 @@ def settled(table: FoundTable) -> FoundTable:
 
 
 def fits(found: Audited, told: FoundTable) -> bool:
-    """Whether another reading of a table has what it is said to have, or order 2 at least."""
+    """Whether another reading of a table has what it is said to have, or order 2 at least, which
+    fractions in place of rounded numbers miss by their rounding.
+    """
     if found.order is None or found.has_errors:
         return False
+    if not told.order and found.table.linked >= SURE:
+        return True
     return found.order.is_limited or found.order.order >= (told.order or 2)
 
 

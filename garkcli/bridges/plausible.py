@@ -19,6 +19,8 @@ _SHORT = re.compile("euler|midpoint|implicit|trapez|crank", re.IGNORECASE)
 """Words for methods of few numbers."""
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""
+TINY = 1e-9
+"""Conditions that are missed by less are meant."""
 FAR = 0.5
 """Weights of a method have a sum that is nearer to 1, misprints included."""
 
@@ -53,6 +55,10 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
         return len(rows) > 1 and (is_lower or bool(abs(moment) < NEAR))
     pairs = zip(rows, colour.c, strict=True)
     agreeing = sum(bool(abs(_sum(row) - to_ball(c)) < NEAR) for row, c in pairs)
+    moment = _sum(map(operator.mul, colour.b, colour.c)) - 0.5
+    if speaks(table) and abs(moment) < TINY and abs(_sum(colour.b) - 1) < TINY:
+        # weights and nodes are a quadrature: the matrix is wrong
+        return not _are_whole((*rows, colour.b))
     # whole numbers alone may be a linear system, whose zeros agree
     return agreeing >= (len(rows) if _are_whole((*rows, colour.b)) else len(rows) / 2)
 

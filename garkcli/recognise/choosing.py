@@ -35,17 +35,24 @@ def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:
         groups: each behind those that are in it.
     """
     left: dict[int, list[Given]] = {}
-    seen: dict[object, int] = {}
+    seen: dict[object, Group] = {}
+    lines: dict[object, int] = {}
+    inside: dict[int, set[int]] = {}
     for group in groups:
         own, around = group.scope
+        within = inside.setdefault(own, set()) | {own}
+        if around is not None:
+            inside.setdefault(around, set()).update(within)
         arrays = _unlike([*group.arrays, *left.pop(own, ())])
         used: set[int] = set()
         for each in _of_group(replace(group, arrays=arrays), used):
             rows = (x[..., VALUE].tobytes() for x in each.rows.values())
             # single numbers of another scope are those of another function
             key = each.used[0].is_made and group.line, each.form, *rows
-            if abs(seen.get(key, -NEAR) - each.line) >= NEAR:
-                seen[key] = each.line
+            before = seen.get(key, group)
+            is_other = before.title != group.title and before.scope[0] not in within
+            if is_other or abs(lines.get(key, -NEAR) - each.line) >= NEAR:
+                seen[key], lines[key] = group, each.line
                 yield each
         if around is not None:
             rest = [x for x in arrays if id(x) not in used]

@@ -5,6 +5,7 @@ and drifts, second-order equations.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import permutations
 from typing import TYPE_CHECKING
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
 MOST_STAGES = 60
 MOST_ARRAYS = 40
 """So many arrays of a group are tried in pairs."""
+MOST_ROWS, MOST_ALIKE = 5, 6
+"""So many rows of a matrix, and arrays of one length, are tried together."""
 HIGHEST = 4
 """Orders of derived tableaus that are tried."""
 QUADRATURE = 8
@@ -44,13 +47,37 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
     rows = [x for x in arrays if not x.is_matrix and 1 < len(x.rows[0]) <= MOST_STAGES]
     rows = rows[:MOST_ARRAYS]
     matrices = [x for x in arrays if x.is_matrix and 1 < len(x.rows) <= MOST_STAGES][:MOST_ARRAYS]
+    tables = [each for x in matrices for each in _rows_of(x)]
     tried = [
         *(each for x, y in permutations(rows, 2) for each in _of_two_rows(x, y, rows)),
         *(_shu_osher(x, y, rows) for of in (matrices, rows) for x, y in permutations(of, 2)),
         *(each for x in arrays[:MOST_ARRAYS] for each in _nystrom(x, rows)),
         *(each for x in rows for each in composition(x)),
     ]
-    return [x for x in tried if x is not None], len(tried)
+    # few arrays have rows that fit, whatever they are tried as
+    pairs = ((x, y, of) for of in tables for x, y in permutations(of, 2))
+    more = [each for pair in pairs for each in _of_two_rows(*pair) if each]
+    more += filter(None, map(_of_four_rows, (*_alike(rows), *tables)))
+    return [*more, *(x for x in tried if x is not None)], len(tried) + len(more)
+
+
+def _rows_of(x: Given) -> Iterator[list[Given]]:
+    """The few rows or columns of a matrix, as arrays of their own."""
+    r, k = x.numbers.shape[:2]
+    if len({*map(len, x.rows)}) > 1 or (r == k and r != 3) or min(r, k) > MOST_ROWS:
+        return
+    for rows in (x.rows if r <= k else (), zip(*x.rows, strict=True) if k <= r else ()):
+        found = [Given(f"{x.name}.{i}", x.line, (row,)) for i, row in enumerate(rows)]
+        if found:
+            yield found
+
+
+def _alike(rows: Sequence[Given]) -> Iterator[list[Given]]:
+    """Rows of the same record that have the same length, four or five of them."""
+    of: dict[object, list[Given]] = {}
+    for x in rows:
+        of.setdefault((x.owner, len(x.rows[0])), []).append(x)
+    yield from (x for x in of.values() if 4 <= len(x) <= MOST_ALIKE)
 
 
 def _names(*named: bool) -> tuple[int, float]:
@@ -75,8 +102,11 @@ def _of_two_rows(x: Given, y: Given, rows: Sequence[Given]) -> Iterator[Reading 
     if len(a) != len(b):
         return
     if not a[0, VALUE] and len(b) > 2:
-        is_one = abs(b[:, VALUE].sum() - 1) <= ROUNDING + 12 * unit_of(b) * len(b)
-        for form in _REGISTERS if is_one else _REGISTERS[:2]:
+        wide = ROUNDING + 12 * unit_of(a, b) * len(b)
+        is_one = abs(b[:, VALUE].sum() - 1) <= wide
+        is_both = abs(b[:, VALUE].sum() + a[:, VALUE].sum() - 1) <= wide and a[:, VALUE].any()
+        more = (*(_REGISTERS[2:] if is_one else ()), *((_WRAY,) if is_both else ()))
+        for form in (*_REGISTERS[:2], *more):
             yield _registers(form, x, a, y, b, rows)
     if len(x.rows[0]) == len(b):
         for form in ("drift-first", "force-first"):
@@ -133,10 +163,17 @@ _REGISTERS = ("2N", "2N with -A", "van der Houwen", "2C")
 """Forms of two rows, as ``garkcli.constructions.registers`` has them; b of the last two has the sum
 1.
 """
+_WRAY = "Wray"
+"""y ← y + h (b f(y) + a f of the stage before): the sum of both rows is 1."""
 
 
 def _of_registers(form: str, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     s = len(b)
+    if form == _WRAY:
+        both = b + np.append(a[1:], 0)
+        A = np.tril(np.tile(both, (s, 1)), -1)
+        A[range(1, s), range(s - 1)] = b[:-1]
+        return A, both
     A, d, y = np.tril(np.tile(b, (s, 1)), -1), np.zeros(s), np.zeros(s)
     if form not in _REGISTERS[:2]:
         below = a[1:] + b[:-1] if form == "2C" else a[1:]
@@ -148,6 +185,44 @@ def _of_registers(form: str, a: Floats, b: Floats) -> tuple[Floats, Floats]:
         d[i] += 1
         y = y + b[i] * d
     return A, y
+
+
+def _of_four_rows(rows: Sequence[Given]) -> Reading | None:
+    """Ketcheson's registers without the third one: γ₁, γ₂, δ and β, of which every stage begins at
+    y. With names of their own they may be in any order.
+    """
+    most, order, used = 0.0, 0, tuple[Given, ...]()
+    unit = unit_of(*(x.numbers for x in rows))
+    lengths = [n for x in rows for n in x.numbers[:, LENGTH]]
+    for each in permutations(rows, 4):
+        made = _of_sums([x.numbers[:, VALUE] for x in each], unit)
+        bits, reached = (0.0, 0) if made is None else _of_conditions(*made, unit, lengths)
+        if reached >= 2 and bits > most:
+            most, order, used = bits, reached, each
+    if not used:
+        return None
+    told = dict(zip(("gamma1", "gamma2", "delta", "A"), (x.numbers for x in used), strict=True))
+    how = "the form 3S* without its third register"
+    count, by_names = _names(*(bool(re.search("gam|del|bet", x.name, re.I)) for x in used[:3]))
+    line = used[0].line
+    return Reading("3S*", told, how, most + by_names, order, most, used, line, names=count)
+
+
+def _of_sums(rows: Sequence[Floats], unit: float) -> tuple[Floats, Floats] | None:
+    """The tableau of two registers; None where a stage does not begin at y."""
+    gamma1, gamma2, delta, beta = rows
+    s = len(beta)
+    first, second = np.zeros(s + 1), np.zeros(s + 1)
+    first[s] = 1
+    stages = []
+    for i in range(s):
+        second = second + delta[i] * first
+        stages.append(first[:s].copy())
+        first = gamma1[i] * first + gamma2[i] * second
+        first[i] += beta[i]
+        if abs(first[s] - 1) > 1e-12 + 100 * unit:
+            return None
+    return np.array(stages), first[:s]
 
 
 def _of_conditions(A: Floats, b: Floats, unit: float, lengths: list[float]) -> tuple[float, int]:

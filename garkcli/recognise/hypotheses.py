@@ -277,6 +277,9 @@ def _all_parts(given: Given) -> Iterator[Parts]:
     if is_lower(numbers) and numbers.shape[0] == numbers.shape[1]:
         for entry in given.beside:
             yield from _with_diagonal(numbers, np.array(entry))
+            if not given.is_made and _has_diagonal(numbers):
+                # rows from the second one on, without their own diagonal
+                yield from _with_diagonal(_below(numbers, len(numbers) + 1), np.array(entry))
     if len({*map(len, given.rows)}) == 1:
         turned = numbers.transpose(1, 0, 2)
         for parts in filter(None, (shape(turned) for shape in MATRICES)):

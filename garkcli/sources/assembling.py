@@ -25,7 +25,7 @@ from garkcli.sources.shaping import (
     symplectic,
     weights,
 )
-from garkcli.sources.signatures import NAMED, Signature
+from garkcli.sources.signatures import NAMED, SIGNATURES, Signature
 from garkcli.sources.values import (
     FILL,
     Array,
@@ -554,6 +554,9 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         if len(items_of(of.get(role))) == stages - 1 > 0
     }
     A2, A1 = (square(plain(of.get(x)), stages) for x in ("A2", "A1"))
+    is_bare = all(is_zero(row[i]) for i, row in enumerate(A2)) and not all(map(is_zero, A2[-1]))
+    if is_bare and meant.maker not in SIGNATURES:
+        raise Unreadable("the implicit part has no diagonal")
     b2 = _given(of, "b2", stages) or A2[-1]
     b1 = _given(of, "b1", stages) or (b2 if meant.signature.has_default_weights else A1[-1])
     low1, low2 = (_given_low(of, part, b) for part, b in (("1", b1), ("2", b2)))

@@ -159,6 +159,8 @@ class Evaluator:
         self._depth = 0
         self._inlined = 0
         self._lengths: list[int] = []
+        self._of_cases: dict[str, dict[str, Value]] = {}
+        self._gives: dict[str, Value | None] = {}
 
     def module(self, body: ir.Body) -> None:
         """The whole source."""
@@ -223,6 +225,8 @@ class Evaluator:
         before, self._steps = self._steps, 0
         self._walked(scope, inner)
         self._steps = before
+        if scope.kind == "function" and not {*scope.parameters} - {*scope.types, "self"}:
+            self._gives[scope.name] = inner.returned
         if isinstance(inner.get("this"), Array):
             # the entries of a class that is an array
             is_class = scope.kind == "class"
@@ -234,6 +238,20 @@ class Evaluator:
             space[scope.name] = inner.returned
         elif scope.gives not in {"", *space} and isinstance(inner.returned, Array | Number):
             self._store(ir.Name(scope.gives), inner.returned, space, scope.line)
+        if scope.kind == "entry":
+            self._remember(scope, inner)
+
+    def _remember(self, scope: ir.Scope, space: Space) -> None:
+        """The numbers of a case, which are those of the case of the same title in other functions,
+        and of the cases in it.
+        """
+        inside = (x for x in ir.statements(scope.body) if isinstance(x, ir.Scope))
+        for title in {scope.name, *(x.name for x in inside if x.kind == "entry")}:
+            known = self._of_cases.setdefault(title, {})
+            for name, value in space.items():
+                if isinstance(value, Number):
+                    is_other = name in known and shown(known[name]) != shown(value)
+                    known[name] = self.unknown(IN_A_BRANCH) if is_other else value
 
     def _branch(self, branch: ir.Branch, space: Space) -> None:
         for arm in filter(_has_numbers, branch.arms):
@@ -262,8 +280,11 @@ class Evaluator:
         for name in names_of(target):
             old = space.get(name)
             space[name] = unknown
-            if isinstance(old, Array) and old.items:
+            if isinstance(old, Array) and (old.items or old.fill is not None):
                 space[name] = old.map(lambda x: written if _was_written(x) else unknown)
+            elif isinstance(old, Number) and old.is_zero and isinstance(target, ir.Index):
+                # A = 0, of which other branches fill other entries
+                space[name] = Array([], is_growing=True, fill=unknown)
 
     def _assign(self, statement: ir.Assign, space: Space) -> None:
         target, line = statement.target, statement.line
@@ -524,6 +545,9 @@ class Evaluator:
         found = space.find(name)
         if found is not None:
             return found
+        for scope in reversed(self._scopes):
+            if scope.kind == "entry" and name in self._of_cases.get(scope.name, {}):
+                return self._of_cases[scope.name][name]
         plain = name.rpartition("::")[2]
         if plain in CONSTANTS:
             return CONSTANTS[plain]
@@ -703,6 +727,9 @@ class Evaluator:
         made = result(Call(plain, call, named, self), args)
         if made is not None:
             return made
+        has_none = target is None and not named and all(isinstance(x, Type) for x in args)
+        if has_none and isinstance(given := self._gives.get(name), Array | Number):
+            return copied(given)
         if isinstance(callee, ir.Field) and isinstance(target := self.value(callee, space), Array):
             return self._sliced(target, call.args, space) if args else target
         if isinstance(callee, ir.Field) and plain in _SAME:
@@ -857,8 +884,8 @@ def _has_numbers(body: ir.Body) -> bool:
 
 def _is_numeric(expr: object) -> bool:
     match expr:
-        case ir.Literal(text=text):
-            return "." in text
+        case ir.Literal(text=text, is_whole=is_whole):
+            return "." in text or not is_whole
         case ir.Items(items=items):
             return bool(items)
         case ir.Rows() | ir.Binary(sign="/", left=ir.Literal()):

@@ -90,6 +90,10 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc", *_COUPLINGS})
 
 NUMBERED = "A and b have numbers: methods of their own, or parts of one"
 ANEW = "A is assigned anew without b, or b without A"
+A_STEP = "a step"
+"""What makes the table of a step that is written out."""
+SURELY = 100.0
+"""Bits of what links the matrix and the weights of a step: all of it is one computation."""
 STEP = "the coefficients are those of a step that is written out"
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
@@ -152,6 +156,10 @@ class TableFinder(Harvester):
                 table = table_of(meant)
             except NoTable:
                 continue
+            if meant.maker == A_STEP and "embedded" in meant.roles and table.embedded:
+                # either may be the step
+                other = replace(table, b=table.embedded, embedded=table.b, linked=SURELY)
+                table = replace(table, rivals=(other,))
             if table.name.startswith("_") and len(users) == 1:
                 table = replace(table, name=next(iter(users)))
             entries = () if table.trouble else Array(list(meant.roles.values())).flat()
@@ -321,6 +329,9 @@ class TableFinder(Harvester):
             self._unread(self._name(record, scope), self.line, ANEW)
             return
         signature = SIGNATURES.get(record.kind, NAMED)
+        if signature is PARTS and record.args and len(record.args) != len(PARTS.roles):
+            # a call of that name which takes something else
+            signature = NAMED
         # its arrays may change after it is a table
         fields = {name: copied(x) for name, x in record.fields.items()}
         name = self._name(record, scope)
@@ -510,7 +521,7 @@ class TableFinder(Harvester):
             except NoStep:
                 return error.looks_like
         place = self._place(scope.title, scope.line, notes=(STEP,))
-        self._meant.append(Meant(place, roles, signature, maker="a step"))
+        self._meant.append(Meant(place, roles, signature, maker=A_STEP))
         return False
 
     def _place(self, name: str, line: int, **told: Any) -> FoundTable:

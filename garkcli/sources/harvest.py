@@ -7,6 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
+from pathlib import PurePath
 
 from garkcli.frozen import Mutable, field, replace
 from garkcli.recognise.given import (
@@ -124,11 +125,12 @@ class Harvester(Evaluator):
         self.made = [x for x in _families(found.singles) if x.key not in known]
         self.rows = list(_of_rows([*arrays, *self.made]))
         arrays = _in_records([*arrays, *self.made, *self.rows])
+        arrays = [_with_beside(x, found.singles) for x in arrays]
         if not arrays and id(space) not in self._handles:
             return
         around = None if space.up is None else self._handle(space.up)
         names = [*(x.name for x in self._scopes), *(x.name for x in arrays), scope.title]
-        words = " ".join(names)
+        words = " ".join([*names, PurePath(self.source).name])
         place = self._handle(space), around
         speaks = bool(METHODS.search(words))
         unknown = [name for name, x in space.items() if isinstance(x, Array) and _is_lost(x)]
@@ -228,7 +230,8 @@ class Harvest:
             row = self._row(items)
             if row is not None:
                 # room for more that nobody wrote
-                count = len(row) if len(row) <= MOST_ROOM else 1 + max(_written(row), default=0)
+                written = (i for i, x in enumerate(items) if not _is_empty(x))
+                count = len(row) if len(row) <= MOST_ROOM else 1 + max(written, default=0)
                 if count > 1 or row[0].value:
                     yield Given(name, line, (row[:count],))
                 return
@@ -238,7 +241,7 @@ class Harvest:
         elif all(isinstance(x, Array) or _is_empty(x) for x in items):
             rows = [self._row(x.items) if isinstance(x, Array) else () for x in items]
             whole_rows = tuple(x for x in rows if x is not None)
-            if len(whole_rows) == len(rows) and sum(map(len, whole_rows)) > 1:
+            if len(whole_rows) == len(rows) and (len(rows) > 1 or len(whole_rows[0]) > 1):
                 if all(len(x) == 1 for x in whole_rows):
                     yield Given(name, line, (tuple(x[0] for x in whole_rows),))
                 else:
@@ -321,6 +324,15 @@ def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
                 yield replace(x, beside=tuple(others[:MOST_BESIDE])) if x.is_matrix else x
 
 
+def _with_beside(x: Given, singles: Mapping[str, tuple[Entry, int]]) -> Given:
+    """A matrix with the single numbers of its record, one of which may be its diagonal."""
+    if not x.is_matrix or x.beside or len(x.rows) < 2:
+        return x
+    of = [e for name, (e, _) in singles.items() if name.rpartition(".")[0] == x.owner]
+    of = [e for e in of if not e.value.is_integer()]
+    return replace(x, beside=tuple(of)) if 0 < len(of) <= MOST_BESIDE else x
+
+
 def _filled(name: str, numbers: _Numbers, line: int, first: int) -> Iterator[Given]:
     """An array of the numbers at some places, with zeros at the others."""
     last = max(max(at) for at in numbers)
@@ -386,11 +398,6 @@ def _flatter(value: Value) -> Value:
 def _is_moderate(x: Number) -> bool:
     """Whether it may be a coefficient: no comparison with infinities fails."""
     return math.isfinite(x.near) and abs(x.near) < LARGEST
-
-
-def _written(row: Sequence[Entry]) -> Iterator[int]:
-    """The places of numbers in a row."""
-    return (i for i, x in enumerate(row) if x.value)
 
 
 def _is_lost(value: Array) -> bool:

@@ -393,6 +393,11 @@ def _flat(call: Call, value: Value, *_: Value) -> Value | None:
     return call.array(value.flat()) if isinstance(value, Array) else None
 
 
+@_known("reversed reverse")
+def _turned(call: Call, value: Value) -> Value | None:
+    return call.array(value.items[::-1]) if isinstance(value, Array) else None
+
+
 @_known("tril triu")
 def _triangle(call: Call, value: Value, above: Value = ZERO) -> Value | None:
     """The part of a matrix on one side of its diagonal, or of one so far above it."""

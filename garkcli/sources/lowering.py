@@ -63,6 +63,7 @@ class Lowering:
         self._data = text.encode(errors="replace")
         self._grammar = grammar or self.grammar
         self._depth = 0
+        self._speaks = METHODS.search(text) is not None
         self._fields: dict[str, tuple[tuple[str, ...], int]] = {}
 
     def module(self) -> ir.Body:
@@ -217,7 +218,7 @@ class Lowering:
     def may_hold_a_table(self, node: Node) -> bool:
         """Whether the text of a function has numbers and names like those of a table."""
         text = self.text(node)
-        is_likely = len(text) < SHORT or bool(METHODS.search(text[:HEAD]))
+        is_likely = len(text) < SHORT or self._speaks or bool(METHODS.search(text[:HEAD]))
         numbers = _NUMBER.finditer(text)
         fewest = 1 if is_likely else FEWEST_NUMBERS
         has_numbers = next(islice(numbers, fewest - 1, None), None) is not None

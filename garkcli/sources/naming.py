@@ -56,7 +56,8 @@ METHODS = re.compile(
     r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?:rk)?(?![a-z])|dirk|dopri|dormand"
     r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
     r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
-    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus",
+    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|rkf(?![a-z])|cash.?karp|verner|gauss.?legendre"
+    r"|radau|lobatto|tsit5|magnus",
     re.IGNORECASE,
 )
 """Words for methods."""
@@ -67,7 +68,7 @@ _PARTS = (
     re.compile(rf"{_WORD}_?{_WHICH}(?:_tableau)?", re.IGNORECASE),
     re.compile(rf"{_WHICH}_{_WORD}", re.IGNORECASE),
 )
-_ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order"}
+_ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order", "b": "b", "c": "c"}
 """Names beside those of one part."""
 _PAIR = {"A": "A1", "H": "A2", "c": "c"}
 """In the classes of Dedalus, where the last rows are the weights."""

@@ -18,9 +18,8 @@ from garkcli.sources.values import Number, literal
 _STEPS = re.compile(r"step|advance|attempt", re.IGNORECASE)
 _SLOPES = re.compile(r"(?<![^\W_])(?:k_?[12]|h|dt)(?!\w)|[sS]tep")
 """Names in steps."""
-_OTHERS = re.compile(
-    r"interp|dense|distch|plot|test|control|error|rhs|jac|size|order|init|example|demo|main$"
-    r"|(?:^|_)oc_|_obj$",
+OTHERS = re.compile(
+    r"interp|dense|distch|plot|test|control|error|rhs|jac|size|example|demo|main$|(?:^|_)oc_|_obj$",
     re.IGNORECASE,
 )
 """Names of what has other numbers than those of a step."""
@@ -66,7 +65,7 @@ def overlooked(
         # what a function has no other one can use
         elsewhere = () if scope.kind == "function" else used
         is_lost = (scope.kind, scope.line) in lost
-        is_other = key in known or _OTHERS.search(scope.name)
+        is_other = key in known or OTHERS.search(scope.name)
         if not is_other and _is_method(scope, own, words, elsewhere, is_lost):
             yield scope
 

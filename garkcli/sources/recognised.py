@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.constructions.registers import FORMS as REGISTERS
 from garkcli.frozen import replace
+from garkcli.recognise.names import MATRIX, NODES, WEIGHTS
 from garkcli.sources.assembling import Meant, NoTable, table_of
-from garkcli.sources.finder import STEP, TableFinder
-from garkcli.sources.found import FoundTable, Row, Rows
+from garkcli.sources.finder import STEP, UNRECOGNISED, TableFinder
+from garkcli.sources.found import FoundTable, Row, Rows, troubled
+from garkcli.sources.overlooked import OTHERS
+from garkcli.sources.registers import WRAY
 from garkcli.sources.shaping import ZERO, changed, is_zero
 from garkcli.sources.signatures import DRIFT_FIRST, NAMED, OTHER_KINDS, Signature
 from garkcli.sources.values import Array, Number, Value, computed, integer, items_of
@@ -34,10 +37,13 @@ _OTHERS = frozenset(
     ("Rosenbrock", "modified Patankar", "multirate", "general linear", "exponential", "stochastic")
 )
 """Methods with a matrix, weights and other arrays beside them."""
+NEAR = 1e-6
+"""Sums that differ by less are meant to be the same."""
 FEWEST_NUMBERS = 4
 """So many numbers in arrays may be a method."""
 _FORMS = {
-    **{form: Signature([], form) for form in (*REGISTERS, "Shu–Osher")},
+    **{form: Signature([], form) for form in (*REGISTERS, WRAY, "Shu–Osher")},
+    "3S*": NAMED,
     "nystrom": NAMED,
     "drift-first": DRIFT_FIRST,
     "composition": DRIFT_FIRST,
@@ -60,12 +66,13 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     read_off = [x for x, table in zip(told, tables, strict=True) if table.is_read]
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
+    made_of: list[_Told] = []
     rivals: dict[int, list[FoundTable]] = {}
     linked: dict[int, float] = {}
     settled: set[int] = set()
     steps = {x.line for x in tables if x.is_read and STEP in x.notes}
     for reading in readings_of(finder.groups):
-        numbers = source.numbers(reading)
+        numbers = source.numbers(reading.used)
         about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].is_read]
         bits = reading.linked if reading.form == "rk" else 0.0
@@ -86,13 +93,17 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
                 rivals.setdefault(i, []).append(made)
         if is_new:
             new.append(made)
+            made_of.append({"": numbers})
             settled |= {*about, *_in_place_of(reading, tables)}
     kept = [
-        replace(x, rivals=tuple(rivals.get(i, ())), linked=float(linked[i])) if i in linked else x
+        replace(x, rivals=(*x.rivals, *rivals.get(i, ())), linked=float(linked[i]))
+        if i in linked
+        else x
         for i, x in enumerate(tables)
         if i not in settled
     ]
-    return sorted([*kept, *new], key=lambda x: x.line)
+    known = {n for x in (*told, *made_of) for own in x.values() for n in own}
+    return sorted([*kept, *new, *source.untold([*kept, *new], known)], key=lambda x: x.line)
 
 
 def _in_place_of(reading: Reading, tables: Sequence[FoundTable]) -> Iterator[int]:
@@ -117,6 +128,7 @@ class _Source:
 
     def __init__(self, finder: TableFinder) -> None:
         self._numbers = finder.harvest.numbers
+        self._groups = finder.groups
         self._source, self._format = finder.source, finder.format
         self._texts: dict[int, str] = {}
 
@@ -183,10 +195,45 @@ class _Source:
             return Array([self._value(row) for row in x])
         return Array([self._numbers[int(entry[-1])] for entry in x])
 
-    def numbers(self, reading: Reading) -> frozenset[int]:
-        """A key of the places of the numbers of a reading: equal numbers elsewhere have another."""
-        entries = (x for of in reading.used for row in of.rows for x in row if x.value)
+    def numbers(self, arrays: Iterable[Given]) -> frozenset[int]:
+        """A key of the places of the numbers in arrays: equal numbers elsewhere have another."""
+        entries = (x for of in arrays for row in of.rows for x in row if x.value)
         return frozenset(id(self._numbers[x.at]) for x in entries)
+
+    def untold(self, tables: Iterable[FoundTable], known: set[int]) -> Iterator[FoundTable]:
+        """A place for each scope that speaks of methods and has arrays like those of one, of which
+        no table says anything.
+
+        Args:
+            tables: all others.
+            known: their numbers, to which those of the places are added.
+        """
+        lines = {x.line for x in tables}
+        for group in self._groups:
+            left = [x for x in group.arrays if _is_like_a_part(x)]
+            left = [x for x in left if 2 * len((own := self.numbers([x])) - known) > len(own)]
+            values = {abs(x.value) for of in left for row in of.rows for x in row}
+            fractions = sum(not x.is_integer() for x in values)
+            is_other = OTHERS.search(group.title) is not None
+            if is_other or not group.speaks or fractions < FEWEST_NUMBERS:
+                continue
+            known |= self.numbers(left)
+            if lines.isdisjoint({group.line, *(x.line for x in left)}):
+                line = min(x.line for x in left)
+                place = FoundTable(self._source, line, self._format, group.title, (), (), ())
+                yield troubled(place, UNRECOGNISED)
+
+
+def _is_like_a_part(x: Given) -> bool:
+    """Whether an array may be that of a method: by its name, as a triangle, or by a sum."""
+    if any(pattern.search(x.name) for pattern in (MATRIX, WEIGHTS, NODES)):
+        return x.fractions > 0
+    if x.is_matrix:
+        return x.fractions > 1 and not any(
+            entry.value for i, row in enumerate(x.rows) for entry in row[i + 1 :]
+        )
+    total = sum(entry.value for entry in x.rows[0])
+    return x.fractions > 1 and min(abs(total), abs(total - 1)) < NEAR
 
 
 def _steps(form: str, row: Value, line: int) -> dict[str, Value]:

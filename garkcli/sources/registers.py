@@ -37,8 +37,20 @@ DIGITS = 300
 """Of balls around irrational ones."""
 COARSE = fmpq(1, 10**16)
 """A fraction that would approximate a number no better than that is exact."""
+WRAY = "Wray"
+"""A form of two rows, of which a source has one before the other in each stage."""
+
+
+def _of_wray(A: Sequence[Any], b: Sequence[Any]) -> Steps:
+    """Executes y ← y + h (b_i f(y) + a_i f of the stage before)."""
+    both = [x + y for x, y in zip(b, [*A[1:], 0], strict=True)]
+    rows = [[*both[: i - 1], *b[max(i - 1, 0) : i], *[0] * (len(b) - i)] for i in range(len(b))]
+    return Steps([*([0] * len(b) for _ in rows[:1]), *rows[1:]], both, [1] * (len(b) + 1))
+
+
 SCHEMES: Mapping[str, Callable[..., Steps]] = {
     **FORMS,
+    WRAY: _of_wray,
     "3S*": three_registers,
     "Shu–Osher": shu_osher,
     "Nyström": lambda A, b, c: Steps(*nystrom(A, b, c), ()),

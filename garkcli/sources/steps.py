@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice, pairwise
-from typing import TypeGuard
+from typing import Any, TypeGuard
 
 from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
@@ -128,8 +128,14 @@ def _by_every_way(
     found: dict[object, Roles] = {}
     is_lost = False
     for way in reversed(_ways(body)):
+        follower = Follower(like, way, counters)
         try:
-            roles = Follower(like, way, counters).roles(Space(space))
+            try:
+                roles = follower.roles(Space(space))
+            except NoStep:
+                if not follower.has_others:
+                    raise
+                roles = Follower(like, way, counters, ignores_others=True).roles(Space(space))
         except NoStep as error:
             if error.looks_like:
                 raise
@@ -223,17 +229,30 @@ class Follower(Evaluator):
         like: what evaluates the language.
         way: the statements.
         counters: names that count steps: ``x[n]`` is a value, as x is.
+        ignores_others: whether functions that are called for their effect, as f is, change nothing
+            that matters: those that limit values, or print them. Then all slopes have to be used.
+
+    Attributes:
+        has_others: whether there are such functions.
     """
 
     def __init__(
-        self, like: Evaluator, way: Sequence[ir.Statement], counters: Sequence[str] = ()
+        self,
+        like: Evaluator,
+        way: Sequence[ir.Statement],
+        counters: Sequence[str] = (),
+        ignores_others: bool = False,
     ) -> None:
         super().__init__(like.base, like.allowance, has_whole_quotients=like.has_whole_quotients)
         # where arrays begin with 0, functions may give back whether all went well
         self._way = _for_effect(way) if like.base == 0 else way
         self._counters = counters
-        calls = [x.value.callee for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
-        self._f = max(calls, key=calls.count, default=None)
+        self._ignores_others = ignores_others
+        self.has_others = False
+        calls = [x.value for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
+        callees = [x.callee for x in calls]
+        self._f = max(callees, key=callees.count, default=None)
+        self._place = _place_changed([x for x in calls if x.callee == self._f], self._way)
         self._has_step_inside = False
         self._slopes: list[_Slope] = []
         self._returned: list[str] = []
@@ -283,9 +302,11 @@ class Follower(Evaluator):
                 self._added("+ * x", (of, factor, term), space)
             case ir.Call(callee, given, ()) if roles := _SUMS.get((_name(callee), len(given))):
                 self._added(roles, given, space)
-            case ir.Call(callee, (*args, target), ()) if _is_effect(call):
-                if _name(callee).endswith("!"):
-                    target, *args = call.args
+            case ir.Call(callee, (*args,), ()) if _is_effect(call):
+                if callee != self._f and self._is_ignored(call, space):
+                    return
+                place = self._place if callee == self._f else -1
+                target = args.pop(0 if _name(callee).endswith("!") else place)
                 values = [self.value(x, space) for x in args]
                 for x, value in zip(args, values, strict=True):
                     if callee != self._f and any(" " in x for x in _symbols([_terms(value) or {}])):
@@ -295,7 +316,21 @@ class Follower(Evaluator):
             case ir.Call(ir.Name(name) | ir.Field(name=name)) if name.lower() in _TELLING:
                 pass
             case _:
-                self._lose([ir.Do(call, self.line)], space)
+                if not self._is_ignored(call, space):
+                    self._lose([ir.Do(call, self.line)], space)
+
+    def _is_ignored(self, call: ir.Call, space: Space) -> bool:
+        """Whether a call changes nothing that matters: it is given no slope, only values of y."""
+        of = [call.callee.of] if isinstance(call.callee, ir.Field) else []
+        given = [_terms(self.value(x, space)) or {} for x in (*call.args, *of) if _is_place(x)]
+        has_slope = any(
+            any(" " in name for at in form for name in at)
+            and not any(len(at) == 1 and " " not in at[0] for at in form)
+            for form in given
+        )
+        is_other = not has_slope and not _name(call.callee).endswith("!")
+        self.has_others |= is_other
+        return self._ignores_others and is_other
 
     def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
         """A sum of vectors: ``*`` is a factor of the next, ``=`` and ``+`` what becomes the sum."""
@@ -337,6 +372,12 @@ class Follower(Evaluator):
             # names are in the order of their last values
             space.pop(target.name, None)
         super()._store(target, value, space, line)
+
+    def _places(self, target: ir.Expr, space: Space) -> list[tuple[Any, Any]]:
+        if isinstance(target, ir.Name) and isinstance(space.find(target.name), Unknown):
+            # what the function assigns was not known before it is followed
+            space.setdefault(target.name, self.unknown("never assigned"))
+        return super()._places(target, space)
 
     def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
         if isinstance(value, Array) or any(name in space for name in names_of(target)):
@@ -390,6 +431,10 @@ class Follower(Evaluator):
     def _called(self, call: ir.Call, space: Space) -> Value:
         if call.named:
             return self.unknown("a call with names")
+        whole = self._whole(ir.Index(call.callee, call.args))
+        if isinstance(whole, ir.Name) and (self._components or self._counters):
+            # k1(i), as classes of C++ have entries
+            return self.value(whole, space)
         args = [self.value(x, space) for x in call.args]
         match call:
             case ir.Call(ir.Name(name=name), (_,)) if name in CONVERSIONS:
@@ -525,7 +570,7 @@ class Follower(Evaluator):
         if (start,) not in (_terms(self._space.get(start, Form({(start,): ONE}))) or ()):
             # its last value is another one
             raise NoStep
-        result, form = self._result(start, values)
+        result, form, second = self._result(start, values)
         step = _step(form, set(names))
         others = {x.name for x in self._slopes} - set(names)
         forms = [_terms(x) or {} for x in self._space.values()]
@@ -546,6 +591,9 @@ class Follower(Evaluator):
         b = _before(form, (start,), step, places)
         if abs(near(*b) - 1) > NEAR or not all(isinstance(x, Number) for x in (*b, *nodes)):
             raise NoStep
+        unused = [all(is_zero(row[j]) for row in (*A, b)) for j in range(len(b))]
+        if self._ignores_others and any(unused):
+            raise NoStep
         error: list[Value] = []
         for name in reversed(self._space):
             of_error = _terms(self._space[name])
@@ -555,30 +603,38 @@ class Follower(Evaluator):
                     # either may be the step
                     raise NoStep
                 break
-        while len(b) > 1 and all(is_zero(row[-1]) for row in (*A, b, error) if row):
+        low = _before(second, (start,), step, places) if second and not error else []
+        while len(b) > 1 and all(is_zero(row[-1]) for row in (*A, b, error, low) if row):
             # what is evaluated for the next step
-            A, b, nodes, error = [x[:-1] for x in A[:-1]], b[:-1], nodes[:-1], error[:-1]
+            A, b, nodes = [x[:-1] for x in A[:-1]], b[:-1], nodes[:-1]
+            error, low = error[:-1], low[:-1]
         roles: Roles = {"A": Array([Array(row) for row in A]), "b": Array(b)}
-        rows = {"c": nodes, "error": error}
+        rows = {"c": nodes, "error": error, "embedded": low}
         return roles | {role: Array(row) for role, row in rows.items() if row}
 
-    def _result(self, start: str, values: Sequence[Terms]) -> tuple[str, Terms]:
-        """What the step comes to, with its name: what is returned, or else what is computed last.
+    def _result(self, start: str, values: Sequence[Terms]) -> tuple[str, Terms, Terms]:
+        """What the step comes to, with its name: what is returned, or else what is computed last;
+        of the two results of a pair, which are no values of stages, the first one, and the second.
 
         Raises:
-            NoStep: nothing; or one of several, as those of a pair, which are no values of stages.
+            NoStep: nothing; or one of several.
         """
         names = [x for x in self._returned if self._ends(x, start)]
         names = names or [x for x in reversed(self._space) if self._ends(x, start)]
         found = {x: form for x in names if (form := _terms(self._space[x])) is not None}
         others = {
-            str(sorted((at, shown(x)) for at, x in form.items()))
-            for form in found.values()
+            str(sorted((at, shown(x)) for at, x in form.items())): name
+            for name, form in found.items()
             if form not in values and _is_one_in_all(form)
         }
-        if not found or len(others) > 1:
+        if not found or len(others) > 2:
             raise NoStep
-        return next(iter(found.items()))
+        if len(others) == 2:
+            # what is computed last comes first, what is returned in its order
+            first, second = [*others.values()][:: 1 if names[0] in self._returned else -1]
+            return first, found[first], found[second]
+        name, form = next(iter(found.items()))
+        return name, form, {}
 
     def _ends(self, name: str, start: str) -> bool:
         form = _terms(self._space.get(name))
@@ -697,15 +753,36 @@ def _before(form: Terms, base: Place, step: str, places: Sequence[Place]) -> lis
 
 
 def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
-    """Whether a call may give one of its arguments a slope: the last one, in Julia the first."""
+    """Whether a call may give one of its arguments a slope, in Julia the first one."""
     match value:
         case ir.Call(callee, (ir.Name(), _, *_), ()) if _name(callee).endswith("!"):
             pass
-        case ir.Call(callee, (_, _, *_, ir.Name()) | (_, ir.Name()), ()):
+        case ir.Call(callee, (_, *others), ()) if any(map(_is_place, others)):
             pass
         case _:
             return False
-    return (_name(callee), len(value.args)) not in _SUMS and _name(callee) not in _COPIES
+    names = {_name(callee)} & (_COPIES | _TELLING)
+    return (_name(callee), len(value.args)) not in _SUMS and not names
+
+
+def _is_place(expr: ir.Expr) -> bool:
+    """Whether a value may be stored there: a name, or an entry ``k[0]``."""
+    of = expr.of if isinstance(expr, ir.Index) else expr
+    return isinstance(of, ir.Name)
+
+
+def _place_changed(calls: Sequence[ir.Call], way: Iterable[ir.Statement]) -> int:
+    """Which argument a function changes: the last one whose values are used elsewhere, or else the
+    last one.
+    """
+    assigned = (x.value for x in ir.statements(way) if isinstance(x, ir.Assign))
+    used = {y for x in assigned for y in ir.inside(x) if isinstance(y, ir.Name)}
+    counts = {len(x.args) for x in calls}
+    for i in reversed(range(1, counts.pop())) if len(counts) == 1 else ():
+        given = [x.args[i] for x in calls]
+        if all(map(_is_place, given)) and used & {y for x in given for y in ir.inside(x)}:
+            return i
+    return -1
 
 
 def _is_over_components(name: str, body: ir.Body) -> bool:

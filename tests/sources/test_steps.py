@@ -7,6 +7,7 @@ import re
 import pytest
 
 from garkcli.bridges.audit import audit
+from garkcli.frozen import replace
 from garkcli.sources.languages import c, fortran, julia, matlab, python
 
 KUTTA = """
@@ -316,7 +317,9 @@ def test_sums_of_vectors_by_their_arguments(both: str) -> None:
 
 
 def test_which_value_of_a_pair_is_the_step() -> None:
-    """The one that is returned, whichever is computed last; where nothing is, it is not known."""
+    """The one that is returned, whichever is computed last; of two it is the first one, unless the
+    declared order is that of the other.
+    """
     text = "def step(f, t, y, h):\n    k1 = f(t, y)\n    k2 = f(t + h, y + h*k1)\n"
     text += "    high = y + h/2*(k1 + k2)\n    low = y + h*(k1/4 + 3*k2/4)\n"
     text += "    error = abs(high - low)\n"
@@ -326,9 +329,15 @@ def test_which_value_of_a_pair_is_the_step() -> None:
         assert found is not None
         assert found.order is not None
         assert found.order.order == order
-    for result in ("high, low", "error"):
+    for result, low in [("high, low", "1/4"), ("low, high", "1/2"), ("error", "1/4")]:
         (table,) = python.find(f"{text}    return {result}\n", "x")
-        assert table.trouble == "a step that is not followed"
+        assert table.embedded is not None
+        assert table.embedded[0][0] == low
+        for declared in (None, 2):
+            found = audit(replace(table, order=declared))
+            assert found is not None
+            assert found.order is not None
+            assert (found.order.order, found.has_errors) == (2, False)
 
 
 def test_a_value_that_is_a_stage_may_be_the_step() -> None:

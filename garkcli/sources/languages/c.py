@@ -78,6 +78,7 @@ class CLowering(Lowering):
         super().__init__(text, grammar)
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
         self._types_in_use: dict[str, bool] = {}
+        self._types_given: frozenset[str] = frozenset()  # by the templates around
         self._reals: set[str] = set()  # parameters that are real numbers
         self._gives: Node | None = None  # what the function around gives
         self._code = b""  # without comments and texts, where it is wanted
@@ -85,7 +86,12 @@ class CLowering(Lowering):
     def statement(self, node: Node) -> Iterator[ir.Statement]:
         """A statement; braces behind a macro, ``DEFINE(3, 2) {…}``, are a scope of their own."""
         made = _macro_before(node)
-        if made is None:
+        if node.type == "template_declaration":
+            around = self._types_given
+            self._types_given = around | self._types(part(node, "parameters"))
+            yield from super().statement(node)
+            self._types_given = around
+        elif made is None:
             yield from super().statement(node)
         else:
             title = re.sub(r"\s+", " ", self.text(made))[:MAX_TITLE]
@@ -104,7 +110,7 @@ class CLowering(Lowering):
                 given = (x for x in inside if x.type == "base_class_clause")
                 bases = tuple(self.text(y) for x in given for y in self.children(x))
                 self._declares(name, body)
-                types = self._types(node)
+                types = self._types(part(node.parent, "parameters"))
                 yield ir.Scope("class", name, self.block([body]), line, types=types, bases=bases)
             case "type_definition" if body := part(node, "type", "body"):
                 self._declares(self.text(part(node, "declarator")), body)
@@ -113,6 +119,11 @@ class CLowering(Lowering):
                     if value := part(each, "value"):
                         target = ir.Name(self.text(part(each, "name")))
                         yield ir.Assign(target, self.expr(value), line_of(each))
+            case "alias_declaration":
+                # using rk4 = tableau<list<0.5, 0.5>, …>
+                made = self._instance(part(node, "type"))
+                if made is not None:
+                    yield ir.Assign(ir.Name(self.text(part(node, "name"))), made, line)
             case "declaration" | "field_declaration":
                 yield from self._declaration(node)
             case "for_statement":
@@ -202,7 +213,7 @@ class CLowering(Lowering):
         made += self.block([body]) if body and self.may_hold_a_table(node) else ()
         self._gives = around
         parameters = tuple(self._declared(x)[0] for x in given)
-        name, types = self._declared(declarator)[0], self._types(node)
+        name, types = self._declared(declarator)[0], self._types(part(node.parent, "parameters"))
         # a method without arguments is a property
         is_property = node.parent and node.parent.type == "field_declaration_list"
         gives = name if is_property and not parameters and self._gives_a_value(node) else ""
@@ -215,9 +226,9 @@ class CLowering(Lowering):
         """The value of a function; ``return {c, A, b};`` makes the structure that it gives."""
         return self._with_fields(self.expr(node), self._gives, line_of(node) if node else 0)
 
-    def _types(self, node: Node) -> frozenset[str]:
+    def _types(self, parameters: Node | None) -> frozenset[str]:
         """The types that a template is given."""
-        given = self.children(part(node.parent, "parameters"))
+        given = self.children(parameters)
         kinds = {"type_parameter_declaration", "optional_type_parameter_declaration"}
         named = (y for x in given if x.type in kinds for y in self.children(x)[:1])
         return frozenset(map(self.text, named))
@@ -271,6 +282,21 @@ class CLowering(Lowering):
             return ()
         return (self.expr(args[1]), *self._array_sizes(args[0]))
 
+    def _instance(self, kind: Node | None) -> ir.Expr | None:
+        """A template with numbers, which is a list, or with such lists, which is a call; None for
+        another type.
+        """
+        while kind is not None and kind.type in {"qualified_identifier", "type_descriptor"}:
+            kind = part(kind, "name") or part(kind, "type")
+        if kind is None or kind.type != "template_type":
+            return None
+        given = self.children(part(kind, "arguments"))
+        lists = [x for each in given if (x := self._instance(each)) is not None]
+        if lists:
+            return ir.Call(ir.Name(self.name(kind)), tuple(lists))
+        numbers = [x for x in given if x.type != "type_descriptor"]
+        return ir.Items(self.exprs(numbers)) if len(numbers) > 1 else None
+
     def _declared(self, node: Node | None) -> tuple[str, tuple[ir.Expr | None, ...]]:
         """The name and the extents that a declarator declares."""
         extents: list[ir.Expr | None] = []
@@ -279,7 +305,12 @@ class CLowering(Lowering):
                 size = part(node, "size")
                 extents.insert(0, size and self.expr(size))
             node = part(node, "declarator") or next(iter(node.named_children), None)
-        return self.text(node), tuple(extents)
+        name = self.text(node)
+        if node is not None and node.type == "template_function":
+            # nodes<heun<T>> of a template that is given a type belong to that type
+            of = next(iter(self.children(part(node, "arguments"))), None)
+            name = f"{self.name(of)}::{self.name(part(node, 'name'))}"
+        return name, tuple(extents)
 
     def target(self, node: Node) -> ir.Expr:
         """What is assigned to: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
@@ -357,6 +388,8 @@ class CLowering(Lowering):
                     return self._cast(self.children(inside[0])[0], args[0])
                 callee = self.expr(inside[0])
                 match callee:
+                    case ir.Name(name) if name in self._types_given and len(args) == 1:
+                        return self._cast(inside[0], args[0])
                     case ir.Field(name="finished") if not args:
                         return self._finished(self.children(inside[0])[0])
                     case ir.Field(array, "at") if len(args) == 1:
