@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Decide the orders in a file of ``gark certificate`` again, trusting nobody.
+"""Decide the orders in a file of ``gark export --to certificate`` again, trusting nobody.
 
     python3 referee.py PROOF.json…
 

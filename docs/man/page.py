@@ -16,8 +16,9 @@ from textwrap import dedent
 import click
 
 from garkcli import __version__
+from garkcli.cli.command import GroupedCommand
 from garkcli.cli.main import gark
-from garkcli.cli.table import SHOWN
+from garkcli.cli.table import COMMANDS
 
 FILE = Path(__file__).parent / "gark.1"
 COMMAND_LINE = FILE.parents[1] / "command-line.md"
@@ -61,7 +62,7 @@ def page() -> str:
         *options(context),
         ".SH COMMANDS",
     ]
-    for name in SHOWN:
+    for name in COMMANDS:
         lines += command(name, context)
     lines += [".SH EXIT STATUS", *listed(exit_codes())]
     lines += [".SH ENVIRONMENT", *listed(ENVIRONMENT)]
@@ -96,13 +97,20 @@ def described(found: click.Command) -> Iterator[str]:
 
 
 def options(context: click.Context) -> Iterator[str]:
-    """The options of a command, as its help has them."""
-    records = [
-        record
-        for param in context.command.get_params(context)
-        if isinstance(param, click.Option) and (record := param.get_help_record(context))
-    ]
-    return listed(dict(records))
+    """The options of a command, below their headings as in its help."""
+    if isinstance(context.command, GroupedCommand):
+        for heading, records in context.command.groups(context).items():
+            yield ".PP"
+            yield rf"\fI{escaped(heading)}\fR"
+            yield from listed(dict(records))
+        return
+    yield from listed(
+        dict(
+            record
+            for param in context.command.get_params(context)
+            if (record := param.get_help_record(context))
+        )
+    )
 
 
 def listed(entries: dict[str, str]) -> Iterator[str]:
@@ -110,7 +118,8 @@ def listed(entries: dict[str, str]) -> Iterator[str]:
     for name, text in entries.items():
         yield ".TP"
         yield rf"\fB{escaped(name)}\fR"
-        yield escaped(" ".join(text.split()))
+        if text:
+            yield escaped(" ".join(text.split()))
 
 
 def exit_codes() -> dict[str, str]:

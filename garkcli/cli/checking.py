@@ -11,8 +11,10 @@ import click
 
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
+from garkcli.cli import options as opt
+from garkcli.cli.command import declared
 from garkcli.cli.endings import settled
-from garkcli.cli.options import Given, Output, declared
+from garkcli.cli.output import Output
 from garkcli.cli.project import Project, find_project
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import in_order
@@ -23,8 +25,30 @@ from garkcli.frozen import replace
 from garkcli.report.check_formats import FORMATS
 
 
-@declared("check", ["auto", *FORMATS])
-def check(given: Given, output: Output) -> int:
+class Check(opt.WithSettings):
+    """The options of ``gark check``."""
+
+    files: tuple[str, ...] = opt.arguments_of("[FILE...]", opt.METHOD)
+    max_order: int | None = opt.option(
+        "--max-order", opt.number("N", 1, 400), of="check_file.limit", heading="Report"
+    )
+    error_constants: bool = opt.flag("--error-constants", of="check_file.want_constants")
+    properties: bool = opt.flag("--properties", "List every property with its reason.")
+    digits: int | None = opt.DIGITS
+    require_claims: bool = opt.flag(
+        "--require-claims", "Fail a file without claims under `expect`.", heading="In CI"
+    )
+    baseline: str | None = opt.option(
+        "--baseline",
+        opt.input_file("REPORT"),
+        "Fail only if something got worse since an earlier JSON report.",
+    )
+    jobs: int = opt.preset("-j --jobs", opt.workers(256), 1, opt.JOBS_HELP)
+    explain: str | None = opt.option("--explain", opt.text("KEY"), is_former=True)
+
+
+@declared("check", Check, ["auto", *FORMATS])
+def check(given: Check, output: Output) -> int:
     """Order and properties of each method, and whether its claims hold.
 
     Without FILE the paths of .gark.toml, or of [tool.gark] in pyproject.toml, are checked with the
@@ -41,7 +65,7 @@ def check(given: Given, output: Output) -> int:
     if given.explain is not None:
         return _explain(given.explain, output)
     project = find_project()
-    given.files = given.files or project.paths
+    given = replace(given, files=given.files or project.paths)
     if not given.files:
         raise click.MissingParameter(
             ctx=click.get_current_context(), param_hint="'FILE...'", param_type="argument"
@@ -51,11 +75,14 @@ def check(given: Given, output: Output) -> int:
     for name, value in project.defaults.items():
         is_said = name == "format" and output.is_by_ending
         if source(name) is click.core.ParameterSource.DEFAULT and not is_said:
-            setattr(output if name == "format" else given, name, value)
+            if name == "format":
+                output.format = value
+            else:
+                given = replace(given, **{name: value})
     if given.baseline is not None:
         if output.path is not None:
             settled(output.path, ["text"])
-        return _compare(project, given, output)
+        return _compare(project, given, given.baseline, output)
     outcomes = _outcomes(project, given, output)
     output.suit()
     text = ""
@@ -67,33 +94,33 @@ def check(given: Given, output: Output) -> int:
     return max(outcome.exit_code for outcome in outcomes)
 
 
-def _explain(key: str, output: Output) -> int:
-    from garkcli.check.meanings import claim_meaning
-    from garkcli.report.meaning import REPORT, told
+def _explain(word: str, output: Output) -> int:
+    """Writes the meaning of a word, as ``gark explain`` does."""
+    from garkcli.cli.looking_up import tell_meaning
     from garkcli.tell.report import FORMATS as TOLD
 
     if output.format not in TOLD:
         output.format = (output.path and settled(output.path, TOLD)) or "text"
-    output.tell(REPORT, *told(key, [claim_meaning(key)]))
+    tell_meaning(word, output)
     return 0
 
 
-def _compare(project: Project, given: Given, output: Output) -> int:
+def _compare(project: Project, given: Check, baseline: str, output: Output) -> int:
     """Writes what is worse than in an earlier report; returns 1 if anything is."""
     from garkcli.check.baseline import read_baseline, regressions
     from garkcli.report.check_findings import baseline_text
     from garkcli.report.checked import REPORT
 
-    earlier = read_baseline(given.baseline)
+    earlier = read_baseline(baseline)
     outcomes = _outcomes(project, given, output)
     worse = regressions(REPORT.document(outcomes), earlier)
     output.write(baseline_text(worse, len(outcomes)))
     return int(bool(worse))
 
 
-def _outcomes(project: Project, given: Given, output: Output) -> list[Outcome]:
+def _outcomes(project: Project, given: Check, output: Output) -> list[Outcome]:
     """Returns the outcomes of all files in order, with the options of the report."""
-    paths = given.files_meant(output)
+    paths = output.files_meant(given.files, given.settings)
     work = partial(check_file, **given.of("check_file"), settings=given.settings)
     running = counting("files", check_files(work, paths, given.jobs), len(paths))
     return [

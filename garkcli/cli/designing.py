@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from itertools import count, islice
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from garkcli.cli.arguments import rational
-from garkcli.cli.options import Given, Output, declared
+from garkcli.cli import options as opt
+from garkcli.cli.arguments import rational, square
+from garkcli.cli.command import declared
+from garkcli.cli.output import Output
 from garkcli.cli.streams import INTERRUPTED, say_problem
-from garkcli.cli.table import SECONDS
 from garkcli.crew.work import WorkerLost
 from garkcli.deadline import seconds_left, until, within
 from garkcli.doing import doing
@@ -23,14 +25,17 @@ from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
     from garkcli.api.design import FoundFile
     from garkcli.crew.work import Workers
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
+    from garkcli.design.member import Whose
     from garkcli.design.minimise.result import Minimum
     from garkcli.design.search.curve import Curve
     from garkcli.design.search.run import Result, Task, Timed
-    from garkcli.design.stable_values import StableValues
+    from garkcli.design.stable_values import StableValues, Wanted
     from garkcli.design.within import DesignWithin
     from garkcli.methodfile.family import FamilyFile
     from garkcli.methodfile.search_file import FileSearch
@@ -43,8 +48,178 @@ PROOFS = ("exact", "exists", "numerical")
 """The certainty of methods that were found, the most certain first."""
 
 
-@declared("design", [*FORMATS, "csv"])
-def design(given: Given, output: Output) -> int:
+SECONDS = 60.0
+"""The default time of ``gark design``."""
+_STABLE = "stable_values.wanted"
+
+
+class DesignOptions(opt.Derivable):
+    """The options of ``gark design``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    order: int | None = opt.option(
+        "--order", opt.number("P", 1, 60), of="find_parameters.order", heading="Wanted"
+    )
+    minimise: str | None = opt.option("--minimise", opt.text("WHAT"), of="minimise.objective")
+    choose: Mapping[str, str] = opt.always(
+        "--choose", opt.SETTINGS, "Like --set, and show the values that remain; repeatable."
+    )
+    seconds: float | None = opt.option(
+        "--seconds",
+        opt.SECONDS,
+        "Seconds after which the rest stays undecided, or a search ends; "
+        f"{SECONDS:.0f} by default, of a search none.",
+        of="find_parameters.seconds",
+    )
+    stability: Wanted | None = opt.either(
+        opt.flag_of(
+            "p-stable",
+            "The exact set of values of the parameters for which the method is P-stable.",
+            of=_STABLE,
+        ),
+        opt.flag_of("i-stable", "The same for I-stability.", of=_STABLE),
+        opt.flag_of("a-stable", "The same for A-stability.", of=_STABLE),
+        opt.flag_of("l-stable", "The same for L-stability.", of=_STABLE),
+        heading="Stable values",
+    )
+    colour: int | None = opt.option(
+        "--colour",
+        opt.number("N", 1),
+        "With --a-stable or --l-stable: for colour N alone, instead of one λ for all.",
+        of="stable_values.colour",
+    )
+    slow: fmpq | None = opt.option(
+        "--slow",
+        opt.read("A", square),
+        "With --p-stable or --i-stable: a slow and a fast spring, the slow one of (hω)² = A.",
+        of="stable_values.slow",
+    )
+    fast: str | None = opt.option(
+        "--fast",
+        opt.hidden_default(opt.text("COLOUR")),
+        "With --slow: the colour of the fast spring.",
+        of="two_springs.fast",
+    )
+    up_to: fmpq | None = opt.option(
+        "--up-to",
+        opt.read("X", square),
+        "With --slow: fast springs of (hω)² up to X only.",
+        of="stable_values.up_to",
+    )
+    search: int | None = opt.option(
+        "--search",
+        opt.hidden_default(opt.number("N", 1, 10_000_000)),
+        "Search from N random starts instead, and prove the finds; with --minimise the best one.",
+        of="search_methods.starts",
+        heading="Search",
+    )
+    most: int | None = opt.option(
+        "--most",
+        opt.hidden_default(opt.number("K", 1, 100_000)),
+        "With --search: the most methods to find; by default 5, with --minimise the best one.",
+        of="search_methods.most",
+    )
+    front: tuple[str, str] | None = opt.option(
+        "--front",
+        opt.TWO,
+        "With --search: the front of two objectives, the best A for bounds on B, in place of "
+        "methods.",
+    )
+    along: str | None = opt.option(
+        "--along",
+        opt.text("NAME"),
+        "With --search and --minimise: the optimum for values of an unknown, in place of methods.",
+    )
+    seed: int | None = opt.option(
+        "--seed",
+        opt.hidden_default(opt.number("N", 0)),
+        "With --search: the seed of the starts; 0 by default.",
+        of="search_methods.seed",
+    )
+    jobs: int | None = opt.option(
+        "-j --jobs",
+        opt.workers(1000),
+        "With --search: the number of processes; 0 is one per processor.",
+    )
+    scheduler: str | None = opt.option(
+        "--scheduler",
+        opt.text("ADDRESS"),
+        "With --search: work on the Dask cluster there; needs garkcli[cluster].",
+    )
+    digits: int = opt.preset(
+        "--digits", opt.DECIMALS, 12, "Digits of numbers without simple radicals.", heading="Output"
+    )
+    emit: str | None = opt.option(
+        "--emit", opt.file("yaml"), "Write the first method into a file, with its claim."
+    )
+    folder: str | None = opt.option(
+        "--output-dir", opt.file(metavar="DIR"), "Write a method file for each method into DIR."
+    )
+    plot: str | None = opt.option("--plot", opt.PICTURE, opt.PLOT_HELP)
+    being_springs = opt.being(stability, "p-stable"), opt.being(stability, "i-stable")
+    rules = (
+        opt.needs(
+            (seed, most, jobs, scheduler, front, along),
+            search,
+            "OPTION goes with --search",
+            "add --search N",
+        ),
+        opt.needs(along, minimise, "--along goes with --minimise", "add --minimise WHAT"),
+        opt.excludes(
+            (front, along),
+            (emit, folder, most),
+            "OPTION has no methods but optima in floats",
+            "--set an unknown and --minimise prove one of them",
+        ),
+        opt.needs(
+            opt.being(opt.FORMAT, "csv"),
+            (front, along),
+            "CSV has a line a point of a curve",
+            "add --front or --along",
+        ),
+        opt.excludes(
+            front,
+            (minimise, along),
+            "--front names two objectives",
+            "leave --minimise and --along out",
+        ),
+        opt.needs(slow, fast, *opt.BOTH_SPRINGS),
+        opt.needs(fast, slow, *opt.BOTH_SPRINGS),
+        opt.needs(
+            up_to,
+            slow,
+            "--up-to is a bound for the fast one of two springs",
+            "give --slow and --fast too",
+        ),
+        opt.needs(slow, being_springs, "--slow and --fast say on which springs", "add --p-stable"),
+        opt.excludes(
+            slow, order, "two springs give a set of values, --order does not", "ask for one"
+        ),
+        opt.needs(
+            colour,
+            (opt.being(stability, "a-stable"), opt.being(stability, "l-stable")),
+            "--colour goes with --a-stable and --l-stable",
+            "add one of them",
+        ),
+    )
+
+    @property
+    def whose(self) -> Whose:
+        return self.which or "method"
+
+    @cached_property
+    def moment(self) -> float | None:
+        """The reading of the clock at which the time is over, counted from the first look at it."""
+        seconds = SECONDS if self.seconds is None and self.search is None else self.seconds
+        return None if seconds is None else monotonic() + seconds
+
+    def order_of(self, family: FamilyFile) -> int | None:
+        """Returns the wanted order, of the command line or of the file."""
+        return self.order or family.order
+
+
+@declared("design", DesignOptions, [*FORMATS, "csv"])
+def design(given: DesignOptions, output: Output) -> int:
     """The values of the free parameters for which a method has an order, exactly.
 
     parameters: {tau: free} makes a parameter free. The answer is every value, finitely many, a
@@ -62,9 +237,7 @@ def design(given: Given, output: Output) -> int:
     from garkcli.design.minimise.sums import refuse
     from garkcli.methodfile.family import load_family
 
-    seconds = SECONDS if given.seconds is None and given.search is None else given.seconds
-    given.moment = None if seconds is None else monotonic() + seconds
-    given.whose = given.which or "method"
+    moment = given.moment  # the time begins
     is_free = given.minimise is None or given.search is not None
     if given.folder is not None and not is_free:
         message = "--minimise finds one method, --output-dir writes several"
@@ -73,14 +246,13 @@ def design(given: Given, output: Output) -> int:
         refuse(given.minimise, is_search=given.search is not None)  # before any work
     for one in given.front or ():
         refuse(one, is_search=True)
-    family = load_family(given.file, given.settings, given.moment, is_free)
+    family = load_family(given.file, given.settings, moment, is_free)
     is_of_springs = given.slow is not None
     _refuse_rounded(family, given)
     if given.search is None:
         refuse_levels(family)
-    given.order = given.order or family.order
     asked = _asked(family, given)
-    if asked is not None and (given.order is None or is_of_springs):
+    if asked is not None and (given.order_of(family) is None or is_of_springs):
         _check_stability(given)
         _refuse_unsettled(family)
         _refuse_other_wishes(family, asked, is_of_springs)
@@ -96,18 +268,18 @@ def design(given: Given, output: Output) -> int:
         return _within(family, given, output)
     if given.search is not None:
         _refuse_unsettled(family)
-        return (_curve if is_curve else _search)(family, given, output)
+        return (_curve if is_curve else _search)(family, given.search, given, output)
     chosen: list[Choice] = []
     if given.choose:
         with _half(given):
             chosen = _walk(_found(family, given), given.choose)
         settings = {**given.settings, **given.choose}
-        family = load_family(given.file, settings, given.moment, is_free)
+        family = load_family(given.file, settings, moment, is_free)
         family = _as_stable(family, asked)
     return _told(family, chosen, given, output)
 
 
-def _refuse_rounded(family: FamilyFile, given: Given) -> None:
+def _refuse_rounded(family: FamilyFile, given: DesignOptions) -> None:
     """Raises UsageProblem if an option needs exact coefficients and those of the file are
     rounded.
     """
@@ -125,7 +297,7 @@ def _refuse_rounded(family: FamilyFile, given: Given) -> None:
         raise UsageProblem(message, cure, code="rounded")
 
 
-def _within(family: FamilyFile, given: Given, output: Output) -> int:
+def _within(family: FamilyFile, given: DesignOptions, output: Output) -> int:
     """Reports values within the tolerance and writes the files; returns the exit code."""
     from garkcli.api.design import find_parameters
     from garkcli.design.within import DesignWithin
@@ -133,16 +305,16 @@ def _within(family: FamilyFile, given: Given, output: Output) -> int:
     from garkcli.report.design_within import REPORT, WithinReport
 
     with until(given.moment):
-        found = find_parameters(family, given.order, given.whose)
+        found = find_parameters(family, given.order_of(family), given.whose)
     assert isinstance(found, DesignWithin)
     output.tell(REPORT, WithinReport(called(given.file), found))
-    is_reached = found.reaches(given.order or 1)
+    is_reached = found.reaches(given.order_of(family) or 1)
     if found.best is not None:
         _emit(found, family, given, output)
     return EXIT_CODES[None if is_reached and family.stable else is_reached]
 
 
-def _check_stability(given: Given) -> None:
+def _check_stability(given: DesignOptions) -> None:
     """Raises UsageProblem for options that a set of values excludes: files or a search."""
     others = (given.emit, given.folder, given.search, given.minimise)
     if all(option is None for option in others):
@@ -155,7 +327,7 @@ def _check_stability(given: Given) -> None:
 
 
 @contextmanager
-def _half(given: Given) -> Iterator[None]:
+def _half(given: DesignOptions) -> Iterator[None]:
     """Limits the time to half of what is left, as more work follows."""
     with until(given.moment):
         left = seconds_left()
@@ -163,7 +335,7 @@ def _half(given: Given) -> Iterator[None]:
             yield
 
 
-def _asked(family: FamilyFile, given: Given) -> Stability | None:
+def _asked(family: FamilyFile, given: DesignOptions) -> Stability | None:
     """Returns the stability that an option requests, if any.
 
     Raises UsageProblem for an unknown colour.
@@ -225,7 +397,7 @@ def _as_stable(family: FamilyFile, asked: Stability | None) -> FamilyFile:
     return replace(family, stable=(*family.stable, asked))
 
 
-def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output) -> int:
+def _told(family: FamilyFile, chosen: list[Choice], given: DesignOptions, output: Output) -> int:
     """Finds the values, and writes the report and the files; returns the exit code."""
     from garkcli.methodfile.naming import called
     from garkcli.report.design import REPORT, DesignReport
@@ -234,13 +406,13 @@ def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output
         found = _found(family, given)
     sets = _sets(found, given)
     stable = [None] if sets is None else [x.has_values for x in sets]
-    answers = [found.reaches(given.order or 1), *stable]
+    answers = [found.reaches(given.order_of(family) or 1), *stable]
     is_reached = False if False in answers else None if None in answers else True
     minimum = None
-    has_rest = given.order is None or found.last.kind != "undecided"
+    has_rest = given.order_of(family) is None or found.last.kind != "undecided"
     is_compared = given.minimise is not None and is_reached is not False and has_rest
-    if is_compared:
-        minimum = _least(found, given)
+    if given.minimise is not None and is_compared:
+        minimum = _least(found, given.minimise, given)
     report = DesignReport(called(given.file), found, given.digits, chosen, minimum, sets or ())
     output.tell(REPORT, report)
     if is_compared and minimum is None:
@@ -249,30 +421,30 @@ def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output
     return EXIT_CODES[None if found.last.kind == "undecided" else is_reached]
 
 
-def _found(family: FamilyFile, given: Given) -> Design:
+def _found(family: FamilyFile, given: DesignOptions) -> Design:
     from garkcli.design.design import find_parameters
 
-    return find_parameters(family, given.order, given.whose)
+    return find_parameters(family, given.order_of(family), given.whose)
 
 
-def _least(found: Design, given: Given) -> Minimum | None:
+def _least(found: Design, objective: str, given: DesignOptions) -> Minimum | None:
     """Returns the minimum of the objective; None, with a message, if it was not found in time."""
     from garkcli.api.design import minimise
 
     try:
         with until(given.moment):
-            return minimise(found, given.minimise)
+            return minimise(found, objective)
     except NotDecided as error:
         about, cure = "the solution set is too large or curved", ""
         if error.is_late:
             about, cure = "in the time of --seconds", "give it more, or "
-        message = f"--minimise {given.minimise}: not decided, {about}"
+        message = f"--minimise {objective}: not decided, {about}"
         cure += "choose values for some unknowns with --choose"
         say_problem(UsageProblem(message, cure, code="not-found"))
         return None
 
 
-def _sets(found: Design, given: Given) -> tuple[StableValues, ...] | None:
+def _sets(found: Design, given: DesignOptions) -> tuple[StableValues, ...] | None:
     """Returns the values that are as stable as demanded, if all values have the order; None, with a
     message, if they were not found in time.
     """
@@ -312,7 +484,7 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
         raise UsageProblem(message, "choose with --set", code="not-found") from None
 
 
-def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
+def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> int:
     from garkcli.api.design import stable_values
     from garkcli.cli.stability import colour_named
     from garkcli.design.member import TABLEAUS
@@ -343,7 +515,7 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
 
 
 def _emit(
-    found: Design | DesignWithin | Minimum, family: FamilyFile, given: Given, output: Output
+    found: Design | DesignWithin | Minimum, family: FamilyFile, given: DesignOptions, output: Output
 ) -> None:
     """Writes the first of the methods found, or all.
 
@@ -388,12 +560,12 @@ EXIT_CODES = {True: 0, False: 1, None: 3}
 """By whether the order is reached; an undecided question is not an error of the file."""
 
 
-def _search(family: FamilyFile, given: Given, output: Output) -> int:
+def _search(family: FamilyFile, starts: int, given: DesignOptions, output: Output) -> int:
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.report.search import REPORT, SearchReport
 
-    asked = FileSearch.of(family, _order(given), given.whose, given.minimise)
-    result, ended = _searched(asked, given)
+    asked = FileSearch.of(family, _order(family, given), given.whose, given.minimise)
+    result, ended = _searched(asked, starts, given)
     files = _written(family, result, given, output)
     output.tell(REPORT, SearchReport(family.source, asked.search, result, files))
     if ended is not None:
@@ -402,24 +574,24 @@ def _search(family: FamilyFile, given: Given, output: Output) -> int:
     return 0 if result.methods else 3
 
 
-def _curve(family: FamilyFile, given: Given, output: Output) -> int:
+def _curve(family: FamilyFile, starts: int, given: DesignOptions, output: Output) -> int:
     """Optima along a curve: report them, draw them, and return the exit code."""
     from garkcli.design.search.curve import Curve, along, front
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.report.design_curve import REPORT, CurveReport
 
-    order = _order(given)
-    first, second = given.front or (given.minimise, "")
+    order = _order(family, given)
+    first, second = given.front or (given.minimise or "", "")
     asked = FileSearch.of(family, order, given.whose, first)
     curve = Curve(first, second, given.front is not None, order, given.seed or 0)
 
     def steps(workers: Workers[Task, Timed]) -> Iterator[Curve]:
-        rest = given.search, given.seed or 0, workers
-        if given.front is not None:
-            return front(asked.search, second, *rest)
-        return along(asked.search, given.along, *rest)
+        rest = starts, given.seed or 0, workers
+        if given.along is not None:
+            return along(asked.search, given.along, *rest)
+        return front(asked.search, second, *rest)
 
-    with doing("starts", given.search) as work:
+    with doing("starts", starts) as work:
 
         def show(found: Curve) -> None:
             work.what = f"{len(found.knots)} points, starts"
@@ -437,16 +609,16 @@ def _curve(family: FamilyFile, given: Given, output: Output) -> int:
     return 0 if curve.knots else 3
 
 
-def _order(given: Given) -> int:
+def _order(family: FamilyFile, given: DesignOptions) -> int:
     """Returns the order of a search; raises UsageProblem if there is none."""
-    if given.order is None:
+    order = given.order_of(family)
+    if order is None:
         cure = "give --order P, or design: {order: P} in the file"
         raise UsageProblem("a search is for an order", cure, code="option-alone")
-    order: int = given.order
     return order
 
 
-def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
+def _searched(asked: FileSearch, starts: int, given: DesignOptions) -> tuple[Result, int | None]:
     """Returns the result, and the exit code if an interrupt or a lost worker ended the search. If
     the time did, the exit code is that of the result.
     """
@@ -455,9 +627,9 @@ def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
     most = given.most or (MOST if given.minimise is None else 1)
 
     def steps(workers: Workers[Task, Timed]) -> Iterator[Result]:
-        return results(asked.search, given.search, given.seed or 0, most, workers)
+        return results(asked.search, starts, given.seed or 0, most, workers)
 
-    with doing("starts", given.search) as work:
+    with doing("starts", starts) as work:
 
         def show(found: Result) -> None:
             work.what = f"{len(found.methods)} methods found, starts"
@@ -468,7 +640,7 @@ def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
 
 def _worked(
     asked: FileSearch,
-    given: Given,
+    given: DesignOptions,
     steps: Callable[[Workers[Task, Timed]], Iterator[AnyResult]],
     found: AnyResult,
     show: Callable[[AnyResult], None],
@@ -505,7 +677,7 @@ def _lost(_task: Task, why: str) -> Timed:
 
 
 def _written(
-    family: FamilyFile, result: Result, given: Given, output: Output
+    family: FamilyFile, result: Result, given: DesignOptions, output: Output
 ) -> Sequence[str | None]:
     """Writes the requested files, of a single one the method with the strongest proof; returns the
     file of each method.
@@ -531,8 +703,39 @@ def _proof(found: FoundFile) -> int:
     return PROOFS.index(member.proof)
 
 
-@declared("sweep", [*FORMATS, "jsonl", "csv"])
-def sweep(given: Given, output: Output) -> None:
+class Sweep(opt.Options):
+    """The options of ``gark sweep``."""
+
+    spec: str = opt.argument("SPEC", opt.INPUT)
+    rows: str | None = opt.option(
+        "--rows",
+        opt.file("jsonl"),
+        "The file of rows, a line of JSON each; by default SPEC with .jsonl.",
+        of="run_sweep.rows",
+        heading="Run",
+    )
+    resume: bool = opt.flag(
+        "--resume", "Continue: add the missing rows.", of="run_sweep.is_resumed"
+    )
+    jobs: int | None = opt.option("-j --jobs", opt.workers(60), opt.JOBS_HELP, of="run_sweep.jobs")
+    scheduler: str | None = opt.option("--scheduler", opt.text("ADDRESS"), of="run_sweep.scheduler")
+    top: int = opt.preset(
+        "--top",
+        opt.number("N", 1),
+        10,
+        "Show the N best; CSV and JSON lines have all.",
+        heading="Output",
+    )
+    parquet: str | None = opt.option(
+        "--parquet",
+        opt.file("parquet"),
+        "Write the kept methods as Parquet too; needs garkcli[parquet].",
+    )
+    plot: str | None = opt.option("--plot", opt.PICTURE, opt.PLOT_HELP)
+
+
+@declared("sweep", Sweep, [*FORMATS, "jsonl", "csv"], has_catalogue=True)
+def sweep(given: Sweep, output: Output) -> None:
     """Many methods side by side: families, stages, transfer rules, values of parameters.
 
     SPEC names the methods, the criteria, which methods to keep and which are better; see

@@ -1,4 +1,4 @@
-"""``gark export``, ``import`` and ``audit``: methods in other formats."""
+"""``gark export``, ``import`` and ``audit``: methods in other formats, and proofs."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from garkcli.cli import options as opt
+from garkcli.cli.command import declared
 from garkcli.cli.endings import CURES, ENDINGS, ending_of, settled
-from garkcli.cli.options import Given, Output, declared
+from garkcli.cli.output import Output
 from garkcli.cli.streams import say
 from garkcli.errors import UsageProblem, counted, printable
 from garkcli.files import is_stream
@@ -20,13 +22,87 @@ if TYPE_CHECKING:
     from garkcli.sources.found import FoundTable
 
 
-@declared("export")
-def export(given: Given, output: Output) -> None:
+CERTIFICATE = "certificate"
+PROOFS = ("json", *(x for x in FORMATS if x != "json"), "coq")
+"""The formats of certificates."""
+
+
+def targets() -> list[str]:
+    """Returns the words for --to."""
+    from garkcli.bridges.registry import bridges
+
+    return [*bridges(), CERTIFICATE]
+
+
+WRITTEN = {
+    "output": opt.option(
+        "-o --output", opt.file(), "Write to FILE, whose ending is that of TARGET."
+    ),
+    "quiet": opt.QUIET,
+    "verbose": opt.VERBOSE,
+    "color": opt.COLOR,
+}
+
+
+class Export(opt.Derivable):
+    """The options of ``gark export``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    to: str = opt.required(
+        "--to",
+        opt.completed("TARGET", "cli.exchange:targets"),
+        "The target; gark list exports shows them; certificate is a proof of the orders.",
+        of="export.target",
+        heading="Target",
+    )
+    digits: int | None = opt.option("--digits", opt.DECIMALS, of="export.digits")
+    format: str | None = opt.option(
+        "--format", opt.words(*PROOFS), "The format of a certificate, json by default."
+    )
+    test: bool = opt.flag(
+        "--test",
+        "With -o: also write a program that runs the method in TARGET, and a problem file with "
+        "which gark converge prints the same errors.",
+    )
+    being_certificate = opt.being(to, CERTIFICATE)
+    rules = (
+        opt.needs(
+            test,
+            WRITTEN["output"],
+            "--test writes further files beside the first",
+            "name it: -o FILE",
+        ),
+        opt.needs(
+            format,
+            being_certificate,
+            "--format is for certificates",
+            "leave it out: TARGET says what is written",
+        ),
+        opt.excludes(
+            (opt.CONJUGATE, opt.PAIR, digits, test),
+            being_certificate,
+            "a certificate has no OPTION: it proves the orders of the method, conjugate and pair",
+            "leave it out",
+        ),
+    )
+
+
+@declared("export", Export, output=WRITTEN)
+def export(given: Export, output: Output) -> None:
     """A method for other codes: SciPy, SUNDIALS, PETSc, C, JSON and others.
 
     The head of the file says which orders gark proved. Decimals are correctly rounded. gark refuses
     a method that the target cannot represent, with the reason.
+
+    --to certificate writes a proof of the orders that can be checked without gark: the exact
+    tableau, its conjugate and pair, trees that span all trees of each order, and a tree that fails;
+    for rounded coefficients a proof that a method within the tolerance has the order.
+    tools/referee.py of the source distribution, one short file of plain Python, decides the orders
+    again from it; --format coq is for the proof assistant Coq, and for exact methods.
     """
+    if given.to == CERTIFICATE:
+        _write_certificate(given, output)
+        return
     from garkcli.api.anymethod import refuse_rounded
     from garkcli.bridges.own_arrays import own_kind
     from garkcli.bridges.preparing import prepared
@@ -39,7 +115,7 @@ def export(given: Given, output: Output) -> None:
     if given.test and bridge.words is None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
-    method = given.method(is_any_kind=True)
+    method = given.method(given.file, is_any_kind=True)
     if not (is_rosenbrock(method.tableau) or own_kind(method.tableau)):
         method.tableau.demand_fields("this command", with_flow="mri" in bridge.kinds)
     refuse_rounded(method)
@@ -50,6 +126,22 @@ def export(given: Given, output: Output) -> None:
     output.write(table, bridge.name)
     for ending, text in beside.items():
         Output(path=str(path.with_name(path.stem + ending))).write(text)
+
+
+def _write_certificate(given: Export, output: Output) -> None:
+    from garkcli.api.calls import prove_method, prove_method_exists
+    from garkcli.report.certificate import REPORT
+
+    named = settled(output.path, PROOFS, given.format) if output.path else None
+    output.format = named or given.format or PROOFS[0]
+    method = given.method(given.file, is_any_kind=True)
+    if output.format == "coq":
+        from garkcli.report.coq import coq_proof
+
+        output.write(coq_proof(prove_method(method)))
+    else:
+        proved = prove_method if method.tolerance is None else prove_method_exists
+        output.tell(REPORT, proved(method))
 
 
 def _refuse_other_ending(path: str, bridge: Bridge) -> None:
@@ -69,8 +161,44 @@ def _refuse_other_ending(path: str, bridge: Bridge) -> None:
     raise UsageProblem(message, "; ".join(cures), code="wrong-ending")
 
 
-@declared("import", (*FORMATS, "yaml"))
-def import_(given: Given, output: Output) -> int:
+class Import(opt.Options):
+    """The options of ``gark import``."""
+
+    sources: tuple[str, ...] = opt.arguments_of("SOURCE...", opt.INPUT)
+    source_format: str | None = opt.option(
+        "--from",
+        opt.text("FORMAT"),
+        "The format of SOURCE; by default gark goes by its name or content.",
+        of="import_methods.format",
+        heading="Methods",
+    )
+    recognise: bool = opt.flag(
+        "--recognise",
+        "Replace decimals by exact numbers if the order does not fall.",
+        of="import_methods.is_recognising",
+    )
+    as_found: bool = opt.flag(
+        "--as-found",
+        "Claim the true orders, not those that SOURCE declares.",
+        of="import_methods.is_as_found",
+    )
+    folder: str | None = opt.option(
+        "--output-dir",
+        opt.file(metavar="DIR"),
+        "Write a method file for each method into DIR.",
+        heading="Output",
+    )
+
+
+IMPORTED = {
+    **opt.REPORTED,
+    "format": opt.always("--format", opt.Kind({}), "The report, or the method files themselves."),
+    "verbose": opt.flag("-v --verbose", "Show the method files."),
+}
+
+
+@declared("import", Import, (*FORMATS, "yaml"), output=IMPORTED)
+def import_(given: Import, output: Output) -> int:
     """Methods from other sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
 
     SOURCE is a file, a folder (all files in it of the formats that gark reads), or - for standard
@@ -218,8 +346,29 @@ def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
     return files
 
 
-@declared("audit", ("auto", *FORMATS, "github", "sarif"))
-def audit(given: Given, output: Output) -> int:
+class Audit(opt.Options):
+    """The options of ``gark audit``."""
+
+    paths: tuple[str, ...] = opt.arguments_of("PATH...", opt.INPUT)
+    strict: bool = opt.flag(
+        "--strict", "Fail if gark could not read a possible table.", heading="Audit"
+    )
+    jobs: int | None = opt.option("-j --jobs", opt.workers(60), opt.JOBS_HELP, of="audit.jobs")
+    fix: bool = opt.flag(
+        "--fix",
+        "Write a patch of what is sure instead: a wrong sign, digit or entry. It changes no file.",
+        heading="Output",
+    )
+    claim: str | None = opt.option(
+        "--claim",
+        opt.file(metavar="PLACE"),
+        "Also write method files that claim what the sources declare: into a folder, or one into "
+        "PLACE.gark.yaml.",
+    )
+
+
+@declared("audit", Audit, ("auto", *FORMATS, "github", "sarif"))
+def audit(given: Audit, output: Output) -> int:
     """The tables in a solver's source tree compared with their declared orders.
 
     PATH is a folder (all files in it of the formats that gark import reads), a file, or - for
@@ -241,7 +390,7 @@ def audit(given: Given, output: Output) -> int:
         settled(given.claim, ["yaml"], option="--claim")
     files = list(source_files(given.paths, output.note))
     unlike: list[str] = []
-    found = list(audited(files, given.jobs, unlike.append))
+    found = list(audited(files, given.jobs or 1, unlike.append))
     if not found:
         message = "; ".join([_no_table(given.paths, len(files)), *unlike[:1]])
         raise UsageProblem(message, "docs/import.md says what is read", code="cannot-import")

@@ -1,6 +1,4 @@
-"""Information: ``gark list``, ``show``, ``explain``, ``cite``, ``certificate``, ``report``,
-``schema``.
-"""
+"""Information: ``gark list``, ``show``, ``explain``, ``report``, ``schema``."""
 
 from __future__ import annotations
 
@@ -12,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from garkcli.cli.arguments import completed
-from garkcli.cli.options import Given, Output, declared
+from garkcli.cli import options as opt
+from garkcli.cli.command import GroupedOption, declared
+from garkcli.cli.output import Output
 from garkcli.cli.streams import say_faults
 from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem, did_you_mean
@@ -45,44 +44,37 @@ LISTS = ("families", "transfer", "schemes", "splittings", "problems")
 _KINDS = ("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mdrk", "mri", "family")
 
 
-@declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
-def certificate(given: Given, output: Output) -> None:
-    """A proof of the orders of a method that can be checked without gark.
+class Explain(opt.Options):
+    """The options of ``gark explain``."""
 
-    The exact tableau, its conjugate and pair, trees that span all trees of each order, and a tree
-    that fails; for rounded coefficients a proof that a method within the tolerance has the order.
-    tools/referee.py of the source distribution, one short file of plain Python, decides the orders
-    again from it; --format coq is for the proof assistant Coq, and for exact methods.
-    """
-    from garkcli.api.calls import prove_method, prove_method_exists
-    from garkcli.report.certificate import REPORT
-
-    method = given.method(is_any_kind=True)
-    if output.format == "coq":
-        from garkcli.report.coq import coq_proof
-
-        output.write(coq_proof(prove_method(method)))
-    else:
-        proved = prove_method if method.tolerance is None else prove_method_exists
-        output.tell(REPORT, proved(method))
+    words: tuple[str, ...] = opt.arguments_of(
+        "[WORD...]", opt.completed("WORD", "check.meanings:known_words")
+    )
 
 
-@declared("explain", FORMATS, WORD={"shell_complete": completed("check.meanings:known_words")})
-def explain(given: Given, output: Output) -> None:
+@declared("explain", Explain, FORMATS)
+def explain(given: Explain, output: Output) -> None:
     """The meaning of a word in a report or a file: definition, formula, source.
 
     WORD is a term such as density or "stage order", a line of a report, a claim, a key of a file
     such as compose.steps, a family, a transfer rule, a problem, or the code or message of an error.
     Without WORD gark lists the terms.
     """
-    from garkcli.check.meanings import explain
-    from garkcli.report.meaning import REPORT, every_term, list_text, told
+    from garkcli.report.meaning import REPORT, every_term, list_text
 
-    word = " ".join(given.words)
-    if not word and output.format == "text":
+    if given.words:
+        tell_meaning(" ".join(given.words), output)
+    elif output.format == "text":
         output.write(list_text(output.width))
     else:
-        output.tell(REPORT, *(told(word, explain(word)) if word else every_term()))
+        output.tell(REPORT, *every_term())
+
+
+def tell_meaning(word: str, output: Output) -> None:
+    from garkcli.check.meanings import explain
+    from garkcli.report.meaning import REPORT, told
+
+    output.tell(REPORT, *told(word, explain(word)))
 
 
 class RangeType(click.ParamType):  # type: ignore[type-arg]
@@ -111,34 +103,45 @@ def _filters() -> list[click.Option]:
     counts, truths = {**_COUNTS}, {**_TRUTHS}
     for x in every_property():
         if x.kind in ("count", "truth"):
-            (counts if x.kind == "count" else truths)[x.key] = f"The property {x.key}."
-    words = {
-        "kind": (
-            _KINDS,
-            "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
-            "nonlinearly partitioned (nprk), multiderivative (mdrk), multirate (mri).",
-        ),
-        "sort": (ORDERS, "The column by which the list is sorted; by default the order."),
-    }
-    structures = "Which vector fields the problem has: general, separable, nystrom ..."
-    judging = "Judge your own methods as gark check does, instead of taking their claims."
+            (counts if x.kind == "count" else truths).setdefault(x.key, "")
+    kinds = (
+        "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
+        "nonlinearly partitioned (nprk), multiderivative (mdrk), multirate (mri)."
+    )
     return [
-        *(click.Option([f"--{key}"], type=RangeType(), help=x) for key, x in counts.items()),
-        *(click.Option([f"--{key}/--no-{key}"], default=None, help=x) for key, x in truths.items()),
-        *(click.Option([f"--{x}"], type=click.Choice(y), help=z) for x, (y, z) in words.items()),
-        click.Option(["--structure"], metavar="WORD", help=structures),
-        click.Option(["--folder"], metavar="NAME", help="A folder of the catalogue, such as erk."),
-        click.Option(["--judge"], is_flag=True, default=None, help=judging),
+        _filter("--kind", _METHODS, kinds, type=click.Choice(_KINDS)),
+        _filter("--structure", _METHODS, _STRUCTURE, metavar="WORD"),
+        _filter("--folder", _METHODS, _FOLDER, metavar="NAME"),
+        _filter("--judge", _METHODS, _JUDGING, is_flag=True, default=None),
+        *(_filter(f"--{key}", _ORDERS, help, type=RangeType()) for key, help in counts.items()),
+        *(_filter(f"--{x}/--no-{x}", _PROPERTIES, y, default=None) for x, y in truths.items()),
+        _filter("--sort", "Output", _SORT, type=click.Choice(ORDERS)),
     ]
 
 
-@declared(
-    "list",
-    (*FORMATS, "csv"),
-    WHAT={"type": click.Choice(["methods", *LISTS, "exports"])},
-    options=_filters,
-)
-def list_(given: Given, output: Output) -> None:
+def _filter(flag: str, heading: str, help: str, **settings: Any) -> GroupedOption:
+    return GroupedOption([flag], heading, help=help or None, **settings)
+
+
+_METHODS, _ORDERS, _PROPERTIES = "Methods", "Orders and sizes", "Properties"
+_STRUCTURE = "Which vector fields the problem has: general, separable, nystrom ..."
+_FOLDER = "A folder of the catalogue, such as erk."
+_JUDGING = "Judge your own methods as gark check does, instead of taking their claims."
+_SORT = "The column by which the list is sorted; by default the order."
+
+
+class ListOptions(opt.Options):
+    """The options of ``gark list``."""
+
+    what: str | None = opt.maybe_argument(
+        "WHAT", opt.Kind({"type": click.Choice(["methods", *LISTS, "exports"])})
+    )
+    words: tuple[str, ...] = opt.arguments_of("[WORD...]", opt.Kind({}))
+    filters: Mapping[str, Any] = opt.bundle(_filters)
+
+
+@declared("list", ListOptions, (*FORMATS, "csv"), has_catalogue=True)
+def list_(given: ListOptions, output: Output) -> None:
     """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
     one of these lists; methods, those of the catalogue; or exports, the targets of gark export.
 
@@ -147,8 +150,7 @@ def list_(given: Given, output: Output) -> None:
     """
     from garkcli.report import list_methods, listing
 
-    names = [str(option.name) for option in _filters()]
-    filters = {name: getattr(given, name) for name in (*names, "words")}
+    filters = {**given.filters, "words": given.words}
     if given.what == "methods":
         output.tell(list_methods.REPORT, _listed(filters))
         return
@@ -161,9 +163,7 @@ def list_(given: Given, output: Output) -> None:
         message = "--format csv is for methods"
         raise UsageProblem(message, "write gark list methods", code="options-clash")
     if given.what == "exports":
-        from garkcli.bridges.registry import bridges
-
-        output.tell(listing.EXPORTS, bridges())
+        output.tell(listing.EXPORTS, listing.all_targets())
     else:
         one = listing.only(given.what) if given.what else listing.REPORT
         output.tell(one, listing.all_lists())
@@ -185,43 +185,62 @@ def _listed(given: Mapping[str, Any]) -> list[Entry]:
     return sorted_by([x for x in entries if wanted.takes(x)], given["sort"] or "order")
 
 
-@declared("show", FORMATS)
-def show(given: Given, output: Output) -> None:
-    """One method: its tableau, orders, properties, where it was published.
+BIBTEX = "bibtex"
+
+
+class Show(opt.WithSettings):
+    """The options of ``gark show``."""
+
+    files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
+    reference: bool = opt.flag(
+        "--reference", "The publications alone, as BibTeX, or in the format of --format."
+    )
+
+
+@declared("show", Show, (*FORMATS, BIBTEX))
+def show(given: Show, output: Output) -> None:
+    """A method: its tableau, orders, properties, where it was published.
 
     For a method of the package gark reads its index; it judges every other one as gark check does.
+
+    --reference and --format bibtex write the publications of methods, each as one entry of a
+    bibliography. The word catalogue: means all of the catalogue, gark this program. A file without
+    `reference` is cited by its families and rules. A `reference` that is plain text becomes a note;
+    gark names files without any.
     """
+    if given.reference or output.format == BIBTEX:
+        _cite(given, output)
+        return
     from garkcli.catalogue.entries import entry_of_method, entry_on
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
     from garkcli.report.show import REPORT, ShownMethod
 
-    method = load(given.file, given.settings)
-    named = find_named(given.file)
-    if named is not None and named.shelf != FAMILY and not given.settings:
-        entry = entry_on(shelf_of(named), named, judges=True)
-    else:
-        entry = entry_of_method(method, given.file)
-    tableau, description = method.tableau, method.description
-    output.tell(
-        REPORT, ShownMethod(entry, tableau, method.entries, description, method.bibliography)
-    )
+    files = output.files_meant(given.files, given.settings)
+    if len(files) > 1 and output.format == "json":
+        message = "--format json shows one method"
+        cure = "give the files one by one; --reference takes several"
+        raise UsageProblem(message, cure, code="options-clash")
+    shown = []
+    for file in files:
+        method = load(file, given.settings)
+        named = find_named(file)
+        if named is not None and named.shelf != FAMILY and not given.settings:
+            entry = entry_on(shelf_of(named), named, judges=True)
+        else:
+            entry = entry_of_method(method, file)
+        tableau, description = method.tableau, method.description
+        shown.append(ShownMethod(entry, tableau, method.entries, description, method.bibliography))
+    output.tell(REPORT, *shown)
 
 
-@declared("cite", ("bibtex", *FORMATS))
-def cite(given: Given, output: Output) -> None:
-    """The publications of methods, each as one entry of a bibliography.
-
-    The word catalogue: means all of the catalogue, gark this program. A file without `reference` is
-    cited by its families and rules. A `reference` that is plain text becomes a note; gark names
-    files without any.
-    """
+def _cite(given: Show, output: Output) -> None:
     from garkcli.report.calls import references
     from garkcli.report.citation import REPORT, bibliography
 
-    found = references(given.files_meant(output))
-    if output.format == "bibtex":
-        output.write(bibliography(found, output.verbosity <= 0))
+    found = references(output.files_meant(given.files))
+    if output.is_default or output.format == BIBTEX:
+        output.write(bibliography(found, output.verbosity <= 0), BIBTEX)
     else:
         output.tell(REPORT, found)
     bare = [one.methods[0] for one in found if not one.text]
@@ -230,8 +249,25 @@ def cite(given: Given, output: Output) -> None:
         output.note(f"note: no reference in the file of {shown}")
 
 
-@declared("report", ["html"])
-def report(given: Given, output: Output) -> int:
+class Page(opt.Derivable):
+    """The options of ``gark report``."""
+
+    files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
+    order: int | None = opt.option(
+        "--order -n", opt.number("n", 1, 100), of="report_page.order", heading="Page"
+    )
+    pictures: bool | None = opt.switch("--pictures/--no-pictures", of="report_page.pictures")
+
+
+_PLACE = opt.option(
+    "-o --output",
+    opt.file(),
+    "Write the page to FILE; by default to METHOD.html, of several methods to report.html.",
+)
+
+
+@declared("report", Page, ["html"], output={**opt.WRITTEN, "output": _PLACE})
+def report(given: Page, output: Output) -> int:
     """All about methods as one HTML page, to look at, print and pass on.
 
     gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to standard output. The page
@@ -246,7 +282,7 @@ def report(given: Given, output: Output) -> int:
     from garkcli.webpage.page import render
     from garkcli.webpage.reported import reported
 
-    paths = given.files_meant(output)
+    paths = output.files_meant(given.files, given.settings)
     if output.path is None and not output.is_streamed:
         output.path = _page_name(paths, given.which)
         output.check_place()
@@ -292,7 +328,7 @@ def _page_name(paths: list[str], which: str | None) -> str:
     return f"{name}-{which}.html" if which else f"{name}.html"
 
 
-def _meant(path: str, given: Given) -> str | GarkMethod:
+def _meant(path: str, given: Page) -> str | GarkMethod:
     """Returns the subject of the page: a file, or the conjugate or the pair of its method.
 
     Raises UsageProblem for free parameters.
@@ -310,8 +346,25 @@ def _meant(path: str, given: Given) -> str | GarkMethod:
         return path  # the page says what is wrong with it
 
 
-@declared("schema", ["json"])
-def schema(given: Given, output: Output) -> None:
+_REPORT: opt.Kind[str] = opt.alone(opt.completed("[COMMAND]", "report.schemas:REPORTS"), "check")
+
+
+class SchemaOptions(opt.Options):
+    """The options of ``gark schema``."""
+
+    problem: bool = opt.flag("--problem", "The schema of problem files.", heading="Schema")
+    sweep: bool = opt.flag("--sweep", "The schema of spec files of gark sweep.")
+    project: bool = opt.flag("--project", "The schema of .gark.toml.")
+    report: str | None = opt.option(
+        "--report",
+        _REPORT,
+        "The schema of the JSON report of COMMAND; by default gark check.",
+        of="report_schema.command",
+    )
+
+
+@declared("schema", SchemaOptions, ["json"], {"format": opt.FORMAT, "output": opt.OUTPUT})
+def schema(given: SchemaOptions, output: Output) -> None:
     """The JSON Schema (draft-07) of method files, for editors; of other files; of reports.
 
     With the YAML extension of an editor, name it in the first line of a method file:

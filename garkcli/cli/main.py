@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from garkcli.cli import streams
-from garkcli.cli.options import command_of, help_option
-from garkcli.cli.table import COMMANDS, SHOWN
+from garkcli.cli.command import command_of, help_option
+from garkcli.cli.table import COMMANDS, FORMER
 from garkcli.ending import Ended, at_once
 from garkcli.errors import GarkError, NotDecided, UsageProblem, counted
 from garkcli.files import noting_inputs
@@ -35,7 +35,7 @@ class _LazyGroup(click.Group):
     """A group that imports a command only to run it or to show its help."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(SHOWN)
+        return list(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         return command_of(cmd_name) if cmd_name in COMMANDS else None
@@ -43,12 +43,13 @@ class _LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
+        args = [*FORMER.get(args[0], args[:1]), *args[1:]]
         # a shell that asks what may follow hears of no mistakes
         is_run = not ctx.resilient_parsing
         if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
             from garkcli.cli.usage import no_such_command  # paid for by mistakes alone
 
-            ctx.fail(no_such_command(args[0], SHOWN))
+            ctx.fail(no_such_command(args[0], COMMANDS))
         return super().resolve_command(ctx, args)
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
@@ -61,10 +62,10 @@ class _LazyGroup(click.Group):
         return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        width = max(map(len, SHOWN))
-        for group, names in groupby(SHOWN, key=lambda name: SHOWN[name].group):
+        width = max(map(len, COMMANDS))
+        for group, names in groupby(COMMANDS, key=lambda name: COMMANDS[name].group):
             with formatter.section(group):
-                formatter.write_dl([(f"{x:{width}}", SHOWN[x].summary) for x in names])
+                formatter.write_dl([(f"{x:{width}}", COMMANDS[x].summary) for x in names])
 
 
 def _show_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:

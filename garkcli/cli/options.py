@@ -1,345 +1,260 @@
-"""Common parts of the commands: their construction from the table of calls, their arguments, and
-the output.
+"""Declarations of options and arguments: click, help, pages and Python calls are made of them.
+
+The options of a command are the fields of a class. Their values in the class are :class:`Option`,
+which mypy takes for values of the type that the kind of the option reads::
+
+    class Check(Options):
+        max_order: int | None = option("--max-order", number("N", 1, 400), of="check_file.limit")
 """
 
 from __future__ import annotations
 
-import inspect
-import os
-import sys
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache, partial
-from importlib import import_module
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 import click
 
 from garkcli.cli import arguments
-from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
-from garkcli.cli.endings import AUTO, settled
-from garkcli.cli.streams import complain, put, put_exactly, safe_pieces, say, wants_colour
-from garkcli.cli.table import COMMANDS, HIDDEN, Option, OptionRule, option_of, options_of, rules_of
-from garkcli.doing import hush
-from garkcli.errors import GarkError, MethodFileError, Remark, UsageProblem
-from garkcli.files import STDIN, note_input
+from garkcli.cli.endings import settled
+from garkcli.errors import UsageProblem
+from garkcli.frozen import Frozen, fields, replace
 
 if TYPE_CHECKING:
-    from garkcli.methodfile.build import MethodFile
-    from garkcli.page.paint import Paint
-    from garkcli.plots.scene import Scene
-    from garkcli.tableau.garkmethod import GarkMethod
-    from garkcli.tell.report import Report
+    from garkcli.tableau.garkmethod import Derivation, GarkMethod
 
-CONTEXT = {
-    "help_option_names": [],
-    "max_content_width": 100,
-    "token_normalize_func": arguments.spelled,
-}
-"""Settings of every command; ``-h`` and ``--help`` are an option of each."""
-_FILE = {"type": arguments.MethodType(), "callback": arguments.with_notes}
-ARGUMENTS: dict[str, dict[str, Any]] = {
-    "FILE": _FILE,
-    "FIRST": _FILE,
-    "SECOND": _FILE,
-    "ORDER": {"type": click.IntRange(1, 10_000), "name": "order_asked"},
-    "PLACE": {"type": PATH, "name": "file", "metavar": "[FILE]"},
-    "SPEC": {"type": INPUT},
-    "SOURCE": {"type": INPUT},
-    "PATH": {"type": INPUT},
-}
-"""The arguments of commands, by the words of the usage."""
-METHOD = (
-    "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
-    "or - for standard input"
-)
-"""The description of one method on the command line."""
-SEVERAL = (
-    "a directory stands for all *.gark.yaml below it, a pattern (in quotes, ** for any "
-    "directories) for the files that match"
-)
-"""The description of several methods."""
-KINDS: dict[str, dict[str, Any]] = {
-    "written": {"type": PATH},
-    "picture": {"type": PATH, "callback": arguments.picture},
-    "read": {"type": INPUT},
-    "many": {"multiple": True},
-    "pairs": {"multiple": True, "metavar": "NAME=VALUE", "callback": arguments.pairs},
-    "folders": {
-        "multiple": True,
-        "metavar": "DIR",
-        "type": click.Path(readable=False, file_okay=False),
-        "is_eager": True,
-        "expose_value": False,
-        "callback": arguments.add_folders,
-    },
-    "problem": {"type": arguments.ProblemType()},
-    "positive": {"callback": read_by(arguments.positive)},
-    "positives": {"callback": read_by(arguments.positives)},
-    "points": {"callback": read_by(arguments.point)},
-    "ratios": {"callback": read_by(arguments.ratio)},
-    "jobs": {"callback": arguments.workers},
-    "two": {"nargs": 2, "metavar": "A B"},
-    "square": {"callback": read_by(arguments.square)},
-    "seconds": {"type": click.FloatRange(min=0, min_open=True), "callback": arguments.finite},
-    "target": {"required": True, "shell_complete": completed("bridges.registry:bridges")},
-    "report": {"shell_complete": completed("report.schemas:REPORTS")},
-}
-"""The types of values of options, by the words of the table."""
-WORDS = {"forms": "cli.options:forms", "kinds": "ntrees.symplectic:KINDS"}
-"""The places of the words that options accept."""
+T = TypeVar("T")
+Word = TypeVar("Word", bound=str)
 
 
-REDUCED = "reduced"
-"""The value of ``--to`` for the smallest equivalent method, besides the forms."""
+class Kind(Frozen, Generic[T]):
+    """The values of an option: the settings of click that read them as a T.
 
-
-def forms() -> list[str]:
-    from garkcli.conversion.targets import TARGETS
-
-    return [*TARGETS, REDUCED]
-
-
-def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
-    if wanted and not context.resilient_parsing:
-        put(context.get_help() + "\n")
-        context.exit()
-
-
-def help_option() -> click.Option:
-    """Returns the option that shows the help of its command."""
-    return click.Option(
-        ["-h", "--help"],
-        is_flag=True,
-        is_eager=True,
-        expose_value=False,
-        callback=_show_help,
-        help="Show this message and exit.",
-    )
-
-
-class _Argument(click.Option):
-    """An option for an argument of a function of the package.
-
-    Its help and its default are those of the argument, looked up only for the help; if it is not
-    given, it is not passed.
+    ``choices`` is the place of the words that it accepts, ``holds`` the format of a file that the
+    command writes.
     """
 
-    def __init__(self, flags: list[str], of: str, **settings: Any) -> None:
-        self._of = of
-        self._help: str | None = None
-        self._has_default = "default" in settings or bool(settings.get("required"))
-        super().__init__(flags, **settings)
+    settings: Mapping[str, Any]
+    choices: str = ""
+    holds: str = ""
+
+
+class Option(Frozen):
+    """An option, or an argument.
+
+    ``flags`` are as on the command line, of an argument its word in the usage; ``of`` is the
+    function and the argument in Python, or empty; without ``help`` the docstring of the argument
+    serves. ``heading`` begins a group in the help. ``is_former`` keeps it out of the help.
+    """
+
+    flags: tuple[str, ...]
+    kind: Kind[Any]
+    of: str = ""
+    help: str = ""
+    heading: str = ""
+    is_former: bool = False
 
     @property
-    def help(self) -> str | None:
-        """The text of the option, or the documentation of the argument."""
-        return self._help or told(self._of)
+    def is_argument(self) -> bool:
+        return not self.flags[0].startswith("-")
 
-    @help.setter
-    def help(self, text: str | None) -> None:
-        self._help = text
+    @property
+    def key(self) -> str:
+        """The long flag, or the word of an argument without brackets and dots."""
+        if self.is_argument:
+            return self.flags[0].strip("[].")
+        return next(x for x in self.flags if x.startswith("--")).partition("/")[0]
 
-    def get_default(self, ctx: click.Context, call: bool = True) -> Any:
-        """Returns the default of the argument for the help, unless the command has its own."""
-        if self._has_default:
-            return super().get_default(ctx, call)
-        default = None if call else parameter_of(self._of).default
-        # an empty text is not worth a word of help
-        return None if default in (inspect.Parameter.empty, "") else default
+    @property
+    def is_flag(self) -> bool:
+        return bool(self.kind.settings.get("is_flag"))
 
-
-def parameter_of(of: str) -> inspect.Parameter:
-    """Returns the argument ``function.argument`` of the package."""
-    function, _, name = of.partition(".")
-    return inspect.signature(getattr(import_module("garkcli"), function)).parameters[name]
+    def is_given(self, value: object) -> bool:
+        return value not in (None, (), {}) and not (value is False and self.is_flag)
 
 
-def told(of: str) -> str:
-    """Returns the text about an argument in the docstring of a function."""
-    function, _, name = of.partition(".")
-    lines = iter((inspect.getdoc(getattr(import_module("garkcli"), function)) or "").splitlines())
-    found = ""
-    for line in lines:
-        if found and not line.startswith("        "):
-            break
-        if found or line.startswith(f"    {name}: "):
-            found = f"{found} {line.strip()}".strip()
-    text = found.removeprefix(f"{name}: ").replace("``", "")
-    return text[:1].upper() + text[1:]
+class Bundle(Frozen):
+    """Further options that a function makes; their values are a mapping by their names."""
+
+    make: Callable[[], list[click.Option]]
 
 
-_DECLARED: dict[str, Callable[[], click.Command]] = {}
+class Value(Frozen):
+    """One value of an option, in a rule."""
+
+    option: Option
+    value: object
 
 
-def declared(
-    name: str, formats: Sequence[str] = (), **more: Any
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Makes the function the implementation of a command in the table of calls.
+class Rule(Frozen):
+    """Options that require or exclude others: of the first ones the one that is given requires one
+    of the others if ``needs``, otherwise excludes them all.
 
-    It takes the arguments as ``Given`` and the ``Output``, and returns the exit code, or None for
-    0. ``formats`` are those it writes, the first by default; ``more`` has settings of its
-    arguments, and under ``options`` a function that makes further ones.
+    OPTION in the message is the option that is given. For ``--format`` the effective format counts,
+    for ``--output`` a file.
     """
 
-    def declare(function: Callable[..., Any]) -> Callable[..., Any]:
-        _DECLARED[name] = partial(_made, name, function, formats, more)
-        return function
+    options: tuple[Option | Value, ...]
+    needs: bool
+    others: tuple[Option | Value, ...]
+    message: str
+    cure: str
 
-    return declare
+    @property
+    def code(self) -> str:
+        """The kind of fault."""
+        return "option-alone" if self.needs else "options-clash"
 
+    def check(self, value_of: Callable[[Option], object]) -> None:
+        """Raises UsageProblem for options that break the rule."""
 
-@cache
-def command_of(name: str) -> click.Command:
-    """Returns the command of that name, from the file in the table."""
-    import_module(f"garkcli.cli.{COMMANDS[name].file}")
-    return _DECLARED[name]()
+        def is_given(each: Option | Value) -> bool:
+            if isinstance(each, Value):
+                return value_of(each.option) == each.value
+            return each.is_given(value_of(each))
 
-
-def _made(
-    name: str, function: Callable[..., Any], formats: Sequence[str], more: Mapping[str, Any]
-) -> click.Command:
-    row = COMMANDS[name]
-    own, shared = row.options.split(), row.common.split()
-    if takes_methods(row.arguments):
-        shared = ["--catalogue", *shared]
-    further = more["options"]() if "options" in more else ()
-    calls = {option.name: option.of for option in options_of(name) if option.of}
-    rules = rules_of(name)
-
-    def run(**values: Any) -> Any:
-        output = Output.of(values, formats)
-        if rules:
-            told = {"format": output.format, "output": output.path}
-            _check(rules, name, {**values, **told, "verbose": output.verbosity > 0})
-        if name == "check" or not takes_methods(row.arguments):
-            return function(Given(values, calls), output)
-        from garkcli.methodfile.load import noting
-
-        with noting() as read:
-            code = function(Given(values, calls), output)
-        hint_rounding(read, output)
-        return code
-
-    return click.Command(
-        name,
-        callback=run,
-        params=[
-            *(_argument(word, more) for word in row.arguments.split()),
-            *(_option(option_of(name, flag), formats) for flag in own),
-            *further,
-            *(_option(option_of(name, flag), formats) for flag in shared if flag != "--help"),
-            help_option(),
-        ],
-        help=_help(inspect.getdoc(function) or "", row.arguments),
-        context_settings=CONTEXT,
-        hidden=row.group == HIDDEN,
-    )
+        first = next(filter(is_given, self.options), None)
+        if first is not None and any(map(is_given, self.others)) is not self.needs:
+            key = first.option.key if isinstance(first, Value) else first.key
+            raise UsageProblem(self.message.replace("OPTION", key), self.cure, code=self.code)
 
 
-def takes_methods(arguments: str) -> list[str]:
-    """Returns the arguments of a command that stand for methods."""
-    return [x for x in arguments.split() if ARGUMENTS.get(x.strip("[].")) is _FILE]
+def needs(given: object, others: object, message: str, cure: str) -> Rule:
+    """Declares a rule by which an option, or each of several, needs another, or one of others."""
+    return Rule(_options(given), True, _options(others), message, cure)
 
 
-def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
-    """Notes methods whose coefficients look rounded, with the missing line.
+def excludes(given: object, others: object, message: str, cure: str) -> Rule:
+    return Rule(_options(given), False, _options(others), message, cure)
 
-    ``gark check`` has this in its report. It takes as long as a check and is skipped with -q.
+
+def being(given: object, value: object) -> Value:
+    """Declares the value of an option in a rule."""
+    first = given[0] if isinstance(given, tuple) else given
+    return Value(cast("Option", first), value)
+
+
+def _options(given: object) -> tuple[Option | Value, ...]:
+    return given if isinstance(given, tuple) else (cast("Option", given),)
+
+
+def option(
+    flags: str,
+    kind: Kind[T],
+    help: str = "",
+    *,
+    of: str = "",
+    heading: str = "",
+    is_former: bool = False,
+) -> T | None:
+    """Declares an option whose value is None unless it is given."""
+    return cast("T", Option(tuple(flags.split()), kind, of, help, heading, is_former))
+
+
+def preset(
+    flags: str, kind: Kind[T], default: T, help: str = "", *, of: str = "", heading: str = ""
+) -> T:
+    """Declares an option with a default of the command."""
+    return cast("T", option(flags, _with(kind, default=default), help, of=of, heading=heading))
+
+
+def always(flags: str, kind: Kind[T], help: str = "", *, heading: str = "") -> T:
+    """Declares an option of a kind that has a value if the option is not given."""
+    return cast("T", option(flags, kind, help, heading=heading))
+
+
+def required(flags: str, kind: Kind[T], help: str = "", *, of: str = "", heading: str = "") -> T:
+    return cast("T", option(flags, _with(kind, required=True), help, of=of, heading=heading))
+
+
+def repeated(
+    flags: str, kind: Kind[T], help: str = "", *, of: str = "", heading: str = ""
+) -> tuple[T, ...]:
+    """Declares an option that can be given several times."""
+    declared: object = option(flags, _with(kind, multiple=True), help, of=of, heading=heading)
+    return cast("tuple[T, ...]", declared)
+
+
+def flag(flags: str, help: str = "", *, of: str = "", heading: str = "") -> bool:
+    kind: Kind[bool] = Kind({"is_flag": True})
+    return cast("bool", option(flags, kind, help, of=of, heading=heading))
+
+
+def switch(flags: str, help: str = "", *, of: str = "") -> bool | None:
+    """Declares ``--yes/--no``, None unless one is given."""
+    kind: Kind[bool] = Kind({} if of else {"default": None})
+    return option(flags, kind, help, of=of)
+
+
+def flag_of(word: Word, help: str, of: str) -> Word | None:
+    """Declares a flag that stands for a word; ``either`` makes one field of several."""
+    kind: Kind[Word] = Kind({"is_flag": True, "flag_value": word, "default": None})
+    return option(f"--{word}", kind, help, of=of)
+
+
+def either(first: T, *others: T, heading: str) -> T:
+    return cast("T", (replace(cast("Option", first), heading=heading), *others))
+
+
+def bundle(make: Callable[[], list[click.Option]]) -> Mapping[str, Any]:
+    """Declares further options, which a function makes when the command is made."""
+    return cast("Mapping[str, Any]", Bundle(make))
+
+
+def argument(written: str, kind: Kind[T]) -> T:
+    return cast("T", option(written, _with(kind, required=True)))
+
+
+def maybe_argument(written: str, kind: Kind[T]) -> T | None:
+    return option(f"[{written}]", _with(kind, required=False))
+
+
+def arguments_of(written: str, kind: Kind[T]) -> tuple[T, ...]:
+    """Declares an argument that is given several times; in brackets it may be left out."""
+    is_needed = not written.startswith("[")
+    declared: object = option(written, _with(kind, required=is_needed, nargs=-1))
+    return cast("tuple[T, ...]", declared)
+
+
+def _with(kind: Kind[Any], **settings: Any) -> Kind[Any]:
+    return Kind({**kind.settings, **settings}, kind.choices, kind.holds)
+
+
+def number(metavar: str, least: int, most: int | None = None) -> Kind[int]:
+    return Kind({"metavar": metavar, "type": click.IntRange(least, most)})
+
+
+def text(metavar: str) -> Kind[str]:
+    return Kind({"metavar": metavar})
+
+
+def words(*choices: Word) -> Kind[Word]:
+    return Kind({"type": click.Choice(choices)})
+
+
+def words_of(place: str, metavar: str | None = None) -> Kind[Any]:
+    """A kind of words that are looked up when the command is made."""
+    return Kind({} if metavar is None else {"metavar": metavar}, place)
+
+
+def completed(metavar: str, place: str) -> Kind[str]:
+    """A kind of texts that the shell completes with the words of a list; others are refused where
+    they are used.
     """
-    if output.verbosity < 0:
-        return
-    from garkcli.check.analysis import looks_rounded
-
-    several = len({method.source for method in methods}) > 1
-    said = []
-    for method in methods:
-        found = looks_rounded(method)
-        if found is not None:
-            where = f"{method.source}: " if several else ""
-            said.append(
-                f"{where}hint: the coefficients look rounded; with the line  {found.line}  "
-                f"order {found.order} holds"
-            )
-    for text in dict.fromkeys(said):
-        output.note(text)
+    return Kind({"metavar": metavar, "shell_complete": arguments.completed(place)})
 
 
-def _help(text: str, arguments: str) -> str:
-    """Returns the help of a command, with a paragraph about its methods."""
-    words = takes_methods(arguments)
-    if not words:
-        return text
-    names = " and ".join(x.strip("[].") for x in words)
-    meant = f"{names} {'is' if len(words) == 1 else 'are each'} {METHOD}"
-    if "..." in arguments:
-        meant += f"; {SEVERAL}"
-    first, *rest = text.split("\n\n")
-    return "\n\n".join([first, f"{meant}.", *rest])
+def read(metavar: str, reader: Callable[[str, str], T]) -> Kind[T]:
+    """A kind of values that a function makes of the option and its text."""
+    return Kind({"metavar": metavar, "callback": arguments.read_by(reader)})
 
 
-def _check(rules: Iterable[OptionRule], command: str, values: Mapping[str, Any]) -> None:
-    """Raises UsageProblem for options that exclude each other, before anything is read."""
-
-    def is_given(word: str) -> bool:
-        flag, _, wanted = word.partition("=")
-        if not flag.startswith("-"):
-            return values[ARGUMENTS[flag].get("name", flag.lower())] is not None
-        row = option_of(command, flag)
-        value = values[row.name]
-        wanted = next((x[6:] for x in row.kind if x.startswith("value=")), wanted)
-        if wanted:
-            return bool(value == wanted)
-        is_left_out = value is None or value == () or value == {}
-        return not (is_left_out or (value is False and "/" not in row.written))
-
-    for rule in rules:
-        option = next(filter(is_given, rule.options), "").partition("=")[0]
-        if option and any(map(is_given, rule.others)) is not rule.needs:
-            raise UsageProblem(rule.message.replace("OPTION", option), rule.cure, code=rule.code)
-
-
-def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
-    """Returns an argument from its usage: [FILE...] stands for several that may be left out."""
-    required, several = not word.startswith("["), word.endswith(("...", "...]"))
-    bare = word.strip("[].")
-    settings = {**ARGUMENTS.get(bare, {}), **more.get(bare, {})}
-    name = settings.pop("name", f"{bare.lower()}s" if several else bare.lower())
-    settings = {"required": required, "metavar": word, **settings}
-    return click.Argument([name], nargs=-1 if several else 1, **settings)
-
-
-def _option(row: Option, formats: Sequence[str]) -> click.Option:
-    settings: dict[str, Any] = {"is_flag": True} if row.is_flag and "/" not in row.written else {}
-    for word in row.kind:
-        key, sign, value = word.partition("=")
-        if word == "formats":
-            settings |= {"type": click.Choice(formats), "default": formats[0]}
-        elif word[0].isdigit():
-            least, _, most = word.partition("..")
-            settings["type"] = click.IntRange(int(least), int(most) if most else None)
-        elif word in KINDS:
-            settings |= KINDS[word]
-        elif key == "words":
-            settings["type"] = click.Choice(
-                named(WORDS[value]) if value in WORDS else value.split(",")
-            )
-        elif key == "default":
-            settings["default"] = value or None
-        elif key == "value":
-            settings["flag_value"] = value
-        elif key == "holds":
-            settings["callback"] = partial(_held, value)
-        elif key == "alone":
-            flag_value = int(value) if value.isdigit() else value
-            settings |= {"is_flag": False, "flag_value": flag_value, "default": None}
-        elif not sign:
-            settings["metavar"] = word
-    settings["help"] = row.help or None
-    is_of_argument = bool(row.of) and "default" not in settings
-    settings["show_default"] = is_of_argument or settings.get("default") is not None
-    flags = [*row.flags, row.name]
-    return _Argument(flags, row.of, **settings) if row.of else click.Option(flags, **settings)
+def file(holds: str = "", metavar: str = "FILE") -> Kind[str]:
+    """A kind of files that the command writes, in one format if ``holds`` says so."""
+    settings: dict[str, Any] = {"metavar": metavar, "type": arguments.PATH}
+    if holds:
+        settings["callback"] = partial(_held, holds)
+    return Kind(settings, holds=holds)
 
 
 def _held(
@@ -351,221 +266,163 @@ def _held(
     return path
 
 
-class Given(SimpleNamespace):
-    """The arguments and options of a command by their names.
+def workers(most: int) -> Kind[int]:
+    return Kind({**number("N", 0, most).settings, "callback": arguments.workers})
 
-    ``which`` is ``"conjugate"``, ``"pair"`` or None. ``calls`` has the functions and arguments of
-    the package for the options.
-    """
 
-    def __init__(self, values: Mapping[str, Any], calls: Mapping[str, str]) -> None:
-        super().__init__(**values)
-        self._calls = calls
-        self.which: Any = next((x for x in ("conjugate", "pair") if values.get(x)), None)
+def hidden_default(kind: Kind[T]) -> Kind[T]:
+    """The kind without the default of the Python argument in the help."""
+    return _with(kind, default=None)
+
+
+def alone(kind: Kind[T], value: T) -> Kind[T]:
+    """The kind with a value for the flag alone."""
+    return _with(kind, is_flag=False, flag_value=value, default=None)
+
+
+def input_file(metavar: str = "FILE") -> Kind[str]:
+    return Kind({"metavar": metavar, "type": arguments.INPUT})
+
+
+FILE: Kind[str] = Kind({"type": arguments.PATH})
+INPUT: Kind[str] = Kind({"type": arguments.INPUT})
+METHOD: Kind[str] = Kind({"type": arguments.MethodType(), "callback": arguments.with_notes})
+PROBLEM: Kind[str] = Kind({"type": arguments.ProblemType()})
+SETTINGS: Kind[Mapping[str, str]] = Kind(
+    {"multiple": True, "metavar": "NAME=VALUE", "callback": arguments.pairs}
+)
+SECONDS: Kind[float] = Kind(
+    {"metavar": "T", "type": click.FloatRange(min=0, min_open=True), "callback": arguments.finite}
+)
+TWO: Kind[tuple[str, str]] = Kind({"nargs": 2, "metavar": "A B"})
+FOLDER: Kind[str] = Kind(
+    {
+        "multiple": True,
+        "metavar": "DIR",
+        "type": click.Path(readable=False, file_okay=False),
+        "is_eager": True,
+        "expose_value": False,
+        "callback": arguments.add_folders,
+    }
+)
+PICTURE: Kind[str] = Kind({**file().settings, "callback": arguments.picture})
+DECIMALS = number("N", 1, 1000)
+"""The digits of decimals."""
+
+
+class Options(Frozen):
+    """The arguments and options of a command, each by its name."""
+
+    rules: ClassVar[tuple[Rule, ...]] = ()
 
     def of(self, function: str) -> dict[str, Any]:
         """Returns the given options that are arguments of a function of the package, by their names
         there.
         """
         found = {}
-        for name, of in self._calls.items():
-            owner, _, argument = of.partition(".")
-            value = getattr(self, name) if owner == function else None
-            if value is not None and value is not False and value != ():
-                found[argument] = value
+        for name, declared in declared_by(type(self)).items():
+            value = getattr(self, name)
+            for each in declared if isinstance(declared, tuple) else ():
+                owner, _, argument = each.of.partition(".")
+                if owner == function and value is not None and value is not False and value != ():
+                    found[argument] = value
         return found
 
-    def method(self, file: str = "", is_any_kind: bool = False) -> GarkMethod:
-        """Returns the method of FILE with the values of --set, or its conjugate or its pair.
 
-        Raises MethodFileError if it is not a method, HasFreeParameters if a parameter has no value,
-        ZeroWeight if a conjugate would divide by zero.
+def declared_by(command: type) -> dict[str, tuple[Option, ...] | Bundle]:
+    """Returns the options of a command by the names of their values."""
+    if not issubclass(command, Options):
+        return {}
+    values = zip(fields(command), command.__struct_defaults__, strict=True)
+    return {name: (x,) if isinstance(x, Option) else x for name, x in values}
+
+
+def rules_of(command: type) -> list[Rule]:
+    """Returns the rules of a command in the order in which they are examined."""
+    return [rule for x in command.__mro__ for rule in x.__dict__.get("rules", ())]
+
+
+SET = always("--set", SETTINGS, "Give a parameter of FILE a value; repeatable.", heading="Method")
+
+
+class WithSettings(Options):
+    """Options of a command on methods whose parameters may be given values."""
+
+    settings: Mapping[str, str] = SET
+
+    def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
+        """Returns a method with the values of --set.
+
+        Raises MethodFileError if it is not a method, HasFreeParameters if a parameter has no value.
         """
         from garkcli.methodfile.load import load
 
-        method: GarkMethod = load(file or self.file, self.settings)
+        found: GarkMethod = load(file, self.settings)
         if not is_any_kind:
-            method.tableau.demand_fields("this command")
-        return getattr(method, self.which) if self.which else method
-
-    def files_meant(self, output: Output) -> list[str]:
-        """Returns the files that FILE... stands for, and protects them from being overwritten.
-
-        Raises UsageProblem if the report would go to one of them, or if --set is given with
-        several.
-        """
-        from garkcli.methodfile.naming import find_files
-
-        found = list(find_files(self.files, output.note))
-        for path in found:
-            note_input(path)
-        output.check_place()
-        if len(found) > 1 and getattr(self, "settings", None):
-            message = "--set is for one FILE"
-            raise UsageProblem(message, "give the files one by one", code="options-clash")
+            found.tableau.demand_fields("this command")
         return found
 
 
-class Output:
-    """The place and the appearance of a report.
+CONJUGATE = flag("--conjugate", "Take the symplectic conjugate of FILE instead.")
+PAIR = flag("--pair", "Take the symplectic pair of FILE instead, 2N colours.")
 
-    ``path`` is the file of ``-o``, or None; ``verbosity`` −1, 0 or 1; ``is_streamed`` says that
-    ``-o -`` was given, ``is_by_ending`` that the ending of the file determines the format. Raises
-    UsageProblem, before any work, if the report cannot be written.
-    """
 
-    def __init__(
-        self,
-        format: str = "text",
-        path: str | None = None,
-        verbosity: int = 0,
-        color: str = "never",
-    ) -> None:
-        self.format = format
-        self.path = path
-        self.verbosity = verbosity
-        self.is_streamed = False
-        self.is_by_ending = False
-        is_wanted = color == "auto" and path is None and wants_colour(sys.stdout)
-        self._has_colour = color == "always" or is_wanted
-        if verbosity < 0:
-            hush()
-        self.check_place()
+class Derivable(WithSettings):
+    """Options of a command for which the conjugate or the pair can stand for a method."""
 
-    @classmethod
-    def of(cls, values: dict[str, Any], formats: Sequence[str] = ()) -> Output:
-        """Returns the output for ``--format``, ``-o``, ``-q``, ``-v`` and ``--color``, which are
-        removed from ``values``.
-
-        ``formats`` are those that the command writes, empty if it checks the ending itself. Raises
-        UsageProblem if the ending of the file belongs to another format.
-        """
-        verbosity = values.pop("verbose", False) - values.pop("quiet", False)
-        format, path = values.pop("format", "text"), values.pop("output", None)
-        is_streamed = path == STDIN
-        path = None if is_streamed else path
-        named = None
-        if path is not None and formats:
-            named = settled(path, formats, _chosen(format))
-        output = cls(named or format, path, verbosity, values.pop("color", "never"))
-        output.is_by_ending = named is not None
-        output.is_streamed = is_streamed
-        for note in arguments.notes():
-            output.note(note)
-        return output
-
-    def check_place(self, path: str | None = None) -> None:
-        """Raises UsageProblem if the report, or another file, cannot be written."""
-        path = self.path if path is None else path
-        if path is not None:
-            from garkcli.page.writing import refuse_unwritable
-
-            refuse_unwritable(path)
+    conjugate: bool = CONJUGATE
+    pair: bool = PAIR
+    rules: ClassVar[tuple[Rule, ...]] = (
+        excludes(PAIR, CONJUGATE, "--pair and --conjugate are two methods", "ask for one"),
+    )
 
     @property
-    def paint(self) -> Paint:
-        """The colours and the encoding of the report."""
-        from garkcli.page.paint import Paint
+    def which(self) -> Derivation | None:
+        return "conjugate" if self.conjugate else "pair" if self.pair else None
 
-        encoding = None if self.path else getattr(sys.stdout, "encoding", None)
-        return Paint(self._has_colour, encoding or "utf-8")
+    def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
+        """Returns a method with the values of --set, or its conjugate or its pair.
 
-    @property
-    def width(self) -> int:
-        """The width of the terminal in columns, or 80."""
-        from shutil import get_terminal_size
-
-        return get_terminal_size((80, 24)).columns if self.path is None else 80
-
-    def write(self, text: str | Iterable[str], format: str = "") -> None:
-        """Writes the report; a file appears whole or not at all.
-
-        ``format`` overrides that of ``--format``.
+        Raises the errors of WithSettings, and ZeroWeight if a conjugate would divide by zero.
         """
-        pieces = [text] if isinstance(text, str) else text
-        format = format or self.format
-        coloured = self._has_colour
-        if self.path is None:
-            for piece in pieces:
-                put(piece, format, coloured)
-            return
-        self.save(self.path, safe_pieces(pieces, format, coloured))
-
-    def write_exactly(self, text: str) -> None:
-        """Writes a text with all its characters and line ends, such as a patch."""
-        if self.path is None:
-            put_exactly(text)
-        else:
-            self.save(self.path, [text.encode()])
-
-    def save(self, path: str, pieces: Iterable[str | bytes]) -> None:
-        """Writes a file, and notes it."""
-        from garkcli.page.writing import write_whole
-
-        if write_whole(path, pieces):
-            self.note(f"wrote {path}")
-
-    def tell(self, report: Report[Any], *wholes: Any) -> None:
-        self.write(report.render(wholes, self.format, self.paint, self.verbosity, width=self.width))
-
-    def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
-        """Writes a result while it is computed.
-
-        ``is_document`` says whether LaTeX has its preamble or only names it; None for neither.
-        """
-        pieces = report.pieces(whole, self.format, self.paint, self.verbosity, width=self.width)
-        if self.format == "latex" and is_document is not None:
-            from garkcli.page.latex import fragment
-
-            pieces = fragment(pieces, is_document)
-        self.write(pieces)
-
-    def suit(self) -> None:
-        """Replaces the format ``auto`` by the one that suits the environment."""
-        if self.format == "auto":
-            is_job = os.environ.get("GITHUB_ACTIONS") == "true"
-            self.format = "github" if is_job else "text"
-
-    def note(self, text: str) -> None:
-        """Writes a remark to stderr unless -q is given."""
-        if self.verbosity >= 0:
-            say(text)
-
-    def save_plot(self, scene: Scene, path: str) -> None:
-        from pathlib import Path
-
-        from garkcli.plots.saving import save_scene
-
-        save_scene(scene, Path(path))
-        self.note(f"wrote {path}")
-
-    def tell_failure(self, error: GarkError, name: str, report: Report[Any]) -> int:
-        """Reports on stderr, and in reports for programs, why a run has no result; returns the exit
-        code.
-        """
-        from garkcli.report.remarks import FailedRun
-
-        complain(error)
-        if self.format in ("json", "csv"):
-            self.tell(report, FailedRun(name, faults_of(error)))
-        return failure_code(error)
+        found = super().method(file, is_any_kind)
+        return found.conjugate if self.conjugate else found.pair if self.pair else found
 
 
-def _chosen(format: str) -> str | None:
-    """Returns the format if the command line has one."""
-    source = click.get_current_context().get_parameter_source("format")
-    is_said = source is not click.core.ParameterSource.DEFAULT
-    return format if is_said and format != AUTO else None
-
-
-def faults_of(error: GarkError) -> tuple[Remark, ...]:
-    if isinstance(error, MethodFileError):
-        return error.faults
-    return (Remark(error.message, error.help, code=error.code),)
-
-
-def failure_code(error: GarkError) -> int:
-    """Returns the exit code of a failed run: 1 for a step, 2 for anything else."""
-    from garkcli.stepping.integrator import StepFailed
-
-    return 1 if isinstance(error, StepFailed) else 2
+FORMAT: str = always("--format", Kind({}))
+OUTPUT = option(
+    "-o --output",
+    file(),
+    "Write the result to FILE, in the format that its ending names; - is standard output.",
+)
+QUIET = flag("-q --quiet", "Say less.")
+VERBOSE = flag("-v --verbose", "Say more.")
+COLOR = preset("--color", words("auto", "always", "never"), "auto")
+WRITTEN: Mapping[str, object] = {"format": FORMAT, "output": OUTPUT, "quiet": QUIET, "color": COLOR}
+REPORTED: Mapping[str, object] = {
+    "format": FORMAT,
+    "output": OUTPUT,
+    "quiet": QUIET,
+    "verbose": VERBOSE,
+    "color": COLOR,
+}
+"""The options on the output of most commands."""
+CATALOGUE = option(
+    "--catalogue", FOLDER, "Add the method files below DIR to the catalogue; repeatable."
+)
+DIGITS = option(
+    "--digits",
+    DECIMALS,
+    "Decimals with N digits; by default numbers with simple radicals are exact.",
+    heading="Report",
+)
+DOCUMENT = flag(
+    "--document", "With --format latex: a complete document that compiles.", heading="Report"
+)
+DOCUMENT_RULE = needs(
+    DOCUMENT, being(FORMAT, "latex"), "--document goes with --format latex", "add --format latex"
+)
+PLOT_HELP = "Draw a plot into FILE: .png, .svg or .pdf."
+PLOT = option("--plot", PICTURE, PLOT_HELP, heading="Report")
+JOBS_HELP = "The number of processes; 0 is one per processor."
+BOTH_SPRINGS = "--slow and --fast belong together", "give both"

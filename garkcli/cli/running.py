@@ -6,13 +6,19 @@ from collections.abc import Sequence
 from math import isnan
 from typing import TYPE_CHECKING
 
-from garkcli.cli.options import Given, Output, declared, failure_code, faults_of
+from garkcli.cli import options as opt
+from garkcli.cli.arguments import positive, positives
+from garkcli.cli.command import declared
+from garkcli.cli.output import Output, failure_code, faults_of
 from garkcli.cli.streams import say_faults
 from garkcli.doing import doing
 from garkcli.errors import GarkError, MethodFileError, UsageProblem
+from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
     from garkcli.backward.formulas import ModifiedFormula
     from garkcli.convergence.result import Convergence
     from garkcli.longtime.history import LongRun
@@ -25,23 +31,181 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
 
+OMEGA = opt.option(
+    "--omega",
+    opt.read("W", positive),
+    "The frequency of the oscillator; 1 by default.",
+    of="Oscillator.omega",
+    heading="Problem",
+)
+SPLIT = opt.option(
+    "--split",
+    opt.text("K:V,..."),
+    "The oscillator's shares of kinetic and potential energy.",
+    of="Oscillator.shares",
+)
+SEED = opt.option(
+    "--seed",
+    opt.hidden_default(opt.number("N", 0)),
+    "The seed of random coefficients; 1 by default.",
+    of="problem.seed",
+)
+STIFFNESS = opt.option(
+    "--stiffness",
+    opt.read("S", positive),
+    "The stiffness of a stiff problem; in a file the parameter of this name.",
+    of="problem.stiffness",
+)
+
+
+class OnProblem(opt.Derivable):
+    """Options of a command that follows a problem over time."""
+
+    omega: fmpq | None = OMEGA
+    split: str | None = SPLIT
+    seed: int | None = SEED
+    stiffness: fmpq | None = STIFFNESS
+    t_end: fmpq | None = opt.option(
+        "--t-end",
+        opt.read("T", positive),
+        "The final time; each problem has its own.",
+        of="long_run.t_end",
+    )
+
+
+class Converge(OnProblem):
+    """The options of ``gark converge``."""
+
+    files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
+    problem: str | None = opt.option(
+        "--problem",
+        opt.PROBLEM,
+        "The problem to solve: a name of gark list problems, or a file; by default a random "
+        "polynomial that sees every tree.",
+        of="converge.problem",
+    )
+    steps: tuple[fmpq, ...] | None = opt.option(
+        "--steps",
+        opt.read("H,...", positives),
+        "Step sizes, instead of a ladder of halvings that fits the errors.",
+        of="converge.steps",
+        heading="Steps",
+    )
+    jacobian: Taken | None = opt.option(
+        "--jacobian",
+        opt.hidden_default(opt.words("exact", "old", "diagonal")),
+        "The Jacobian of a Rosenbrock method: exact; old, of the step before; or diagonal, that of "
+        "any matrix.",
+        of="converge.jacobian",
+    )
+    work: bool = opt.flag(
+        "--work",
+        "Count evaluations, measure time, and plot the errors against them.",
+        of="converge.is_timed",
+        heading="Report",
+    )
+    against: str | None = opt.option(
+        "--against",
+        opt.hidden_default(opt.words("h", "evaluations", "seconds")),
+        "The horizontal axis of plots: h, or evaluations with --work; seconds depend on the "
+        "machine.",
+        of="plot.against",
+    )
+    plot: str | None = opt.PLOT
+
+
+class Energy(OnProblem):
+    """The options of ``gark energy``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    problem: str = opt.preset(
+        "--problem",
+        opt.PROBLEM,
+        "oscillator",
+        "The problem to follow: a name of gark list problems, or a file.",
+        of="long_run.problem",
+    )
+    step: fmpq | None = opt.option(
+        "--step", opt.read("H", positive), of="long_run.step", heading="Steps"
+    )
+    digits: int | None = opt.option(
+        "--digits",
+        opt.hidden_default(opt.number("N", 1, 200)),
+        "Step with N digits instead of floats.",
+        of="long_run.digits",
+    )
+    modified: int | None = opt.option(
+        "--modified",
+        opt.alone(opt.number("[ORDER]", 1, 100), 5),
+        "Measure the modified Hamiltonian of trees up to ORDER (by default 5) too.",
+        of="modified_run.max_order",
+        heading="Measured",
+    )
+    symplecticity: bool = opt.flag("--symplecticity", "Measure MᵀJM − J of steps, M = ∂y₁/∂y₀.")
+    bounded: bool = opt.flag("--bounded", "Claim that nothing drifts, as far as this run can tell.")
+    max_error: fmpq | None = opt.option(
+        "--max-error", opt.read("E", positive), "Claim that no energy error is larger than E."
+    )
+    points: int | None = opt.option(
+        "--points", opt.number("N", 10, 1_000_000), of="long_run.points", heading="Report"
+    )
+    plot: str | None = opt.PLOT
+    rules = (
+        opt.excludes(
+            (OMEGA, SPLIT, STIFFNESS, digits, symplecticity, bounded, max_error, plot),
+            modified,
+            "OPTION does not go with --modified",
+            "leave it out",
+        ),
+    )
+
+
+class Modified(opt.Derivable):
+    """The options of ``gark modified``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    order: int = opt.preset(
+        "--order -n",
+        opt.number("n", 1, 100),
+        5,
+        of="backward_analysis.max_order",
+        heading="Analysis",
+    )
+    equation: bool = opt.flag(
+        "--equation", "Show rooted trees too if there is a modified Hamiltonian."
+    )
+    problem: str | None = opt.option(
+        "--problem",
+        opt.PROBLEM,
+        "The formula on a problem: a name of gark list problems, or a file.",
+        of="modified_formula.problem",
+    )
+    seed: int | None = SEED
+    digits: int | None = opt.DIGITS
+    document: bool = opt.DOCUMENT
+    rules = (
+        opt.DOCUMENT_RULE,
+        opt.needs(SEED, problem, "--seed is for the problem", "give --problem too"),
+    )
+
+
 DRIFTING = frozenset({"drifts", "unstable"})
 """Verdicts that contradict ``--bounded``."""
 UNDECIDED = 3
 """The exit code of undecided questions."""
 
 
-def refuse_misplaced(given: Given) -> None:
-    """Raises UsageProblem for options that do not apply to --problem."""
+def _refuse_misplaced(problem: str, given: OnProblem) -> None:
+    """Raises UsageProblem for options that do not apply to a problem."""
     from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
 
-    for option in ("omega", "split"):
-        if given.problem != "oscillator" and getattr(given, option, None):
-            message = f"--{option} is for the oscillator, not for {given.problem}"
+    for option, value in (("--omega", given.omega), ("--split", given.split)):
+        if problem != "oscillator" and value:
+            message = f"{option} is for the oscillator, not for {problem}"
             raise UsageProblem(message, "leave it out", code="other-problem")
-    check_seed(given.problem, given.seed)
-    if getattr(given, "stiffness", None) is not None and given.problem in PROBLEMS:
-        check_stiffness(given.problem)
+    check_seed(problem, given.seed)
+    if given.stiffness is not None and problem in PROBLEMS:
+        check_stiffness(problem)
 
 
 def note_changing(problem: Problem, output: Output) -> None:
@@ -55,8 +219,8 @@ def note_changing(problem: Problem, output: Output) -> None:
         )
 
 
-@declared("converge", [*FORMATS, "csv"])
-def converge(given: Given, output: Output) -> int:
+@declared("converge", Converge, [*FORMATS, "csv"])
+def converge(given: Converge, output: Output) -> int:
     """The convergence test: errors over step sizes, observed against visible order, energy error.
 
     gark steps with as many digits as the errors need, so that a method of order 12 shows slope 12,
@@ -73,12 +237,12 @@ def converge(given: Given, output: Output) -> int:
     step fails, 2 a file cannot be read, or the method does not fit the problem, 3 an order is
     undecided.
     """
-    paths = given.files_meant(output)
+    paths = output.files_meant(given.files, given.settings)
     if given.problem is None and (given.omega or given.split):
-        given.problem = "oscillator"
+        given = replace(given, problem="oscillator")
     # before anything is read
     if given.problem is not None:
-        refuse_misplaced(given)
+        _refuse_misplaced(given.problem, given)
     elif given.stiffness is not None:
         message = "--stiffness is for a problem that has one"
         cure = "name it with --problem, such as --problem van-der-pol"
@@ -86,11 +250,14 @@ def converge(given: Given, output: Output) -> int:
     if given.against not in (None, "h") and not given.work:
         message = f"--against {given.against} is not known without measuring it"
         raise UsageProblem(message, "add --work", code="other-problem")
-    given.against = given.against or ("evaluations" if given.work else "h")
     return _one(paths[0], given, output) if len(paths) == 1 else _several(paths, given, output)
 
 
-def _one(path: str, given: Given, output: Output) -> int:
+def _against(given: Converge) -> str:
+    return given.against or ("evaluations" if given.work else "h")
+
+
+def _one(path: str, given: Converge, output: Output) -> int:
     """Tests one method."""
     from garkcli.report.convergence import REPORT, ConvergenceReport
 
@@ -103,15 +270,15 @@ def _one(path: str, given: Given, output: Output) -> int:
         result = problems.tested(method)
     except GarkError as error:
         return output.tell_failure(error, name, REPORT)
-    output.tell(REPORT, ConvergenceReport(result, name, given.work, given.against))
+    output.tell(REPORT, ConvergenceReport(result, name, given.work, _against(given)))
     if given.plot is not None:
         from garkcli.plots.convergence import errors_scene
 
-        output.save_plot(errors_scene([(name, result)], given.against), given.plot)
+        output.save_plot(errors_scene([(name, result)], _against(given)), given.plot)
     return result.exit_code
 
 
-def _several(paths: Sequence[str], given: Given, output: Output) -> int:
+def _several(paths: Sequence[str], given: Converge, output: Output) -> int:
     """Tests all files and compares them. Failures are reported at once on stderr and do not stop
     the other tests.
 
@@ -133,16 +300,16 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
                 found if isinstance(found, ConvergedMethod) else _entry(file, found, problems)
             )
             work.reach(work.done + 1)
-    output.tell(REPORT, ConvergedMethods(entries, given.work, given.against))
+    output.tell(REPORT, ConvergedMethods(entries, given.work, _against(given)))
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if given.plot is not None and results:
-        output.save_plot(errors_scene(results, given.against), given.plot)
+        output.save_plot(errors_scene(results, _against(given)), given.plot)
     elif given.plot is not None:
         output.note(f"nothing to draw into {given.plot}")
     return max(entry.exit_code for entry in entries)
 
 
-def _loaded(path: str, given: Given) -> GarkMethod | ConvergedMethod:
+def _loaded(path: str, given: Converge) -> GarkMethod | ConvergedMethod:
     try:
         return given.method(path, is_any_kind=True)
     except GarkError as error:
@@ -178,7 +345,7 @@ class Problems:
     their number. Without a name, the problem is one for which every tree of the methods matters.
     """
 
-    def __init__(self, given: Given) -> None:
+    def __init__(self, given: Converge) -> None:
         from garkcli.convergence.convergence import check_steps, usual_time
         from garkcli.problems.builtin import GENERIC, is_path, problem
         from garkcli.problems.files.load import load_problem
@@ -251,12 +418,12 @@ class Problems:
         given = self._given
         problem = self.of(self._stepped(method))
         times = given.t_end, given.steps
-        taken: Taken = given.jacobian or "exact"
+        taken = given.jacobian or "exact"
         return converge(method, problem, *times, is_timed=given.work, jacobian=taken)
 
 
-@declared("energy", [*FORMATS, "csv"])
-def energy(given: Given, output: Output) -> int:
+@declared("energy", Energy, [*FORMATS, "csv"])
+def energy(given: Energy, output: Output) -> int:
     """The error of the energy and of every other invariant over a long time: does it drift?
 
     A fit separates the drift from the oscillation and gives its uncertainty; a drift that a slow
@@ -274,15 +441,15 @@ def energy(given: Given, output: Output) -> int:
     from garkcli.api.runs import long_run
     from garkcli.report.energy import REPORT, EnergyReport
 
-    refuse_misplaced(given)
+    _refuse_misplaced(given.problem, given)
     if given.problem == "oscillator" and given.digits is not None:
         message = "--digits is not for the oscillator: its steps are exact"
         raise UsageProblem(message, "leave it out", code="other-problem")
     if given.modified is not None:
-        return _in_modified(given, output)
+        return _in_modified(given.modified, given, output)
     name = given.file
     try:
-        method = given.method()
+        method = given.method(given.file)
         name = method.name
         problem = _followed(method.tableau, given, output)
         run = long_run(method, **{**given.of("long_run"), "problem": problem})
@@ -303,7 +470,7 @@ def energy(given: Given, output: Output) -> int:
     return UNDECIDED if None in answers else 0
 
 
-def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Problem:
+def _followed(tableau: Tableau, given: Energy, output: Output) -> Oscillator | Problem:
     """Returns the problem of a long run, with as many terms as the tableau needs.
 
     Raises UsageProblem if nothing is conserved, or --symplecticity does not apply.
@@ -355,7 +522,7 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
     return Symplecticity(proved, symplecticity_defects(tableau, run.problem, run.step, run.states))
 
 
-def _claims(run: LongRun, given: Given) -> tuple[RunClaim, ...]:
+def _claims(run: LongRun, given: Energy) -> tuple[RunClaim, ...]:
     """Returns the claims of the options. An undecided run is neither bounded nor drifting."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
@@ -380,7 +547,7 @@ def _claims(run: LongRun, given: Given) -> tuple[RunClaim, ...]:
     return tuple(claims)
 
 
-def _in_modified(given: Given, output: Output) -> int:
+def _in_modified(order: int, given: Energy, output: Output) -> int:
     """Reports the error in the modified Hamiltonian.
 
     Raises UsageProblem for rounded coefficients.
@@ -389,7 +556,7 @@ def _in_modified(given: Given, output: Output) -> int:
     from garkcli.api.problems import hamiltonian_for
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
-    method = given.method()
+    method = given.method(given.file)
     if method.tolerance is not None:
         raise UsageProblem(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
@@ -398,7 +565,7 @@ def _in_modified(given: Given, output: Output) -> int:
         )
     try:
         solved = hamiltonian_for(given.problem, method.tableau, given.seed)
-        run = modified_run(method, solved, given.modified, given.t_end, given.step)
+        run = modified_run(method, solved, order, given.t_end, given.step)
     except GarkError as error:
         return output.tell_failure(error, method.name, REPORT)
     output.tell(REPORT, ModifiedEnergyReport(method.name, run))
@@ -407,8 +574,8 @@ def _in_modified(given: Given, output: Output) -> int:
     return UNDECIDED if any(x.verdict == "undecided" for x in run.energies) else 0
 
 
-@declared("modified", FORMATS)
-def modified(given: Given, output: Output) -> None:
+@declared("modified", Modified, FORMATS)
+def modified(given: Modified, output: Output) -> None:
     """The modified equation of a method, in trees, exactly.
 
     A step follows the exact solution of another equation. gark lists its coefficients, for a
@@ -420,13 +587,14 @@ def modified(given: Given, output: Output) -> None:
     from garkcli.api.modified import backward_analysis
     from garkcli.backward.series import possible_order
     from garkcli.methodfile.naming import called
+    from garkcli.problems.builtin import check_seed
     from garkcli.report.modified import REPORT, ModifiedReport
 
-    method = given.method()
+    method = given.method(given.file)
     order, formula = given.order, None
     if given.problem is not None:
-        refuse_misplaced(given)
-        formula = _formula(method, given)
+        check_seed(given.problem, given.seed)
+        formula = _formula(method, given.problem, given)
         # the problem sees fewer trees than the tableau has
         order = possible_order(method.tableau, order)
     found = backward_analysis(method, order)
@@ -442,7 +610,7 @@ def modified(given: Given, output: Output) -> None:
     output.stream(REPORT, report, given.document)
 
 
-def _formula(method: GarkMethod, given: Given) -> ModifiedFormula:
+def _formula(method: GarkMethod, problem: str, given: Modified) -> ModifiedFormula:
     """Returns the formula on the problem of --problem.
 
     Raises UsageProblem for rounded coefficients, or if the problem is not Hamiltonian.
@@ -453,5 +621,5 @@ def _formula(method: GarkMethod, given: Given) -> ModifiedFormula:
     if method.tolerance is not None:
         message = "--problem: a formula has exact coefficients, and those of the file are rounded"
         raise UsageProblem(message, "give exact coefficients, without tolerance", code="rounded")
-    solved = hamiltonian_for(given.problem, method.tableau, given.seed)
+    solved = hamiltonian_for(problem, method.tableau, given.seed)
     return modified_formula(method, solved, given.order).expanded()

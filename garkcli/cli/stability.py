@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from garkcli.cli.arguments import rational, square
-from garkcli.cli.options import Given, Output, declared
+from garkcli.cli import options as opt
+from garkcli.cli.arguments import point, ratio, rational, square
+from garkcli.cli.command import declared
+from garkcli.cli.output import Output
 from garkcli.errors import HasFreeParameters, UsageProblem, did_you_mean
 from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
@@ -19,8 +21,61 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 
-@declared("stability", FORMATS)
-def stability(given: Given, output: Output) -> None:
+class StabilityOptions(opt.Derivable):
+    """The options of ``gark stability``."""
+
+    files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
+    at: tuple[tuple[fmpq, fmpq], ...] = opt.repeated(
+        "--at", opt.read("Z", point), of="find_stability.at", heading="One λ"
+    )
+    ratio: tuple[fmpq, ...] = opt.repeated(
+        "--ratio", opt.read("Q", ratio), of="find_stability.ratios"
+    )
+    order_star: bool = opt.flag(
+        "--order-star", "In the picture |R(z)| > |exp z| instead.", of="plot.is_order_star"
+    )
+    slow: str | None = opt.option(
+        "--slow",
+        opt.text("A"),
+        "The slow one of two springs: its (hω)², or A..B for all of them; with --fast.",
+        of="two_springs.slow",
+        heading="Two springs",
+    )
+    fast: str | None = opt.option(
+        "--fast",
+        opt.hidden_default(opt.text("COLOUR")),
+        "With --slow: the colour of the fast spring.",
+        of="two_springs.fast",
+    )
+    digits: int = opt.preset(
+        "--digits",
+        opt.DECIMALS,
+        12,
+        "Digits of numbers that have no simple radicals.",
+        heading="Report",
+    )
+    seconds: float | None = opt.option(
+        "--seconds",
+        opt.SECONDS,
+        "Seconds of processor time after which the rest is not decided.",
+        of="find_stability.seconds",
+    )
+    plot: str | None = opt.PLOT
+    rules = (
+        opt.needs(slow, fast, *opt.BOTH_SPRINGS),
+        opt.needs(fast, slow, *opt.BOTH_SPRINGS),
+        opt.excludes((ratio, at), slow, "OPTION does not go with --slow", "leave one of them out"),
+        opt.needs(
+            order_star,
+            (plot, opt.VERBOSE),
+            "--order-star is for the picture",
+            "give -v or --plot FILE too",
+        ),
+    )
+
+
+@declared("stability", StabilityOptions, FORMATS)
+def stability(given: StabilityOptions, output: Output) -> None:
     """Stability on linear, oscillating and contractive problems, decided exactly.
 
     The stability function with A-, L- and A(α)-stability; the trace on the harmonic oscillator with
@@ -34,7 +89,7 @@ def stability(given: Given, output: Output) -> None:
         message = f"cannot write {given.plot}: there is no such folder"
         raise UsageProblem(message, "choose another place", code="cannot-write")
     reports = []
-    paths = given.files_meant(output)
+    paths = output.files_meant(given.files, given.settings)
     for file in paths:
         try:
             method = given.method(file, is_any_kind=True)
@@ -76,7 +131,9 @@ def colour_named(tableau: Tableau, colour: str) -> int:
     return 1 + names.index(colour)
 
 
-def _report(file: str, method: GarkMethod, given: Given, output: Output) -> StabilityReport:
+def _report(
+    file: str, method: GarkMethod, given: StabilityOptions, output: Output
+) -> StabilityReport:
     """Returns the report on one method: its stability, or the two springs of the options."""
     from garkcli.api.calls import find_stability, two_springs
     from garkcli.report.stability import StabilityReport
@@ -85,9 +142,8 @@ def _report(file: str, method: GarkMethod, given: Given, output: Output) -> Stab
     from garkcli.stability.two_frequencies import SlowInterval, springs
 
     tableau = method.tableau
-    is_of_springs = given.slow is not None
     found = Stability(tableau, (), None, None)
-    if not is_of_springs:
+    if given.slow is None:
         found = find_stability(method, **given.of("find_stability"))
     report = StabilityReport(
         file,
@@ -97,7 +153,7 @@ def _report(file: str, method: GarkMethod, given: Given, output: Output) -> Stab
         derivation=method.derivation,
         is_order_star=given.order_star,
     )
-    if not is_of_springs:
+    if given.slow is None or given.fast is None:
         return report
     colour = colour_named(tableau, given.fast)
     low, high = _strengths(given.slow)

@@ -1,5 +1,5 @@
-"""``gark tableau``, ``conjugate``, ``reduce``, ``convert`` and ``diff``: methods as tableaux and as
-method files, also with free parameters.
+"""``gark tableau``, ``conjugate``, ``convert`` and ``diff``: methods as tableaux and as files, also
+with free parameters.
 """
 
 from __future__ import annotations
@@ -7,8 +7,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from garkcli.cli.options import REDUCED, Given, Output, declared
+from garkcli.cli import options as opt
+from garkcli.cli.command import declared
+from garkcli.cli.output import Output
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem, did_you_mean
+from garkcli.frozen import fields
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
@@ -24,8 +27,50 @@ DEFAULT_DIGITS = 17
 EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "undecided": 3}
 
 
-@declared("tableau", (*FORMATS, "yaml"))
-def tableau(given: Given, output: Output) -> None:
+REDUCED = "reduced"
+"""The value of ``--to`` for the smallest equivalent method, besides the forms."""
+
+
+def forms() -> list[str]:
+    from garkcli.conversion.targets import TARGETS
+
+    return [*TARGETS, REDUCED]
+
+
+TRANSFORMATION = opt.flag(
+    "--transformation",
+    "Add the eigenvalues of the inverse of A, and T with its real block form.",
+    heading="Report",
+)
+TABLEAU_RULES = (
+    opt.DOCUMENT_RULE,
+    opt.excludes(
+        TRANSFORMATION,
+        opt.being(opt.FORMAT, "yaml"),
+        "a method file has no place for the transformation",
+        "ask for another format",
+    ),
+    opt.excludes(
+        TRANSFORMATION,
+        opt.being(opt.FORMAT, "latex"),
+        "LaTeX has no transformation",
+        "ask for another format",
+    ),
+)
+
+
+class TableauOptions(opt.Derivable):
+    """The options of ``gark tableau``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    digits: int | None = opt.DIGITS
+    transformation: bool = TRANSFORMATION
+    document: bool = opt.DOCUMENT
+    rules = TABLEAU_RULES
+
+
+@declared("tableau", TableauOptions, (*FORMATS, "yaml"))
+def tableau(given: TableauOptions, output: Output) -> None:
     """The assembled tableau, all blocks.
 
     Entries are exact where the nodes are rational or quadratic numbers, else decimals; rational
@@ -33,7 +78,7 @@ def tableau(given: Given, output: Output) -> None:
     positions and momenta as two arrays, Q and P.
     """
     try:
-        method = given.method(is_any_kind=True)
+        method = given.method(given.file, is_any_kind=True)
     except HasFreeParameters as error:
         _write_family(error, given, output)
         return
@@ -49,15 +94,26 @@ def tableau(given: Given, output: Output) -> None:
         output.write(_method_file(method, given.digits))
 
 
-@declared("conjugate", (*FORMATS, "yaml"))
-def conjugate(given: Given, output: Output) -> None:
+class Conjugate(opt.WithSettings):
+    """The options of ``gark conjugate``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    pair: bool = opt.PAIR
+    digits: int | None = opt.DIGITS
+    transformation: bool = TRANSFORMATION
+    document: bool = opt.DOCUMENT
+    rules = TABLEAU_RULES
+
+
+@declared("conjugate", Conjugate, (*FORMATS, "yaml"))
+def conjugate(given: Conjugate, output: Output) -> None:
     """The symplectic conjugate of a method: gark tableau --conjugate.
 
     --format yaml writes a method file; its conjugate is the original, exactly. If the nodes
     have no simple radicals, the file has `conjugate: true` instead of entries.
     """
-    given.which = given.which or "conjugate"
-    tableau(given, output)
+    values = {name: getattr(given, name) for name in fields(given)}
+    tableau(TableauOptions(conjugate=not given.pair, **values), output)
 
 
 def write_tableau(
@@ -172,7 +228,7 @@ def read_family(
     return file, found
 
 
-def _write_family(error: HasFreeParameters, given: Given, output: Output) -> None:
+def _write_family(error: HasFreeParameters, given: TableauOptions, output: Output) -> None:
     """Writes the tableau of a family, with rational functions of the parameters.
 
     Raises UsageProblem if the nodes have no simple radicals, or decimals are requested.
@@ -181,7 +237,7 @@ def _write_family(error: HasFreeParameters, given: Given, output: Output) -> Non
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
     file, family = read_family(error, given.settings, {"--digits": given.digits}, is_judged=False)
-    shown = family.printed(printed(derived(family.tableau, given.which)))
+    shown = family.printed(printed(derived(family.tableau, given.which or "")))
     cure = f"--set {file.parameters[0]}=1/2"
     if shown is None:
         message = "the nodes have no simple radicals beside free parameters"
@@ -234,14 +290,8 @@ def _end_text(parameter: str, end: RealRoot | None) -> str:
     return f'"{text}"'
 
 
-@declared("reduce", ("yaml", *FORMATS))
-def reduce(given: Given, output: Output) -> None:
-    """The smallest equivalent method: gark convert FILE --to reduced.
-
-    It removes the stages that do not influence the step, and merges those that are equal on every
-    problem. A method without such stages is written unchanged, with a note. Claims are left out:
-    the orders stay, B, C and D may change.
-    """
+def _reduce(given: Convert, output: Output) -> None:
+    """Writes the smallest equivalent method, or the method unchanged, with a note."""
     from garkcli.api.methods import reduced
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
@@ -277,8 +327,39 @@ def _stages(tableau: Tableau) -> str:
     return ", ".join(str(space.stages) for space in tableau.spaces)
 
 
-@declared("convert", ("yaml", *FORMATS))
-def convert(given: Given, output: Output) -> None:
+class Convert(opt.WithSettings):
+    """The options of ``gark convert``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    to: str | None = opt.option(
+        "--to",
+        opt.words_of("cli.tableaux:forms", "FORM"),
+        "The form of the result: spelled-out, gark, ark, prk, pair, canonical, recovered, reduced, "
+        "2N, 2R, 3R, 4R, 5R or shu-osher; of a Rosenbrock method printed or transformed.",
+        of="convert.to",
+        heading="Form",
+    )
+    stages: int | None = opt.option("--stages", opt.number("N", 1, 1000), of="convert.stages")
+    digits: int | None = opt.option("--digits", opt.DECIMALS, of="convert.digits")
+    recognise: bool = opt.flag("--recognise", of="convert.is_recognising")
+    rules = (
+        opt.needs(
+            (digits, recognise),
+            opt.being(to, "recovered"),
+            "OPTION goes with --to recovered",
+            "add --to recovered",
+        ),
+        opt.excludes(
+            stages,
+            opt.being(to, REDUCED),
+            "--stages adds stages, --to reduced leaves some out",
+            "use one of them",
+        ),
+    )
+
+
+@declared("convert", Convert, ("yaml", *FORMATS))
+def convert(given: Convert, output: Output) -> None:
     """A method in another form, as a method file.
 
     Name, reference, tolerance, embedded weights and dense output stay. So do the claims that hold
@@ -287,7 +368,7 @@ def convert(given: Given, output: Output) -> None:
     stages that do not influence the step are removed, and equal ones merged.
     """
     if given.to == REDUCED:
-        reduce(given, output)
+        _reduce(given, output)
         return
     from garkcli.conversion.convert import convert
     from garkcli.methodfile.load import load
@@ -320,8 +401,18 @@ def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
     return "".join(f"# {line}\n" for line in lines)
 
 
-@declared("diff", FORMATS)
-def diff(given: Given, output: Output) -> int:
+class Diff(opt.WithSettings):
+    """The options of ``gark diff``."""
+
+    first: str = opt.argument("FIRST", opt.METHOD)
+    second: str = opt.argument("SECOND", opt.METHOD)
+    strict: bool = opt.flag(
+        "--strict", "Exit with 1 unless every entry is identical.", heading="Comparison"
+    )
+
+
+@declared("diff", Diff, FORMATS)
+def diff(given: Diff, output: Output) -> int:
     """The differences of two methods in entries, orders, conditions and properties; whether they
     are the same method in another numbering or form.
 

@@ -8,15 +8,18 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from itertools import islice, tee
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
-from garkcli.cli.options import Given, Output, declared
+from garkcli.cli import options as opt
+from garkcli.cli.command import declared
+from garkcli.cli.output import Output
 from garkcli.cli.streams import is_terminal, say
 from garkcli.doing import counting, hush
 from garkcli.errors import HasFreeParameters, UsageProblem
 from garkcli.frozen import replace
 
 if TYPE_CHECKING:
+    from garkcli.ntrees.symplectic import Kind as Symplectic
     from garkcli.ntrees.tree import Tree
     from garkcli.order.conditions import Condition
     from garkcli.report.conditions import ConditionRow, Valued
@@ -31,17 +34,92 @@ BLOCK_SIZE = 1 << 14
 """The number of trees that are made at a time."""
 
 
-@declared("trees", ["text", "json", "ndjson", "csv", "markdown", "latex"])
-def trees(given: Given, output: Output) -> None:
+COLOURS = opt.option(
+    "--colours -N",
+    opt.hidden_default(opt.number("N", 1, 1000)),
+    "The number of colours; with --symplectic, of terms of the split.",
+    of="trees.colours",
+)
+SYMPLECTIC = opt.flag(
+    "--symplectic",
+    "Independent conditions of symplectic methods: free trees.",
+    heading="Symplectic methods",
+)
+KIND: Symplectic | None = opt.option(
+    "--kind",
+    opt.words_of("ntrees.symplectic:KINDS"),
+    "With --symplectic: which methods, the pair (A, Â) unless given.",
+)
+MEMBERS = opt.flag("--members", "With --symplectic: all rooted trees of each free tree.")
+RULES = (
+    opt.excludes(
+        MEMBERS,
+        opt.being(opt.FORMAT, "latex"),
+        "--members do not fit into a LaTeX table",
+        "choose another --format",
+    ),
+    opt.needs((KIND, MEMBERS), SYMPLECTIC, "OPTION is about free trees", "add --symplectic"),
+)
+"""The rules about symplectic methods."""
+
+
+class Trees(opt.Options):
+    """The options of ``gark trees``."""
+
+    order_asked: int | None = opt.maybe_argument("ORDER", opt.number("n", 1, 10_000))
+    order: int | None = opt.option(
+        "--order -n", opt.number("n", 1, 10_000), of="trees.order", heading="Trees"
+    )
+    upto: bool = opt.flag("--upto", "Every order from 1 to n.")
+    colours: int | None = COLOURS
+    root: int | None = opt.option(
+        "--root", opt.number("L", 1), "Only trees whose root has colour L."
+    )
+    colours_used: str | None = opt.option(
+        "--colours-used", opt.text("L,M,..."), "Only trees in which each of these colours occurs."
+    )
+    tree: str | None = opt.option(
+        "--tree",
+        opt.text("TEXT"),
+        "One tree, such as [[]_2,[]_1]_1, instead of an order.",
+        of="parse_tree.text",
+    )
+    symplectic: bool = SYMPLECTIC
+    kind: Symplectic | None = KIND
+    members: bool = MEMBERS
+    count: bool = opt.flag("--count", "Count without generating, for any order.", heading="Report")
+    yes: bool = opt.flag("--yes", "List the trees even if there are millions.")
+    svg: str | None = opt.option(
+        "--svg", opt.file("svg"), "Draw a sheet of all the trees into FILE."
+    )
+    document: bool = opt.DOCUMENT
+    rules = (
+        opt.DOCUMENT_RULE,
+        opt.excludes(order_asked, order, "the order is given twice", "give it once"),
+        *RULES,
+        opt.excludes(
+            (root, colours_used, tree),
+            SYMPLECTIC,
+            "free trees have no root",
+            "leave out --root, --colours-used and --tree",
+        ),
+        opt.excludes(
+            count, colours_used, "--count knows no --colours-used", "leave one of them out"
+        ),
+    )
+
+
+@declared("trees", Trees, ["text", "json", "ndjson", "csv", "markdown", "latex"])
+def trees(given: Trees, output: Output) -> None:
     """The N-trees of an order, by root colour, with order, symmetry and density.
 
     [[]_2]_1 is a root of colour 1 with a leaf of colour 2. With --symplectic one row stands for all
     rooted trees that differ in the place of their root only: symplectic methods have equivalent
     conditions for them.
     """
-    given.order = given.order or given.order_asked
+    order = given.order or given.order_asked
     if given.symplectic:
-        _free_trees(given, output)
+        _free_trees(given, order, output)
         return
     from garkcli.ntrees.notation import parse_tree
     from garkcli.report import trees as report
@@ -52,9 +130,9 @@ def trees(given: Given, output: Output) -> None:
         message = f"there is no colour {given.root}"
         raise UsageProblem(message, f"--colours {colours} numbers them from 1", code="no-such-tree")
     if given.tree is not None:
-        _single(given, output)
+        _single(given.tree, given, output)
         return
-    orders = _orders(given)
+    orders = _orders(order, given.upto)
     query = report.Query(colours, orders[-1], given.upto, given.root, used)
     if given.count:
         with _any_digits():
@@ -70,16 +148,16 @@ def trees(given: Given, output: Output) -> None:
         output.stream(report.REPORT, report.TreeList(query, rows, totals), given.document)
 
 
-def _orders(given: Given) -> range:
+def _orders(order: int | None, upto: bool) -> range:
     """Returns the requested orders.
 
     Raises UsageProblem without any.
     """
-    if given.order is None:
+    if order is None:
         raise UsageProblem(
             "which order?", "gark trees 4 lists order 4; --tree shows one tree", code="option-alone"
         )
-    return range(1 if given.upto else given.order, given.order + 1)
+    return range(1 if upto else order, order + 1)
 
 
 def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
@@ -141,12 +219,12 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
     raise UsageProblem(message, "--yes lists them, --count counts them", code="option-value")
 
 
-def _free_trees(given: Given, output: Output) -> None:
+def _free_trees(given: Trees, order: int | None, output: Output) -> None:
     """Writes a row for each class of equivalent conditions of symplectic methods."""
     from garkcli.report import symplectic as report
     from garkcli.report.symplectic_subject import subject_of_kind
 
-    subject = subject_of_kind(given.kind or "pair", given.colours, _orders(given))
+    subject = subject_of_kind(given.kind or "pair", given.colours, _orders(order, given.upto))
     if given.count:
         with _any_digits():
             output.stream(report.REPORT, report.FreeList(subject, None))
@@ -160,12 +238,12 @@ def _free_trees(given: Given, output: Output) -> None:
         output.stream(report.REPORT, found, given.document)
 
 
-def _single(given: Given, output: Output) -> None:
+def _single(text: str, given: Trees, output: Output) -> None:
     from garkcli.ntrees.notation import NotationError, format_tree, parse_tree
     from garkcli.report import trees as report
 
     try:
-        tree = parse_tree(given.tree)
+        tree = parse_tree(text)
     except NotationError as error:
         message = f"--tree, column {error.offset + 1}: {error.message}"
         raise UsageProblem(message, error.help, code="no-such-tree") from None
@@ -206,8 +284,68 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
     return tuple(sorted(used))
 
 
-@declared("conditions", ["text", "json", "csv", "markdown", "latex"])
-def conditions(given: Given, output: Output) -> None:
+class Conditions(opt.Derivable):
+    """The options of ``gark conditions``."""
+
+    file: str | None = opt.maybe_argument("FILE", opt.METHOD)
+    order: int = opt.preset(
+        "--order -n",
+        opt.number("n", 1, 100),
+        4,
+        "Every order up to n.",
+        of="all_conditions.order",
+        heading="Conditions",
+    )
+    only: bool = opt.flag("--only", "Order n alone.")
+    colours: int | None = COLOURS
+    coloured: bool | None = opt.switch(
+        "--coloured/--shapes", "A row per colouring, or one row for all (without FILE)."
+    )
+    failing: bool = opt.flag("--failing", "Only conditions that FILE does not meet.")
+    sort: Literal["tree", "worst"] = opt.preset(
+        "--sort",
+        opt.words("tree", "worst"),
+        "tree",
+        "Order of the rows; worst: the largest residual first.",
+    )
+    symplectic: bool = SYMPLECTIC
+    kind: Symplectic | None = KIND
+    members: bool = MEMBERS
+    digits: int | None = opt.DIGITS
+    document: bool = opt.DOCUMENT
+    rules = (
+        opt.DOCUMENT_RULE,
+        *RULES,
+        opt.needs(
+            (opt.CONJUGATE, opt.PAIR),
+            file,
+            "--conjugate or --pair: values are those of a method",
+            "give a FILE",
+        ),
+        opt.needs(
+            (failing, digits, opt.being(sort, "worst")),
+            file,
+            "OPTION: values are those of a method",
+            "give a FILE",
+        ),
+        opt.excludes(
+            (colours, coloured),
+            file,
+            "the colours are those of FILE",
+            "leave out --colours, --coloured, --shapes",
+        ),
+        opt.excludes(
+            coloured, SYMPLECTIC, "free trees have colours", "leave out --coloured and --shapes"
+        ),
+        opt.needs(opt.SET, file, "--set is for the parameters of FILE", "name a file"),
+        opt.excludes(
+            kind, file, "the kind is that of FILE", "leave out --kind; --pair asks for the pair"
+        ),
+    )
+
+
+@declared("conditions", Conditions, ["text", "json", "csv", "markdown", "latex"])
+def conditions(given: Conditions, output: Output) -> None:
     """The order-condition table.
 
     Without FILE the conditions for every method: a row for each tree shape and all colours (text
@@ -222,8 +360,8 @@ def conditions(given: Given, output: Output) -> None:
     from garkcli.order.meant import printed
     from garkcli.report.conditions import REPORT, ConditionRow, ConditionTable
 
-    valued = None if given.file is None else _valued(given)
-    last: int = given.order
+    valued = None if given.file is None else _valued(given.file, given)
+    last = given.order
     exact_to = None if valued is None else printed(valued.method).exact_to
     if exact_to is not None and exact_to < last:
         last = exact_to
@@ -253,7 +391,7 @@ def conditions(given: Given, output: Output) -> None:
     output.stream(REPORT, found, given.document)
 
 
-def _valued(given: Given) -> Valued:
+def _valued(file: str, given: Conditions) -> Valued:
     """Returns the method whose values are reported; for free parameters they are rational
     functions.
     """
@@ -264,7 +402,7 @@ def _valued(given: Given) -> Valued:
     which = given.which or ""
     parameters: tuple[str, ...] = ()
     try:
-        known_as = as_meant(load(given.file, given.settings))
+        known_as = as_meant(load(file, given.settings))
     except HasFreeParameters as error:
         from garkcli.cli.tableaux import read_family
 
@@ -274,7 +412,7 @@ def _valued(given: Given) -> Valued:
     return Valued(derived(known_as, which), given.failing, parameters, which)
 
 
-def _subject(given: Given, orders: range, valued: Valued | None) -> SymplecticSubject:
+def _subject(given: Conditions, orders: range, valued: Valued | None) -> SymplecticSubject:
     """Returns what the conditions are independent for: a kind of methods, or the method of a
     file.
     """

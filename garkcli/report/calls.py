@@ -28,7 +28,7 @@ from garkcli.version import __version__
 
 
 def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
-    """The publications of methods, each once: ``gark cite``.
+    """The publications of methods, each once: ``gark show --reference``.
 
     Args:
         methods: from files, texts or the catalogue; or paths and names.
@@ -76,7 +76,7 @@ WORKS = (
 
 
 def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:
-    """A proof of the orders of a method, as JSON text or for Coq: ``gark certificate``.
+    """A proof of the orders of a method, as JSON text or for Coq: ``gark export --to certificate``.
 
     Args:
         method: whatever ``method_of`` takes.

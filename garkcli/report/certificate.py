@@ -1,4 +1,4 @@
-"""``gark certificate``: a proof that can be checked without this package.
+"""``gark export --to certificate``: a proof that can be checked without this package.
 
 In JSON rational numbers are text; a number of ℚ(θ) is the list of its coordinates in 1, θ, θ², …;
 trees are written in brackets. Colours and stage spaces count from 1. ``docs/certificate.md`` has

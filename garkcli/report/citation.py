@@ -1,4 +1,4 @@
-"""``gark cite``: publications of methods as BibTeX, and as rows."""
+"""``gark show --reference``: publications of methods as BibTeX, and as rows."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import NamedTuple
 
-from garkcli.bridges.registry import Bridge
+from garkcli.bridges.registry import STEPPED, Bridge, bridges
 from garkcli.catalogue.mapping import method_names
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
 from garkcli.errors import counted
@@ -147,6 +147,19 @@ TARGET: Section[Bridge] = Section(
     Row("suffix", TEXT, lambda x: x.suffix, DETAIL),
     Row("summary", TEXT, lambda x: x.summary),
 )
+
+
+PROOF = Bridge(
+    "certificate",
+    "a proof of the orders, which a separate short script checks",
+    ".json",
+    (*STEPPED, "mri"),
+)
+
+
+def all_targets() -> Mapping[str, Bridge]:
+    """Returns all that ``gark export`` writes, certificates too."""
+    return dict(sorted({**bridges(), PROOF.name: PROOF}.items()))
 
 
 EXPORTS: Report[Mapping[str, Bridge]] = ListReport.only(

@@ -257,7 +257,7 @@ _PLAIN = (
         "colours", lambda m: on_linear_problems(m.tableau).size, "parts of the vector field", False
     ),
     *(
-        Column(key, partial(_view, which), f"gark check --explain {key}")
+        Column(key, partial(_view, which), f"gark explain {key}")
         for key, which in {**VIEWS, **DAE_VIEWS}.items()
     ),
 )
@@ -271,7 +271,7 @@ _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 def columns() -> Mapping[str, Column]:
     by_name = {column.name: column for column in _PLAIN}
     for key in KEYS:
-        text = f"gark check --explain {key}"
+        text = f"gark explain {key}"
         by_name[key] = Column(key, partial(_property, key), text, key not in _LESS_IS_BETTER)
     return by_name
 

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from garkcli.catalogue.entries import ORDERS, NumberRange, all_entries, read_range, sorted_by
-from garkcli.cli.options import command_of
+from garkcli.cli.command import command_of
 from garkcli.errors import UsageProblem
 from garkcli.properties.registry import every_property
 from tests.cli.harness import gark

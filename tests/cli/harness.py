@@ -9,8 +9,11 @@ from pathlib import Path
 from unittest.mock import patch
 
 from garkcli.cli.main import main
+from garkcli.cli.table import COMMANDS, FORMER
 
 ROOT = Path(__file__).parents[2]
+NAMES = {*COMMANDS, *FORMER}
+"""What can be typed after ``gark``: the commands, and their former names."""
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from garkcli.cli.arguments import MethodType
+from garkcli.cli.command import command_of
 from garkcli.cli.main import COMMANDS
-from garkcli.cli.options import command_of
 from garkcli.methodfile.naming import look_up
 from tests.cli.harness import Run, gark
 from tests.cli.test_completion import completions

@@ -15,8 +15,8 @@ from flint import fmpq
 from jsonschema import Draft7Validator
 
 from garkcli.check import analysis
-from garkcli.cli.options import command_of
-from garkcli.cli.table import COMMANDS, SHOWN
+from garkcli.cli.command import command_of, declaration_of
+from garkcli.cli.table import COMMANDS, FORMER
 from garkcli.methodfile.load import load, loads
 from tests.cli.harness import ROOT, gark, gark_once
 from tests.whole import in_whole, sample
@@ -101,12 +101,13 @@ IN_JSON = {run: fs for run, fs in RUNS if "json" in fs}
 def test_every_format_of_every_command_is_tried() -> None:
     """The runs of this file name every command and every format there is."""
     known = {}
-    for name in set(COMMANDS) - WITHOUT_A_REPORT:
+    for name in {*COMMANDS} - WITHOUT_A_REPORT:
         command = command_of(name)
         (choice,) = [x.type for x in command.params if x.name == "format"]
         known[name] = set(choice.choices)
     tried = {
-        name: {f for run, formats in RUNS if run[0] == name for f in formats} for name in known
+        name: {f for run, formats in RUNS if FORMER.get(run[0], run)[0] == name for f in formats}
+        for name in known
     }
     assert tried == known
 
@@ -180,17 +181,22 @@ def test_a_file_is_replaced_only_by_a_whole_report(tmp_path: Path) -> None:
     assert target.read_text(encoding="utf-8").startswith("Störmer-Verlet")
 
 
-@pytest.mark.parametrize("command", sorted(set(COMMANDS) - WITHOUT_A_REPORT))
+@pytest.mark.parametrize("command", sorted(COMMANDS))
 def test_help_of_every_command(command: str) -> None:
-    """``--help`` and ``-h`` show the same, with every option the command has; the group lists the
-    command, unless it is an old name.
+    """``--help`` and ``-h`` show the same, with every option the command has but former ones and a
+    choice of one; the group lists the command.
     """
     run = gark_once(command, "--help")
     assert run.code == 0
     assert run.out == gark(command, "-h").out
-    options = set(re.findall(r"--[a-z]+", run.out))
-    assert {*COMMANDS[command].common.split()} <= options
-    assert (f"  {command} " in gark_once("--help").out) is (command in SHOWN)
+    declared = declaration_of(command)
+    options = {
+        x.key
+        for x in declared.all_options
+        if not x.is_argument and not x.is_former and (x.key != "--format" or declared.formats[1:])
+    }
+    assert {*options, "--help"} <= set(re.findall(r"--[a-z0-9-]+", run.out))
+    assert f"  {command} " in gark_once("--help").out
 
 
 def test_every_command_is_where_the_table_says() -> None:
@@ -603,8 +609,8 @@ def test_help_says_what_stands_for_a_method(name: str) -> None:
     """Every command that reads methods says that names and families stand for one, and the commands
     that take several say what directories and patterns mean.
     """
-    words = COMMANDS[name].arguments.split()
-    takes = [x for x in words if x.strip("[].") in {"FILE", "FIRST", "SECOND"}]
+    takes = [x.flags[0] for x in declaration_of(name).methods]
+    assert {x.strip("[].") for x in takes} <= {"FILE", "FIRST", "SECOND"}
     text = " ".join(gark(name, "--help").out.split())
     assert ("a name of the catalogue such as rk4" in text) is bool(takes)
     assert ("a directory stands for all *.gark.yaml" in text) is any("..." in x for x in takes)

@@ -17,8 +17,8 @@ import flint
 import pytest
 
 from garkcli.cli.main import _exit_code
-from garkcli.cli.table import COMMANDS
 from garkcli.ending import at_once, undone
+from tests.cli.harness import NAMES
 from tests.had import needs_fork
 from tests.whole import IS_WHOLE
 
@@ -74,7 +74,7 @@ SHORT = {
 
 def test_every_command_is_tried() -> None:
     """A new command has an input here that takes long, or the reason why it has none."""
-    assert LONG.keys() | SHORT.keys() == COMMANDS.keys()
+    assert LONG.keys() | SHORT.keys() == NAMES
     assert not LONG.keys() & SHORT.keys()
 
 

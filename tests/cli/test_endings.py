@@ -13,9 +13,9 @@ import pytest
 
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.texts import LANGUAGES
+from garkcli.cli.command import command_of, declaration_of
 from garkcli.cli.endings import ENDINGS
-from garkcli.cli.options import command_of
-from garkcli.cli.table import COMMANDS, OPTIONS
+from garkcli.cli.table import COMMANDS, FORMER
 from garkcli.methodfile.load import loads
 from tests.cli.harness import Run, gark
 
@@ -64,7 +64,7 @@ def folder(tmp_path: Path) -> Path:
 
 def formats_of(command: str) -> list[str]:
     """What ``--format`` of a command takes; empty where it has none."""
-    kinds = {x.name: x.type for x in command_of(command).params}
+    kinds = {x.name: x.type for x in command_of(FORMER.get(command, (command,))[0]).params}
     kind = kinds.get("format")
     return [*kind.choices] if isinstance(kind, click.Choice) else []
 
@@ -113,7 +113,7 @@ def test_every_ending_at_every_command(command: str, folder: Path) -> None:
 def test_every_command_is_tried() -> None:
     """Those that take ``-o`` are in the list above; ``export`` has tests of its own."""
     takes = {name for name in COMMANDS if any(x.name == "output" for x in command_of(name).params)}
-    assert takes - {"export"} == {*COMMANDS_WITH}
+    assert takes - {"export"} == {*COMMANDS_WITH} - {*FORMER}
 
 
 def test_every_format_has_an_ending() -> None:
@@ -183,12 +183,12 @@ def test_files_for_targets(target: str, tmp_path: Path) -> None:
 
 def test_other_options_that_name_files(folder: Path) -> None:
     """``--emit``, ``--rows``, ``--svg`` and ``--parquet`` write one kind each; so does ``new``."""
-    written = [x for x in OPTIONS.values() if "written" in x.kind and x.name not in _OTHERS]
-    assert {x.name: w[6:] for x in written for w in x.kind if w.startswith("holds=")} == {
-        "emit": "yaml",
-        "rows": "jsonl",
-        "svg": "svg",
-        "parquet": "parquet",
+    written = [x for name in COMMANDS for x in declaration_of(name).all_options if x.kind.holds]
+    assert {x.key: x.kind.holds for x in written} == {
+        "--emit": "yaml",
+        "--rows": "jsonl",
+        "--svg": "svg",
+        "--parquet": "parquet",
     }
     wrong = [
         ("x.json", "design", "family.yaml", "--emit"),
@@ -202,9 +202,6 @@ def test_other_options_that_name_files(folder: Path) -> None:
         assert refused(run, folder / name, f"{words[-1]} {name}: no") or words[0] == "new"
         assert run.code == 2
         assert re.search("choose another ending: .(yaml|jsonl|svg|parquet)", run.err)
-
-
-_OTHERS = {"output", "folder"}
 
 
 def test_several_methods_are_no_method_file(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from garkcli import load, loads
 from garkcli.check.check_file import check_file
-from garkcli.cli.new import of_tableau_text
+from garkcli.cli.building import of_tableau_text
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.pasted import Pasted, read_pasted
@@ -207,7 +207,7 @@ def test_whatever_is_pasted(text: str) -> None:
 
 def test_it_asks(monkeypatch: pytest.MonkeyPatch) -> None:
     """At a terminal the tableau is asked for line by line."""
-    monkeypatch.setattr("garkcli.cli.new.is_terminal", lambda _: True)
+    monkeypatch.setattr("garkcli.cli.building.is_terminal", lambda _: True)
     answers = "midpoint\ntableau\n0 |\n1/2 | 1/2\n| 0 1\n\n"
     run = gark("new", stdin=answers)
     assert run.code == 0

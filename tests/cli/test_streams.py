@@ -18,7 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.cli.streams import prepare
-from garkcli.cli.table import SHOWN
+from garkcli.cli.table import COMMANDS
 from garkcli.page.plaintext import ascii_form, plain_line, plain_text
 from garkcli.page.safety import escaped, written_out
 from tests.cli.harness import ROOT, gark, gark_once
@@ -164,7 +164,7 @@ def test_a_process_without_utf_8(variables: dict[str, str]) -> None:
     """The program writes Greek into a pipe of another encoding, without a fault."""
     done = shell("$GARK trees -N 2 -n 3; $GARK --help", **variables)
     assert (done.returncode, done.stderr) == (0, b"")
-    questions = sum(row.summary.count("?") for row in SHOWN.values())
+    questions = sum(row.summary.count("?") for row in COMMANDS.values())
     assert done.stdout.count(b"?") == questions  # those of the help
     assert b"sigma" in done.stdout or "σ" in done.stdout.decode("utf-8")
 

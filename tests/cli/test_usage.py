@@ -8,8 +8,9 @@ import sys
 
 import pytest
 
-from garkcli.cli.main import COMMANDS
-from garkcli.cli.table import options_of, rules_of
+from garkcli.cli.command import declaration_of
+from garkcli.cli.options import Value, rules_of
+from garkcli.cli.table import COMMANDS
 from garkcli.cli.usage import MEANT
 from garkcli.families.registry import FAMILIES
 from garkcli.glossary.faults import code_of
@@ -74,13 +75,12 @@ def test_rules_name_options_of_their_commands() -> None:
     """Every option that needs or excludes another is one of its command, and what is said of it is
     of the kind that the rule has.
     """
-    rules = [(name, rule) for name in COMMANDS for rule in rules_of(name)]
+    rules = [(name, rule) for name in COMMANDS for rule in rules_of(declaration_of(name).options)]
     assert len(rules) > 40
     for name, rule in rules:
-        known = {flag for option in options_of(name) for flag in option.flags}
-        known |= {x for word in known for x in word.split("/")} | {"FILE", "ORDER"}
-        words = {word.partition("=")[0] for word in (*rule.options, *rule.others)}
-        assert words <= known, name
+        known = [id(option) for option in declaration_of(name).all_options]
+        for each in (*rule.options, *rule.others):
+            assert id(each.option if isinstance(each, Value) else each) in known, name
         assert code_of(rule.message) == rule.code
 
 

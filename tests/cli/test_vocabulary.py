@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from garkcli import diagonal_method, load
-from garkcli.cli.table import COMMANDS, HIDDEN, SHOWN
+from garkcli.cli.table import COMMANDS, FORMER
 from garkcli.exact.expression import parse
 from garkcli.glossary.fields import field_text
 from garkcli.glossary.term import by_word
@@ -19,10 +19,9 @@ from tests.whole import in_whole
 def test_the_help_has_groups() -> None:
     """Each group is a heading, each command is below it once; old names are not listed."""
     lines = gark("--help").out.splitlines()
-    groups = list(dict.fromkeys(row.group for row in SHOWN.values()))
+    groups = list(dict.fromkeys(row.group for row in COMMANDS.values()))
     assert [x[:-1] for x in lines if x.endswith(":") and x[:-1] in groups] == groups
-    assert HIDDEN not in groups
-    for name, row in SHOWN.items():
+    for name, row in COMMANDS.items():
         (place,) = [i for i, x in enumerate(lines) if x.startswith(f"  {name} ")]
         heading = next(x for x in reversed(lines[:place]) if x.endswith(":"))
         assert heading == f"{row.group}:"
@@ -30,7 +29,7 @@ def test_the_help_has_groups() -> None:
 
 def test_an_old_name_is_another_command() -> None:
     """``gark reduce`` is ``gark convert --to reduced``."""
-    assert set(COMMANDS) - set(SHOWN) == {"reduce"}
+    assert not COMMANDS.keys() & FORMER.keys()
     twice = "{A: [[1/2, 0], [1/4, 1/4]], b: [1/2, 1/2]}"
     old = gark("reduce", "-", stdin=twice)
     assert gark("convert", "-", "--to", "reduced", stdin=twice) == old

@@ -9,7 +9,7 @@ from flint import fmpq
 
 from garkcli import load, loads
 from garkcli.check.check_file import check_method
-from garkcli.cli.options import forms
+from garkcli.cli.tableaux import forms
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import CannotConvert
 from garkcli.errors import MethodFileError

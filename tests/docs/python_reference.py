@@ -13,7 +13,8 @@ from itertools import pairwise
 from typing import Any
 
 import garkcli
-from garkcli.cli.table import OPTIONS
+from garkcli.cli.command import declaration_of
+from garkcli.cli.table import COMMANDS
 from garkcli.frozen import Frozen, fields
 from tests.docs.tables import cell, table
 
@@ -32,7 +33,7 @@ TYPES = {
 OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
 """Those that say all of an argument: it stands in the signature alone."""
 SAID = {"the rounding of the coefficients", "what errors call it.", "of the file."}
-OF_COMMANDS = {option.of for option in OPTIONS.values()}
+OF_COMMANDS = {x.of for name in COMMANDS for x in declaration_of(name).all_options}
 """Arguments that are options, by their functions: the reference of commands tells these."""
 USUAL_ERRORS = {"MethodError", "MethodFileError", "UsageProblem"}
 """Errors of most functions, which the head of the page tells."""

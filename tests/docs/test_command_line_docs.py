@@ -5,15 +5,16 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import click
 from click.testing import CliRunner
 
+from garkcli.cli.command import GroupedCommand
 from garkcli.cli.endings import ENDINGS
 from garkcli.cli.main import gark
-from garkcli.cli.table import SHOWN
+from garkcli.cli.table import COMMANDS
 from tests.docs.tables import cell, table
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "command-line.md"
@@ -26,7 +27,7 @@ USUAL = "text (default), json, markdown, latex"
 def reference() -> str:
     """The options of several commands, then a section per command: usage, help, its own options."""
     group = click.Context(gark, info_name="gark")
-    commands = {x: found for x in SHOWN if (found := gark.get_command(group, x))}
+    commands = {x: found for x in COMMANDS if (found := gark.get_command(group, x))}
     records = {name: [*_records(found, group)] for name, found in commands.items()}
     times = Counter(record for found in records.values() for record in found)
     common = [x for x, count in times.items() if count > 1 and not x[0].startswith("--format")]
@@ -38,7 +39,8 @@ def reference() -> str:
         shared = [x[0].split()[0].rstrip(",") for x in records[name] if x in common]
         also = ", ".join(f"`{x}`" for x in shared if x not in OF_ALL)
         parts.append(f"### gark {name}\n\n`{usage}`\n\n{_help(found)}\n")
-        tables = [_options(own)] if own else []
+        headings = _headings(found, group)
+        tables = [_options(own, headings)] if own else []
         parts.append("\n".join([*tables, f"Also {also}.\n"] if also else tables))
     return "\n".join(filter(None, parts))
 
@@ -56,20 +58,33 @@ _DEFAULT = r" *\[default: ([^\];]+)\]$"
 
 
 def _records(found: click.Command, group: click.Context) -> Iterator[tuple[str, str]]:
-    context = click.Context(found, parent=group)
-    for param in found.get_params(context):
-        if isinstance(param, click.Option) and (record := param.get_help_record(context)):
-            yield record
+    yield from _headings(found, group)
 
 
-def _options(records: list[tuple[str, str]]) -> str:
-    """A table of options; words to choose from stand in the text, so that columns stay narrow."""
+def _headings(found: click.Command, group: click.Context) -> dict[tuple[str, str], str]:
+    """The options with their help, and the heading of each."""
+    assert isinstance(found, GroupedCommand)
+    groups = found.groups(click.Context(found, parent=group))
+    return {record: heading for heading, records in groups.items() for record in records}
+
+
+def _options(
+    records: list[tuple[str, str]], headings: Mapping[tuple[str, str], str] | None = None
+) -> str:
+    """A table of options, below their headings if there are several; words to choose from stand in
+    the text, so that columns stay narrow.
+    """
     rows, properties = [], []
+    told = [headings[x] for x in records] if headings else []
+    before = "" if len({*told}) > 1 else None
     for name, text in records:
+        if headings and before is not None and (heading := headings[name, text]) != before:
+            rows.append((f"**{heading}**", ""))
+            before = heading
         choices = _choices(name, text)
         flags = name.partition(" [")[0] if choices else name
-        if text.startswith("The property "):
-            properties.append(f"`{flags.partition(' / ')[0]}`")
+        if not text:
+            properties.append(f"`{flags.partition(' / ')[0].partition(' ')[0]}`")
             continue
         if choices:
             text = re.sub(_DEFAULT, "", text)
@@ -80,7 +95,8 @@ def _options(records: list[tuple[str, str]]) -> str:
         text = _RANGE.sub("", text)
         rows.append((f"`{flags}`".replace("|", r"\|"), cell(" ".join(text.split()))))
     if properties:
-        rows.append((", ".join(properties), "The [property](properties.md); `--no-…` without it."))
+        about = "By a [property](properties.md); `--no-…` without it, sizes take a RANGE."
+        rows.append((", ".join(properties), about))
     return table(("option", "what it does"), rows)
 
 
@@ -116,7 +132,7 @@ def endings() -> str:
 def _holds(formats: Sequence[str]) -> str:
     if formats[0] in {"png", "svg", "pdf"}:
         return "pictures"
-    commands = (gark.get_command(click.Context(gark), x) for x in SHOWN)
+    commands = (gark.get_command(click.Context(gark), x) for x in COMMANDS)
     params = (x for found in commands if found for x in found.params if x.name == "format")
     known = {
         x for param in params if isinstance(param.type, click.Choice) for x in param.type.choices
@@ -142,7 +158,7 @@ def test_every_command_is_in_the_table() -> None:
     """The head of the page has each command there is."""
     head, _, _ = PAGE.read_text(encoding="utf-8").partition(MARK)
     rows = "".join(x for x in head.splitlines() if x.startswith("| `gark"))
-    assert [x for x in SHOWN if f"`gark {x}" not in rows] == []
+    assert [x for x in COMMANDS if f"`gark {x}" not in rows] == []
 
 
 def test_no_help_shows_a_mark_of_its_layout() -> None:
@@ -152,7 +168,7 @@ def test_no_help_shows_a_mark_of_its_layout() -> None:
     runner = CliRunner()
     texts = [
         runner.invoke(gark, [*name, "--help"], terminal_width=80).output
-        for name in ([], *([x] for x in SHOWN))
+        for name in ([], *([x] for x in COMMANDS))
     ]
     assert not any("\\" in text or "\b" in text for text in texts)
     assert "      methods:\n        - {family: gauss, stages: 2}\n" in texts[0]

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from garkcli.cli.options import command_of
+from garkcli.cli.command import command_of
 from tests.cli.harness import gark
 from tests.whole import in_whole
 

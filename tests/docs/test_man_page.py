@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from garkcli.cli.table import SHOWN
+from garkcli.cli.table import COMMANDS
 from tests.cli.harness import ROOT
 
 FOLDER = ROOT / "docs" / "man"
@@ -33,7 +33,7 @@ def test_the_page_is_the_help(program: dict[str, Any]) -> None:
         PAGE.write_text(wanted, encoding="utf-8")
     assert PAGE.read_text(encoding="utf-8") == wanted
     named = re.findall(r'^\.SS "gark (\S+)', wanted, re.MULTILINE)
-    assert named == list(SHOWN)
+    assert named == list(COMMANDS)
     codes = program["exit_codes"]()
     assert [*codes] == ["0", "1", "2", "3", "130", "141"]
 

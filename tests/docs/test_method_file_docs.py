@@ -73,7 +73,7 @@ def test_every_key_is_explained() -> None:
 
 def test_every_command_of_the_documentation_exists() -> None:
     """The command lines in running text name commands that exist."""
-    from garkcli.cli.main import COMMANDS
+    from tests.cli.harness import NAMES
 
     texts = [
         path.read_text(encoding="utf-8")
@@ -81,4 +81,4 @@ def test_every_command_of_the_documentation_exists() -> None:
     ]
     named = {word for text in texts for word in re.findall(r"`gark ([a-z]+)", text)}
     assert named
-    assert named <= {*COMMANDS, "help"}
+    assert named <= {*NAMES, "help"}

@@ -1,4 +1,4 @@
-"""docs/properties.md is made from the definitions that ``gark check --explain`` shows."""
+"""docs/properties.md is made from the definitions that ``gark explain`` shows."""
 
 from __future__ import annotations
 

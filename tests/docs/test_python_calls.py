@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 import garkcli
-from garkcli.cli.options import parameter_of, told
-from garkcli.cli.table import COMMANDS, OPTIONS, Option
+from garkcli.cli.command import declaration_of, parameter_of, told
+from garkcli.cli.options import Option
+from garkcli.cli.table import COMMANDS
 from garkcli.errors import MethodError
 from tests.cli.harness import gark
 from tests.whole import in_whole
@@ -25,16 +26,16 @@ def calls() -> str:
     """The table of commands."""
     lines = ["| `gark` | in Python |", "|---|---|"]
     for name, row in COMMANDS.items():
-        lines.append(f"| `{name}` | {', '.join(f'`{call}`' for call in row.calls.split())} |")
+        lines.append(f"| `{name}` | {', '.join(f'`{call}`' for call in row.calls)} |")
     return "\n".join(lines)
 
 
 def declared() -> Iterator[tuple[str, Option]]:
-    """Every command with each of its options in the table."""
-    for name, row in COMMANDS.items():
-        for flag in (*row.options.split(), *row.common.split()):
-            if flag != "--help":
-                yield name, OPTIONS.get(f"{name} {flag}") or OPTIONS[flag]
+    """Every command with each of its options, without former ones."""
+    for name in COMMANDS:
+        for option in declaration_of(name).all_options:
+            if not option.is_argument and not option.is_former:
+                yield name, option
 
 
 def arguments() -> str:
@@ -42,7 +43,7 @@ def arguments() -> str:
     found: dict[str, dict[str, None]] = {}
     for _, option in declared():
         if option.of:
-            flag = option.key.split()[-1]
+            flag = option.key
             function, _, name = option.of.partition(".")
             is_same = flag.removeprefix("--").replace("-", "_") == name
             if not is_same:
@@ -69,7 +70,7 @@ def test_the_tables_are_made_of_the_one_of_calls(table: Callable[[], str]) -> No
 def test_every_call_is_public() -> None:
     """The commands name what the package has."""
     for command, row in COMMANDS.items():
-        assert set(row.calls.split()) <= set(garkcli.__all__), command
+        assert set(row.calls) <= set(garkcli.__all__), command
 
 
 def test_every_argument_is_one() -> None:
@@ -83,14 +84,8 @@ def test_every_argument_is_one() -> None:
         assert function in garkcli.__all__
         parameter = parameter_of(option.of)
         assert option.help or told(option.of), (command, option)
-        if option.is_flag and "/" not in option.written:
+        if option.is_flag and "flag_value" not in option.kind.settings:
             assert parameter.default is False, option
-
-
-def test_every_option_is_used() -> None:
-    """No row of the table is left behind."""
-    used = {option.written for _, option in declared()}
-    assert used == {option.written for option in OPTIONS.values()}
 
 
 def test_what_is_no_argument_is_told() -> None:

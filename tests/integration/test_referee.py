@@ -1,4 +1,4 @@
-"""``gark certificate`` and ``tools/referee.py``: what is proved, and what is found out."""
+"""``gark export --to certificate`` and ``tools/referee.py``: what is proved, and what is found out."""
 
 from __future__ import annotations
 

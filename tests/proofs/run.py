@@ -1,6 +1,6 @@
 """Certificates judged by Coq: ``make proofs``.
 
-The theory of ``proofs/`` is compiled, then the file of ``gark certificate --format coq`` for every
+The theory of ``proofs/`` is compiled, then the file of ``gark export --to certificate --format coq`` for every
 exact method of ``methods/`` and of the catalogue. Files with one number changed are refused. Theorem
 B says of lines of docs/pair-order.md which conditions hold, from the orders in their certificates;
 where weights are negative it does not.

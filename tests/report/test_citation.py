@@ -1,4 +1,4 @@
-"""``gark cite``: BibTeX that says what the file says, keys that tell publications apart."""
+"""``gark show --reference``: BibTeX that says what the file says, keys that tell publications apart."""
 
 from __future__ import annotations
 
@@ -237,7 +237,7 @@ def test_a_folder_of_the_catalogue_has_entries() -> None:
 
 
 def test_the_program_and_its_paper() -> None:
-    """``gark cite gark``: what CITATION.cff says, and the paper with its number in the archive."""
+    """``gark show gark --reference``: what CITATION.cff says, and the paper with its number in the archive."""
     data = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     found = json.loads(gark("cite", "gark", "--format", "json").out)["references"]
     program, paper = (x["reference"] for x in found)

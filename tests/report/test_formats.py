@@ -22,8 +22,8 @@ from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
 from garkcli.check.findings import KINDS, findings
 from garkcli.check.outcome import Outcome
+from garkcli.cli.command import command_of
 from garkcli.cli.main import gark as commands
-from garkcli.cli.options import command_of
 from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import replace
 from garkcli.methodfile.load import loads

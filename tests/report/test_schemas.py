@@ -15,9 +15,8 @@ from typing import Any
 import pytest
 from jsonschema import Draft7Validator
 
-from garkcli.cli.main import COMMANDS
 from garkcli.report.schemas import REPORTS, report_schema
-from tests.cli.harness import ROOT, gark
+from tests.cli.harness import NAMES, ROOT, gark
 from tests.whole import sample
 
 METHODS = [f"methods/{path.name}" for path in sorted(ROOT.glob("methods/*.gark.yaml"))]
@@ -149,7 +148,7 @@ def reports(command: str) -> list[dict[str, Any]]:
     """The reports of all runs of a command; those that end with a message have none."""
     found = []
     for arguments in RUNS[command]:
-        words = (command, *arguments) if command in COMMANDS else arguments
+        words = (command, *arguments) if command in NAMES else arguments
         run = gark(*words, FORMAT.get(command, "--format"), "json")
         assert run.code in (0, 1, 2, 3), run.err
         if run.out:
@@ -180,7 +179,7 @@ def test_every_command_with_a_report_has_a_schema() -> None:
     """All commands but ``gark schema``, whose output is a schema itself, ``gark new`` and ``gark
     report``, whose page shows what others report; and every name of a report that the program writes is the constant of a schema.
     """
-    assert set(COMMANDS) - {"schema", "new", "report"} <= set(REPORTS)
+    assert NAMES - {"schema", "new", "report"} <= set(REPORTS)
     assert RUNS.keys() == REPORTS.keys()
     names = set()
     for path in Path(ROOT, "garkcli").rglob("*.py"):
