@@ -41,7 +41,7 @@ from garkcli.stability.two_frequencies import (
 from garkcli.tableau.family import OSCILLATING, Family
 from garkcli.tableau.tableau import Tableau
 
-_RIGHT = "the linear test equation has no meaning for it: some stages do not see every vector field"
+_RIGHT = "the linear test equation does not apply: some stages do not depend on every vector field"
 
 
 MOST_POINTS = 60

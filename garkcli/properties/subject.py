@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.within import StabilityWithin
 
-MISSING_BLOCKS = Reason("some stages do not see every vector field")
+MISSING_BLOCKS = Reason("some stages do not depend on every vector field")
 """Why properties of all vector fields together are not defined if blocks are missing."""
 
 

@@ -744,14 +744,18 @@ CONSTANTS: Section[ErrorConstants] = Section(
 
 def estimate_words(e: Estimator, d: Plain) -> str:
     text = estimate_phrase(e, d)
-    return text if e.is_zero else f"{text}, sum of b − embedded {kinds.EXACTS.words(e.sums, d)}"
+    return text if e.is_zero else f"{text}; b − embedded sums to {kinds.EXACTS.words(e.sums, d)}"
 
 
-def estimate_phrase(e: Estimator, _: Plain) -> str:
-    """``of order 3``."""
+def estimate_phrase(e: Estimator, d: Plain) -> str:
+    """``O(h^3)``."""
     if e.is_zero:
         return "zero: the embedded weights are b"
-    return "leading term not found" if e.order is None else f"of order {e.order}"
+    return (
+        "leading term not found"
+        if e.order is None
+        else d.formula(f"O(h^{{{e.order}}})", f"O(h^{e.order})")
+    )
 
 
 ESTIMATE: Section[Estimator] = Section(
@@ -774,8 +778,9 @@ def dense_words(x: DenseFacts, _: Plain) -> str:
     """Whether the steps of dense output fit together."""
     if not x.ends_at_step:
         return "does not end where the step does: b(1) is not b"
-    slope = {True: "its slope too", False: "its slope is not", None: "its slope is not decided"}
-    return f"of degree {x.degree}, continuous, b(1) = b; {slope[x.slopes.are_continuous]}"
+    smooth = x.slopes.are_continuous
+    text = f"{'C¹' if smooth else 'C⁰'}, of degree {x.degree}"
+    return f"{text}; whether its slope jumps is not decided" if smooth is None else text
 
 
 def dense_order(a: Analysis) -> Answer[int] | None:
@@ -1080,7 +1085,8 @@ def _known_words(known: Known, d: Plain) -> str:
     by = ""
     if known.within:
         by = f" {'within' if known.is_same else 'by at most'} {decimal(known.within)}"
-    return f"{d.prose(known.method)}{by}{', but for embedded weights' if known.step_only else ''}"
+    apart = ", apart from its embedded weights" if known.step_only else ""
+    return f"{d.prose(known.method)}{by}{apart}"
 
 
 PARTS: Kind[Sequence[str]] = Kind(

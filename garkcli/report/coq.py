@@ -1,4 +1,4 @@
-"""``gark export --to certificate --format coq``: a method as data for Coq, with what it has to prove.
+"""Certificates for Coq: a method as data, with what it has to prove.
 
 The theory is in ``proofs/``, one file a step; ``docs/certificate.md`` says how to run it. Every
 colour has a stage space of its own here, also where colours share stages.

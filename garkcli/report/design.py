@@ -224,7 +224,7 @@ def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
                 why = criterion.obstacle(step.order)
                 yield d.prose(f"{which}: {why}") if why else f"{which}, by {CRITERION}"
                 return
-            wish, how = "what is wanted besides", f", by {CRITERION}"
+            wish, how = "the other requirements", f", by {CRITERION}"
             if step.witness is not None:
                 tree = _tree(design, step.witness, d)
                 wish, how = f"with the conditions before it, that of {tree}", ""
@@ -389,7 +389,7 @@ def _of_single(design: Design, best: Step | None) -> str:
         return f"order {last.order} of the {design.whose} is not decided"
     if last.kind == "none":
         return f"no order {last.order} of the {design.whose}"
-    return "the method lacks what is wanted besides its order"
+    return "the method does not meet the other requirements"
 
 
 def _briefly(step: Step) -> str:

@@ -137,7 +137,7 @@ def _higher(o: EveryOrder, name: str) -> Reason:
 def _order_words(o: EveryOrder, _: Answer[EveryOrder], d: Plain) -> str:
     """``2; order 3 is missed at [[]] by …; order 3 where …``."""
     if o.witness is None:
-        return f"{d.known(str(o.order), Status(at_least=True))}: no further was looked"
+        return f"{d.known(str(o.order), Status(at_least=True))}; the search stopped here"
     text = f"{o.order}; {d.failure(o.witness)}{d.reason(_higher(o, d.parameter))}"
     if o.poles:
         zero = joined(" or ", [Reason("{} = 0", Formula(p)) for p in o.poles[:MOST]])

@@ -44,19 +44,19 @@ def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
     texts = [Reason(fail)]
     if blame.culprit is not None and len(names) > 1:
         culprit = Place(letter, names_of(blame.culprit, names))
-        texts.append(Reason("{} takes part in every one of them: look there first", culprit))
+        texts.append(Reason("all of them involve {}: look there first", culprit))
     elif len(blame.in_every) > 1:
-        texts.append(_take_part(letter, blame.in_every, names, "all"))
+        texts.append(_involved(letter, blame.in_every, names, "all"))
     if blame.in_none:
-        texts.append(_take_part(letter, blame.in_none, names, "none"))
+        texts.append(_involved(letter, blame.in_none, names, "none"))
     return texts
 
 
-def _take_part(
+def _involved(
     letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str], which: str
 ) -> Reason:
     places = joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
-    return Reason(f"{{}} {'takes' if len(blocks) == 1 else 'take'} part in {which} of them", places)
+    return Reason(f"{which} of them involve{'s' if which == 'none' else ''} {{}}", places)
 
 
 def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:

@@ -36,8 +36,9 @@ def describe(problem: Stepped) -> str:
         texts = list(map(_formula, texts_of(problem)))
         if _is_short(texts):
             return f"{name}; {', '.join(_numbered('H', texts))}"
-        terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
-        return f"{name}, H in {terms} of {variables} and their momenta"
+        if len(texts) == 1:
+            return f"{name}, a single H of {variables} and their momenta"
+        return f"{name}, H in {len(texts)} terms of {variables} and their momenta"
     if problem.stiffness is not None:
         name += f", stiffness {problem.stiffness}"
     sides = [", ".join(map(_formula, term)) for term in texts_of(problem)]

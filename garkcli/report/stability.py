@@ -463,9 +463,9 @@ def algebraic(x: StabilityReport) -> Answer[bool]:
         if late is not None:
             return late
         if found.is_linear_alone:
-            return Answer(None, reason=Reason("has no meaning: it is no Runge-Kutta method"))
+            return Answer(None, reason=Reason("not applicable: not a Runge-Kutta method"))
         if found.tolerance is None:
-            return Answer(None, reason=Reason("has no meaning: colours do not see one another"))
+            return Answer(None, reason=Reason("not applicable: the parts are not coupled"))
         return kinds.truth(found.algebraic_within, open_because=ROUNDED)
     why = [] if found.algebraic.weights_are_positive else ["a weight is negative"]
     if not found.algebraic.form_is_positive:

@@ -95,7 +95,7 @@ A_STEP = "a step"
 SURELY = 100.0
 """Bits of what links the matrix and the weights of a step: all of it is one computation."""
 STEP = "the coefficients are those of a step that is written out"
-UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
+UNRECOGNISED = "it looks like a tableau, but A, b and c could not be identified"
 
 
 class _Group(Mutable):

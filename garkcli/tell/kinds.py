@@ -214,7 +214,7 @@ def _order_words(found: AnyOrder, answer: Answer[AnyOrder], d: Plain) -> str:
     if status.open:
         return f"{text}; order {found.order + 1} is not decided: {d.reason(status.open)}"
     if found.witness is None:
-        return f"{text}: no further was looked"
+        return f"{text}; the search stopped here"
     is_rounded = status.within is not None
     return f"{text}; {d.failure(found.witness, is_rounded, found.order + 1)}"
 

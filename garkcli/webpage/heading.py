@@ -69,7 +69,7 @@ def claims_text(outcome: Outcome) -> str:
     told = [f"{failed} fail{'s' if failed == 1 else ''}"] if failed else []
     told += [f"{left_open} {'is' if left_open == 1 else 'are'} undecided"] if left_open else []
     if told:
-        return f"Of {claims}, {' and '.join(told)}."
+        return f"Of its {claims}, {' and '.join(told)}."
     return f"All {claims} of its file hold."
 
 

@@ -231,10 +231,10 @@ def test_what_cannot_be_met(tmp_path: object) -> None:
     with open(path, "w", encoding="utf-8") as stream:
         stream.write(SDIRK2 + "design: {stiffly-accurate: true, fix: {gamma: 1, b2: 2}}\n")
     run = gark("design", path, "--order", "1")
-    assert (run.code, "what is wanted besides cannot be met" in run.out) == (1, True)
+    assert (run.code, "the other requirements cannot be met" in run.out) == (1, True)
     text = "A: [['?']]\nb: [1]\ndesign: {pair-order: 3}\n"
     run = gark("design", "-", "--order", "1", stdin=text)
-    assert "besides cannot be met, by B, C, D and the even" in " ".join(run.out.split())
+    assert "requirements cannot be met, by B, C, D and the even" in " ".join(run.out.split())
     pair = "methods: [gauss-1, lobatto-iiia-2]\ntransfer: '?'\n"
     fixed = ("--set", "a12_11=1/2", "--set", "a12_12=1")
     run = gark("design", "-", "--pair", "--order", "2", *fixed, stdin=pair)

@@ -238,7 +238,7 @@ def test_what_is_known_of_classical_methods(text: str) -> None:
             "structure: separable",
             "a-stable: true",
             "no meaning",
-            "some stages do not see every vector field",
+            "some stages do not depend on every vector field",
         ),
     ],
 )

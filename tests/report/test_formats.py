@@ -536,7 +536,7 @@ def test_markdown_says_what_is_a_lower_bound() -> None:
     _, _, row, _ = rows([limited, outcome(MIDPOINT)])
     assert row[1:4] == ["at least 2"] * 3
     alone = FORMATS["markdown"]([limited], Paint(), 0, None, 80)
-    assert alone.startswith("**m.gark.yaml: order at least 2: ")
+    assert alone.startswith("**m.gark.yaml: order at least 2; ")
 
 
 @pytest.mark.parametrize("file", [AWKWARD, "|", "a`b", "a\nb|c", "<b>", "*a*_b_[c](d)"])

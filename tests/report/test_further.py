@@ -50,9 +50,9 @@ def test_text_tells_orders_estimate_and_how_pieces_fit() -> None:
     text = words(render([outcome], Paint()))
     for line in (
         " embedded order 2, proved; order 3 fails at [[[]]] by 1/48 ",
-        " error estimate of order 3, sum of b − embedded 0 ",
+        " error estimate O(h^3); b − embedded sums to 0 ",
         " dense order 3: fails at order 4: [[[[]]]], at θ^2: -1/6 instead of 0, off by -1/6 ",
-        " dense output of degree 3, continuous, b(1) = b; its slope too ",
+        " dense output C¹, of degree 3 ",
     ):
         assert line in text
     detailed = words(render([outcome], Paint(), verbosity=1))

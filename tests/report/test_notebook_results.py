@@ -154,7 +154,7 @@ def test_a_witness_is_its_tree_and_its_condition() -> None:
     assert order.endswith(html)
     assert order.startswith("<p>order 4, proved; order 5 fails at <code>[[[[[]]]]]</code> by ")
     limited = garkcli.find_order("rk4", limit=3)._repr_html_()
-    assert limited == "<p>order at least 3: no further was looked</p>"
+    assert limited == "<p>order at least 3; the search stopped here</p>"
     holding, failing = (next(garkcli.conditions(x, "[[[]]]")) for x in ("rk4", "heun"))
     assert "[[[]_1]_1]_1: 1/6 = 1/6" in holding._repr_html_()
     assert "0 instead of 1/6" in failing._repr_html_()

@@ -74,7 +74,7 @@ def refuse_partitioned(tableau: Tableau) -> None:
     """
     if not is_linear(tableau):
         raise UsageProblem(
-            "the linear test equation has no meaning for it: some stages do not see every"
+            "the linear test equation does not apply: some stages do not depend on every"
             " vector field",
             "minimise -oscillator-interval",
             code="wanted-without-meaning",
