@@ -29,23 +29,24 @@ from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Place, Reason, joined
 from garkcli.report.remarks import FAULT
 from garkcli.tell import kinds
+from garkcli.tell.dialect import Status
 from garkcli.tell.facts import (
     Answer,
     Json,
     Kind,
     Level,
+    ManyParts,
     Row,
     Rows,
     Section,
     Several,
-    Status,
+    Words,
     itself,
     maybe,
     optional,
     via,
 )
 from garkcli.tell.parts import part, parts, picture, rows_of, told
-from garkcli.tell.shown import ManyParts, Words
 
 if TYPE_CHECKING:
     from flint import fmpq

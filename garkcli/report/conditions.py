@@ -26,7 +26,19 @@ from garkcli.report.symplectic_subject import SUBJECT, SymplecticSubject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, picture
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import LONG, Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
+from garkcli.tell.facts import (
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Words,
+    itself,
+    maybe,
+    optional,
+    via,
+)
 from garkcli.tell.kinds import (
     DERIVATION,
     INDEX,
@@ -39,7 +51,6 @@ from garkcli.tell.kinds import (
 )
 from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 MOST_DECIMALS = 20
 """Decimals of a value; longer ones are rounded."""

@@ -28,17 +28,18 @@ from garkcli.reason import Reason
 from garkcli.report.problem import STEPPED, Run
 from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.facts import (
     Answer,
     Json,
     Kind,
+    Labels,
     Level,
     Row,
     Rows,
     Section,
     SectionChoice,
-    Status,
+    Words,
     maybe,
     optional,
     via,
@@ -46,7 +47,6 @@ from garkcli.tell.facts import (
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import answer, part, plot, rows_of, table
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Labels, Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_STEPS = 10

@@ -46,6 +46,7 @@ from garkcli.tell.facts import (
     Rows,
     Section,
     SectionChoice,
+    Words,
     itself,
     maybe,
     optional,
@@ -54,7 +55,6 @@ from garkcli.tell.facts import (
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
 from garkcli.tell.parts import answer, part, parts, rows_of, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder

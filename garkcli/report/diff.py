@@ -24,12 +24,11 @@ from garkcli.report.other_methods import rosenbrock_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell import kinds
-from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, itself, maybe
+from garkcli.tell.dialect import Plain, Status
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Words, itself, maybe
 from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.parts import told as told_kind
 from garkcli.tell.report import DialectSigns, Report
-from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
     from garkcli.exact.field import Number

@@ -23,11 +23,22 @@ from garkcli.report.problem import STEPPED, Run
 from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
+from garkcli.tell.facts import (
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Words,
+    itself,
+    maybe,
+    optional,
+    via,
+)
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
 from garkcli.tell.parts import SAID, answer, part, parts, plot, rows_of, table
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_QUANTITIES = 10

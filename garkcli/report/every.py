@@ -22,15 +22,17 @@ from garkcli.reason import NO_REASON, Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.report.design_values import conditions
 from garkcli.tell import kinds
+from garkcli.tell.dialect import Status
 from garkcli.tell.facts import (
     Answer,
     Json,
     Kind,
+    Labels,
     Level,
     Row,
     Rows,
     Section,
-    Status,
+    Words,
     itself,
     maybe,
     optional,
@@ -38,7 +40,6 @@ from garkcli.tell.facts import (
 )
 from garkcli.tell.parts import SAID, part, parts, rows_of
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Labels, Words
 
 if TYPE_CHECKING:
     from garkcli.check.every_orders import EveryOrder

@@ -11,12 +11,11 @@ from garkcli.bridges.subject import Subject
 from garkcli.errors import Remark, counted
 from garkcli.report.audited import MOST, WRONG
 from garkcli.report.remarks import OF_TABLE
-from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Rows, Section, Status, itself, maybe
+from garkcli.tell.dialect import Plain, Status
+from garkcli.tell.facts import Answer, Kind, Level, Row, Rows, Section, Words, itself, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
 from garkcli.tell.parts import parts, picture, shown
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
 ORDER: Kind[int] = Kind(COUNT.what, Words(lambda x, _: str(x), absent="no method"))

@@ -13,12 +13,11 @@ from garkcli.exact.expression import read_decimal
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.properties.registry import every_property
 from garkcli.report.citation import short_name
-from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, itself, maybe
+from garkcli.tell.dialect import Plain, Status
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Words, itself, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import parts, shown, told
 from garkcli.tell.report import ListReport, Report
-from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 V = TypeVar("V")

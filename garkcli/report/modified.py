@@ -16,7 +16,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.paint import numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import describe
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.facts import (
     Answer,
     FieldBeside,
@@ -26,7 +26,7 @@ from garkcli.tell.facts import (
     Row,
     Rows,
     Section,
-    Status,
+    Words,
     maybe,
     via,
 )
@@ -45,7 +45,6 @@ from garkcli.tell.kinds import (
 )
 from garkcli.tell.parts import SAID, part, parts, rows_of, table, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_TERMS = 10

@@ -16,12 +16,11 @@ from garkcli.report.convergence import STEP_SIZE
 from garkcli.report.problem import describe, driving
 from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of
-from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe, via
+from garkcli.tell.dialect import Plain, Status
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Words, maybe, via
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TRUTH
 from garkcli.tell.parts import SAID, parts, rows_of, shown, table, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 12

@@ -14,18 +14,8 @@ from garkcli.errors import counted
 from garkcli.frozen import replace
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import (
-    Answer,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Status,
-    itself,
-    maybe,
-    optional,
-    via,
-)
+from garkcli.tell.dialect import Status
+from garkcli.tell.facts import Answer, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.parts import SAID, part, picture, told
 
 if TYPE_CHECKING:
@@ -37,7 +27,7 @@ if TYPE_CHECKING:
     from garkcli.order.dense import DenseOrder
     from garkcli.tableau.tableau import Tableau
     from garkcli.tell.dialect import Plain
-    from garkcli.tell.shown import Wording
+    from garkcli.tell.facts import Wording
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 A = TypeVar("A", bound="OtherAnalysis")

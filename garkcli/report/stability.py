@@ -32,6 +32,7 @@ from garkcli.stability.summary import AtPoint, Colours, LinearStability, Stabili
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell import kinds
+from garkcli.tell.dialect import Status
 from garkcli.tell.facts import (
     Answer,
     Json,
@@ -41,14 +42,13 @@ from garkcli.tell.facts import (
     Rows,
     Section,
     Several,
-    Status,
+    Words,
     itself,
     maybe,
     via,
 )
 from garkcli.tell.parts import part, parts, plot, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -57,7 +57,7 @@ if TYPE_CHECKING:
     from garkcli.stability.springs_plane import SpringsPlane
     from garkcli.stability.ssp import AdditiveRadius, SspCoefficient
     from garkcli.tell.dialect import Plain
-    from garkcli.tell.shown import Wording
+    from garkcli.tell.facts import Wording
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 Extent: TypeAlias = "Sequence[Interval] | Bounds"

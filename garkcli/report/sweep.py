@@ -15,11 +15,10 @@ from garkcli.sweep.plan import Plan
 from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row as Judged
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Section, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Section, Words, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
 from garkcli.tell.parts import answer, plot, shown, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}

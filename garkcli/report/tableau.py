@@ -33,20 +33,8 @@ from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.tableau.transformation import Transformation, transformation
-from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import (
-    Answer,
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Status,
-    itself,
-    optional,
-    via,
-)
+from garkcli.tell.dialect import Plain, Status
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, itself, optional, via
 from garkcli.tell.kinds import DERIVATION, TEXT, TRUTH, constant
 from garkcli.tell.outputs import labelled
 from garkcli.tell.parts import SAID, drawing, part, parts, rows_of, sentence, told

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
+from typing import NamedTuple, Protocol, TypeAlias, TypeVar
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, Mutable
@@ -12,15 +12,10 @@ from garkcli.ntrees.notation import parse_tree
 from garkcli.ntrees.tree import Tree
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, optional
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, Words, itself, optional
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TRUTH
 from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Words
-
-if TYPE_CHECKING:
-    from garkcli.report.conditions import ConditionRow
-    from garkcli.report.symplectic import ListedClass
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
@@ -125,7 +120,14 @@ def counts(what: str) -> Kind[dict[str, int]]:
     return Kind(Json(counts_of(what)))
 
 
-SIZES: Rows[ConditionRow | ListedClass] = (
+class HasTree(Protocol):
+    """A row about a tree."""
+
+    @property
+    def tree(self) -> Tree: ...
+
+
+SIZES: Rows[HasTree] = (
     Row("root", INDEX, lambda x: x.tree.root, DATA),
     Row("order", POSITION, lambda x: x.tree.order, DETAIL),
     Row("sigma", POSITION, lambda x: x.tree.symmetry),

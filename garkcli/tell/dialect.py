@@ -26,12 +26,12 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
-from garkcli.frozen import Mutable, field, replace
+from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.ntrees.notation import format_tree
 from garkcli.page.paint import Paint, folded, indented, shown_width
 from garkcli.page.plain import inert
 from garkcli.page.plaintext import plain_text
-from garkcli.reason import Place, Reason
+from garkcli.reason import NO_REASON, Place, Reason
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
-    from garkcli.tell.facts import Status
 
 LONG = 40
 """Longer exact numbers are shown as decimals where that is enough."""
@@ -65,6 +64,23 @@ FEW = 4
 
 Cells: TypeAlias = Sequence[str]
 _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
+
+
+class Status(Frozen):
+    """The certainty of a value; a rounded order can be all three.
+
+    Attributes:
+        within: the rounding for which it holds; None for exactly.
+        at_least: whether it may be larger.
+        open: what is undecided, and why.
+    """
+
+    within: fmpq | None = None
+    at_least: bool = False
+    open: Reason = NO_REASON
+
+
+SURE = Status()
 
 
 class GridLayout(NamedTuple):

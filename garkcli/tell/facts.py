@@ -13,16 +13,16 @@ from copy import copy
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypedDict, TypeVar, Unpack
 
-from flint import fmpq
-
 from garkcli.frozen import Frozen
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.shown import Below, Display, ManyParts, Words
+from garkcli.tell.dialect import SURE, Status
 
 if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
+    from garkcli.plots.scene import Scene
     from garkcli.tell.dialect import Plain
+
 
 T = TypeVar("T")
 U = TypeVar("U")
@@ -30,6 +30,91 @@ V = TypeVar("V")
 T_in = TypeVar("T_in", contravariant=True)
 V_in = TypeVar("V_in", contravariant=True)
 V_out = TypeVar("V_out", covariant=True)
+Wording: TypeAlias = "Callable[[T, Plain], str]"
+Labelling: TypeAlias = "Callable[[T, Plain], Iterable[tuple[str, str]]]"
+Phrasing: TypeAlias = "Callable[[str, T, Answer[T], Plain], str]"
+"""Makes a part of a sentence of a label, a value and its answer."""
+
+
+class Display(Frozen, Generic[V_in]):
+    """A way to show a value."""
+
+
+class Words(Display[V_in]):
+    """In a line.
+
+    Attributes:
+        whole: the answer in words, if its status and its reason are not added after ``words``.
+        phrase: a part of a sentence, if that is not the label with the words.
+        absent: the cell of a table if there is no value.
+    """
+
+    words: Wording[V_in]
+    whole: Callable[[V_in, Answer[V_in], Plain], str] | None = None
+    phrase: Phrasing[V_in] | None = None
+    absent: str = ""
+
+
+class Labels(Display[V_in]):
+    """As rows among those of other facts."""
+
+    rows: Labelling[V_in]
+
+
+class Below(Display[V_in]):
+    """In lines of its own, below the other facts."""
+
+
+class TextPicture(Below[V_in]):
+    """A picture in signs, which only some outputs have room for."""
+
+    lines: Callable[[V_in, Plain], Sequence[str]]
+
+
+class Drawing(Below[V_in]):
+    """Finished lines of the output."""
+
+    draw: Callable[[V_in, Plain], Iterable[str]]
+
+
+class Plot(Below[V_in]):
+    """Axes, curves and areas, which each output draws in its way."""
+
+    scene: Callable[[V_in], Scene]
+
+
+class OnePart(Display[T]):
+    """By the facts of a section: usually some in a line, or ``words``; with details each alone."""
+
+    section: Section[T]
+    words: Wording[T] | None = None
+    phrase: Phrasing[T] | None = None
+
+    def values(self, value: T) -> Sequence[T]:
+        return [value]
+
+
+class ManyParts(Display[Sequence[T]]):
+    """A list, by the facts of a section.
+
+    Attributes:
+        words: the line of all parts, if the usual facts do not make it.
+        most: so many rows of a table are usual, 0 for all; None if a line is usual.
+    """
+
+    section: Section[T]
+    words: Wording[Sequence[T]] | None = None
+    most: int | None = None
+
+    def values(self, value: Sequence[T]) -> Sequence[T]:
+        return value
+
+
+class Stream(Below[Iterable[T]]):
+    """A line for each part, while the parts are found, below headings of ``by`` on a terminal."""
+
+    section: Section[T]
+    by: Wording[T] | None = None
 
 
 class Level(IntEnum):
@@ -39,23 +124,6 @@ class Level(IntEnum):
     USUAL = 1
     DETAIL = 2
     DATA = 3
-
-
-class Status(Frozen):
-    """The certainty of a value; a rounded order can be all three.
-
-    Attributes:
-        within: the rounding for which it holds; None for exactly.
-        at_least: whether it may be larger.
-        open: what is undecided, and why.
-    """
-
-    within: fmpq | None = None
-    at_least: bool = False
-    open: Reason = NO_REASON
-
-
-SURE = Status()
 
 
 class Answer(Frozen, Generic[V_out]):

@@ -17,6 +17,7 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
+from garkcli.tell.dialect import Status
 from garkcli.tell.facts import (
     Answer,
     FieldBeside,
@@ -26,10 +27,9 @@ from garkcli.tell.facts import (
     Row,
     Rows,
     Section,
-    Status,
+    Words,
     maybe,
 )
-from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
     from flint import arb

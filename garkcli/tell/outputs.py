@@ -11,8 +11,20 @@ from typing import TypeVar
 
 from garkcli.glossary.labels import label_of
 from garkcli.tell.dialect import GridLayout, Plain
-from garkcli.tell.facts import Fact, Level, Row, Section
-from garkcli.tell.shown import Drawing, Labels, ManyParts, OnePart, Plot, Stream, TextPicture, Words
+from garkcli.tell.facts import (
+    Drawing,
+    Fact,
+    Labels,
+    Level,
+    ManyParts,
+    OnePart,
+    Plot,
+    Row,
+    Section,
+    Stream,
+    TextPicture,
+    Words,
+)
 
 T = TypeVar("T")
 

@@ -5,13 +5,26 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from garkcli.tell.facts import Kind, Level, Row, Section, Several
-from garkcli.tell.shown import Drawing, Labels, ManyParts, OnePart, Plot, Stream, TextPicture, Words
+from garkcli.tell.facts import (
+    Drawing,
+    Kind,
+    Labels,
+    Level,
+    ManyParts,
+    OnePart,
+    Plot,
+    Row,
+    Section,
+    Several,
+    Stream,
+    TextPicture,
+    Words,
+)
 
 if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
     from garkcli.tell.dialect import Plain
-    from garkcli.tell.shown import Labelling, Phrasing, Wording
+    from garkcli.tell.facts import Labelling, Phrasing, Wording
 
 T = TypeVar("T")
 

@@ -12,9 +12,8 @@ from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint
 from garkcli.page.schema import Schema, array, one_of, published
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level, Section
+from garkcli.tell.facts import Level, Plot, Section, Stream
 from garkcli.tell.outputs import body, labelled, many, one
-from garkcli.tell.shown import Plot, Stream
 
 Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"

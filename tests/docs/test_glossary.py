@@ -16,11 +16,20 @@ from garkcli.errors import UsageProblem
 from garkcli.glossary.labels import label_of
 from garkcli.glossary.term import TOPICS, Term, by_word, plain, terms_of
 from garkcli.report.schemas import REPORTS as SCHEMAS
-from garkcli.tell.facts import Level, Row, Section
+from garkcli.tell.facts import (
+    Labels,
+    Level,
+    ManyParts,
+    OnePart,
+    Plot,
+    Row,
+    Section,
+    Stream,
+    TextPicture,
+)
 from garkcli.tell.kinds import COUNT
 from garkcli.tell.parts import part
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Labels, ManyParts, OnePart, Plot, Stream, TextPicture
 from tests.cli.harness import gark
 from tests.docs.tables import terms_tables
 from tests.whole import in_whole

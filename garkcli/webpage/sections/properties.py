@@ -10,7 +10,7 @@ from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS, every_property
 from garkcli.report.check import CHECKED, verdict_words, within
 from garkcli.report.checked import REPORT
-from garkcli.tell.facts import Status
+from garkcli.tell.dialect import Status
 from garkcli.tell.outputs import label, words
 from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Content, Reported
