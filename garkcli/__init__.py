@@ -37,10 +37,9 @@ NAMES = {
         "api.problems": "problem hamiltonian",
         "api.files": "load_problem loads_problem",
         "problems.oscillator": "Oscillator",
-        "api.converging": "converge",
-        "api.runs": "long_run symplecticity_defects bind integrate trajectory",
+        "api.runs": "converge long_run symplecticity_defects bind integrate trajectory",
     },
-    "The modified equation": {"api.modified": "backward_analysis modified_formula modified_run"},
+    "The modified equation": {"api.runs": "backward_analysis modified_formula modified_run"},
     "Design": {
         "api.files": "load_family loads_family",
         "api.design": "find_parameters minimise search_methods found_methods stable_values",
@@ -80,7 +79,7 @@ ANSWERS = {
     "api.methods": "GarkMethod.order=find_order GarkMethod.symplectic=is_symplectic "
     "GarkMethod.conjugate=conjugate GarkMethod.pair=pair GarkMethod.check=analyse",
     "api.calls": "GarkMethod.stability=find_stability",
-    "api.converging": "GarkMethod.converge=converge",
+    "api.runs": "GarkMethod.converge=converge",
     "backward.formulas": "Algebraic.sympy=in_sympy",
     "cli.project": "FileKind.project=told",
     "exact.display": "Algebraic.float=nearest_float",

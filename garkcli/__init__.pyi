@@ -11,7 +11,6 @@ from garkcli.api.calls import two_springs as two_springs
 from garkcli.api.calls import with_claims as with_claims
 from garkcli.api.construction import diagonal_method as diagonal_method
 from garkcli.api.construction import gark as gark
-from garkcli.api.converging import converge as converge
 from garkcli.api.design import find_parameters as find_parameters
 from garkcli.api.design import found_methods as found_methods
 from garkcli.api.design import minimise as minimise
@@ -35,14 +34,15 @@ from garkcli.api.methods import pair as pair
 from garkcli.api.methods import reduced as reduced
 from garkcli.api.methods import simplifying as simplifying
 from garkcli.api.methods import symplectic_pair as symplectic_pair
-from garkcli.api.modified import backward_analysis as backward_analysis
-from garkcli.api.modified import modified_formula as modified_formula
-from garkcli.api.modified import modified_run as modified_run
 from garkcli.api.problems import hamiltonian as hamiltonian
 from garkcli.api.problems import problem as problem
+from garkcli.api.runs import backward_analysis as backward_analysis
 from garkcli.api.runs import bind as bind
+from garkcli.api.runs import converge as converge
 from garkcli.api.runs import integrate as integrate
 from garkcli.api.runs import long_run as long_run
+from garkcli.api.runs import modified_formula as modified_formula
+from garkcli.api.runs import modified_run as modified_run
 from garkcli.api.runs import symplecticity_defects as symplecticity_defects
 from garkcli.api.runs import trajectory as trajectory
 from garkcli.api.trees import all_conditions as all_conditions

@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from garkcli import converge, load, long_run
 from garkcli.frozen import replace
 from garkcli.longtime.history import LongRun
-from garkcli.plots.energy import history_panel
+from garkcli.plots.curves import history_panel
 from garkcli.plots.figure import draw
 from garkcli.plots.saving import save
 from garkcli.problems.oscillator import Oscillator

@@ -1,23 +1,210 @@
-"""Methods at work on problems: long runs, single steps."""
+"""Methods at work on problems: convergence tests, modified equations, long runs, single steps."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from flint import arb
+from flint import arb, fmpq
 
-from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
-from garkcli.api.numbers import Number, Whole, rational, rational_or_none, whole
+from garkcli.api.anymethod import AnyMethod, method_of, tableau_of, with_tolerance
+from garkcli.api.methods import find_order
+from garkcli.api.numbers import Number, Whole, rational, rational_or_none, rationals, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for, problem_for, to_step
-from garkcli.errors import MethodError, counted
+from garkcli.api.stepped import stepped
+from garkcli.backward import energy, formulas, summary
+from garkcli.backward.energy import ModifiedRun
+from garkcli.backward.formulas import ModifiedFormula
+from garkcli.backward.summary import BackwardAnalysis
+from garkcli.constructions.rosenbrock import Which, is_rosenbrock, seen
+from garkcli.convergence import convergence
+from garkcli.convergence.result import Convergence
+from garkcli.errors import MethodError, counted, did_you_mean
 from garkcli.frozen import replace
 from garkcli.longtime import longtime, symplecticity
 from garkcli.longtime.history import SERIES, LongRun, State, whole_run
 from garkcli.longtime.symplecticity import Defect
+from garkcli.order.meant import keep, meant, printed
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.stepping import integrator as stepping
 from garkcli.stepping.integrator import Binding, Integrator, Real
+from garkcli.stepping.linearly_implicit import Taken
+from garkcli.tableau.tableau import Tableau
+
+
+def converge(
+    method: AnyMethod,
+    problem: AnyProblem | None = None,
+    t_end: Number | None = None,
+    steps: Sequence[Number] | None = None,
+    tolerance: Number | None = None,
+    is_timed: bool = False,
+    jacobian: Taken = "exact",
+) -> Convergence:
+    """Test the convergence of a method on a problem: ``gark converge``.
+
+    The method is used as given; ``method.pair`` and ``method.conjugate`` correspond to ``--pair``
+    and ``--conjugate``.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        problem: a problem, the name of a built-in one, or the path of a problem file; with as many
+            terms as the method has fields, or with one that has a natural split. The oscillator is
+            solved by the exact step map. By default the problem with random coefficients for which
+            every tree of the structure matters.
+        t_end: the final time; the problem's own by default, 4/ω for the oscillator.
+        steps: step sizes that divide ``t_end``, the largest first; by default a ladder.
+        tolerance: the rounding of the coefficients; that of the method where it is not given.
+            Slopes may then end on a plateau.
+        is_timed: whether to measure the time of the steps in floats as well, in seconds.
+        jacobian: the matrix of a Rosenbrock method: the exact Jacobian; that of one step before, at
+            t − h and y − h f; or its diagonal, without ∂f/∂t. The order is then that with an old
+            Jacobian, or with any matrix.
+
+    Raises:
+        MethodError: ``jacobian`` is given for another kind of method.
+        UsageProblem: the problem is not of the form of the structure, a step does not divide
+            ``t_end``, or the stage equations of a given step have no unique solution.
+        StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
+
+    >>> found = converge("rk4", "pendulum")
+    >>> found, round(found.observed_order, 1), found.verdict
+    (<Convergence pendulum: observed order 4.0, agree>, 4.0, 'agree')
+    >>> found.rows[0].h, float(found.rows[0].error) < 0.1
+    (1, True)
+    """
+    is_own = tolerance is None
+    method, near = with_tolerance(method, tolerance, is_any_kind=True)
+    taken = taking(method.tableau, near, jacobian)
+    tableau, problem, order = stepped(taken, near, problem)
+    if near is not None and is_own and method.base is not None:
+        order = find_order(method).order
+    found = convergence.converge(
+        tableau,
+        None if problem is None else problem_for(problem, tableau),
+        rational_or_none(t_end, "t_end"),
+        None if steps is None else _some(rationals(steps, "steps")),
+        near,
+        is_timed,
+        order,
+    )
+    return replace(found, method=method, jacobian=jacobian)
+
+
+MATRICES: dict[Taken, Which] = {"old": "with_old_jacobian", "diagonal": "with_any_matrix"}
+"""The tableaus for other matrices than the exact Jacobian."""
+
+
+def taking(tableau: Tableau, tolerance: fmpq | None, jacobian: Taken) -> Tableau:
+    """Returns the tableau of a Rosenbrock method with some matrix for the Jacobian.
+
+    Raises MethodError for other methods, unless the Jacobian is exact, and for unknown matrices.
+    """
+    if jacobian == "exact":
+        return tableau
+    if jacobian not in MATRICES:
+        cure = did_you_mean(jacobian, ["exact", *MATRICES])
+        raise MethodError(f"jacobian: {jacobian!r} is not known", cure, code="unknown-word")
+    if not is_rosenbrock(tableau):
+        message = f"the Jacobian {jacobian} applies to Rosenbrock methods only"
+        raise MethodError(message, "leave it out", code="wanted-without-meaning")
+    made = seen(meant(tableau, tolerance), MATRICES[jacobian])
+    if not isinstance(made, Tableau):
+        keep(made)
+    return printed(made)
+
+
+def _some(steps: list[fmpq]) -> list[fmpq]:
+    """Returns the step sizes; raises MethodError if there are none."""
+    if not steps:
+        raise MethodError("steps: there is none", "give one or more", code="arrays")
+    return steps
+
+
+def backward_analysis(
+    method: AnyMethod, max_order: Whole, tolerance: Number | None = None
+) -> BackwardAnalysis:
+    """The backward error analysis of a method with trees of up to ``max_order`` vertices: ``gark
+    modified``.
+
+    With a tolerance it is that of the exact method that the coefficients approximate, to some
+    digits more than are printed; orders that depend on exact zeros are undecided.
+
+    Args:
+        method: whatever ``method_of`` takes.
+        max_order: the largest number of vertices of a tree, at least 1.
+        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
+            none.
+
+    Raises:
+        UsageProblem: there are too many trees.
+
+    >>> found = backward_analysis("stoermer-verlet", 5)
+    >>> found, found.symplectic, found.effective.order
+    (<BackwardAnalysis order 2, symplectic>, Reached(order=5, is_lower_bound=True), 2)
+    """
+    most = whole(max_order, "max_order", 1)
+    method, near = with_tolerance(method, tolerance)
+    return summary.backward_analysis(method.tableau, most, near)
+
+
+def modified_formula(method: AnyMethod, problem: AnyProblem, max_order: Whole) -> ModifiedFormula:
+    """The modified Hamiltonian of a symplectic method, or the modified equation of another one.
+
+    Args:
+        method: whatever ``method_of`` takes; its coefficients are exact.
+        problem: a Hamiltonian problem, the name of a built-in one, or the path of a problem file.
+        max_order: the largest order of trees; powers of h go up to one less.
+
+    Raises:
+        UsageProblem: the problem is not of the form of the structure, or there are too many trees.
+
+    >>> for term in modified_formula("stoermer-verlet", "pendulum", 4).expanded().terms:
+    ...     print(term.power, *term.formulas)
+    0 px**2/2 - cos(x) + 1
+    2 px**2*cos(x)/12 - sin(x)**2/24
+    """
+    tableau = tableau_of(method)
+    most = whole(max_order, "max_order", 1)
+    return formulas.modified_formula(tableau, hamiltonian_for(problem, tableau), most)
+
+
+def modified_run(
+    method: AnyMethod,
+    problem: AnyProblem,
+    max_order: Whole,
+    t_end: Number | None = None,
+    longest: Number | None = None,
+) -> ModifiedRun:
+    """Measure the error of a symplectic method in its modified Hamiltonian:
+    ``gark energy --modified``.
+
+    Args:
+        method: whatever ``method_of`` takes; symplectic by its coefficients, which are exact.
+        problem: as in ``modified_formula``.
+        max_order: the largest order of trees; powers of h go up to one less.
+        t_end: the final time; the problem's own by default.
+        longest: an upper bound on the step sizes.
+
+    Raises:
+        UsageProblem: the method is not symplectic or not consistent, there are too many trees or
+            steps.
+        StepFailed: the stage equations of a step were not solved.
+
+    >>> run = modified_run("stoermer-verlet", "pendulum", 3)
+    >>> run, [(x.power, x.exact_order, x.verdict) for x in run.energies]
+    (<ModifiedRun pendulum: h^0 agree, h^2 agree>, [(0, 2, 'agree'), (2, 4, 'agree')])
+    """
+    method = method_of(method)
+    tableau = method.tableau
+    run = energy.modified_run(
+        tableau,
+        hamiltonian_for(problem, tableau),
+        whole(max_order, "max_order", 1),
+        rational_or_none(t_end, "t_end"),
+        rational_or_none(longest, "longest"),
+    )
+    return replace(run, method=method)
 
 
 def long_run(

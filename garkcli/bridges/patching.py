@@ -10,7 +10,7 @@ from pathlib import Path
 
 from garkcli.bridges.audit import Audited
 from garkcli.bridges.fixing import Mended, mended_sources
-from garkcli.page.plain import inert
+from garkcli.page.safety import inert
 
 AROUND = 3
 """Lines around a change."""

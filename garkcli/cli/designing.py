@@ -502,7 +502,7 @@ def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> 
         say_problem(error)
         return EXIT_CODES[None]
     if given.plot is not None:
-        from garkcli.plots.stable_plane import stable_plane_scene
+        from garkcli.plots.curves import stable_plane_scene
 
         if not isinstance(found, StablePlane):
             raise UsageProblem(_PLOT, "free a second parameter", code="option-alone")
@@ -600,7 +600,7 @@ def _curve(family: FamilyFile, starts: int, given: DesignOptions, output: Output
         curve, ended = _worked(asked, given, steps, curve, show)
     report = CurveReport(family.source, asked.search, curve)
     if given.plot is not None and curve.knots:
-        from garkcli.plots.design_curve import curve_scene
+        from garkcli.plots.curves import curve_scene
 
         output.save_plot(curve_scene(curve, family.name), given.plot)
     output.tell(REPORT, report)
@@ -769,6 +769,6 @@ def sweep(given: Sweep, output: Output) -> None:
         write_parquet(report, given.parquet)
         output.note(f"wrote {given.parquet}")
     if given.plot is not None:
-        from garkcli.plots.sweep import sweep_scene
+        from garkcli.plots.curves import sweep_scene
 
         output.save_plot(sweep_scene(report), given.plot)

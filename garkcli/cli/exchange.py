@@ -136,7 +136,7 @@ def _write_certificate(given: Export, output: Output) -> None:
     output.format = named or given.format or PROOFS[0]
     method = given.method(given.file, is_any_kind=True)
     if output.format == "coq":
-        from garkcli.report.coq import coq_proof
+        from garkcli.report.certificate import coq_proof
 
         output.write(coq_proof(prove_method(method)))
     else:

@@ -148,11 +148,11 @@ def list_(given: ListOptions, output: Output) -> None:
     gark lists a method if every option holds and its name, an alias, its title or its reference has
     every WORD; --no-... selects methods without the property, if that is known.
     """
-    from garkcli.report import list_methods, listing
+    from garkcli.report import listing, methods
 
     filters = {**given.filters, "words": given.words}
     if given.what == "methods":
-        output.tell(list_methods.REPORT, _listed(filters))
+        output.tell(methods.REPORT, _listed(filters))
         return
     for key, value in filters.items():
         if value not in (None, ()):
@@ -214,7 +214,8 @@ def show(given: Show, output: Output) -> None:
     from garkcli.catalogue.entries import entry_of_method, entry_on
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
-    from garkcli.report.show import REPORT, ShownMethod
+    from garkcli.report.methods import SHOWN as REPORT
+    from garkcli.report.methods import ShownMethod
 
     files = output.files_meant(given.files, given.settings)
     if len(files) > 1 and output.format == "json":

@@ -413,7 +413,7 @@ class Problems:
 
         Raises GarkError if the problem does not fit, or a step fails.
         """
-        from garkcli.api.converging import converge
+        from garkcli.api.runs import converge
 
         given = self._given
         problem = self.of(self._stepped(method))
@@ -459,7 +459,7 @@ def energy(given: Energy, output: Output) -> int:
     claims = _claims(run, given)
     output.tell(REPORT, EnergyReport(name, run, steps, claims))
     if given.plot is not None:
-        from garkcli.plots.energy import energy_scene
+        from garkcli.plots.curves import energy_scene
 
         output.save_plot(energy_scene(run, name), given.plot)
     answers = [claim.holds for claim in claims]
@@ -552,8 +552,8 @@ def _in_modified(order: int, given: Energy, output: Output) -> int:
 
     Raises UsageProblem for rounded coefficients.
     """
-    from garkcli.api.modified import modified_run
     from garkcli.api.problems import hamiltonian_for
+    from garkcli.api.runs import modified_run
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
     method = given.method(given.file)
@@ -584,7 +584,7 @@ def modified(given: Modified, output: Output) -> None:
 
     With --problem the modified Hamiltonian or equation itself.
     """
-    from garkcli.api.modified import backward_analysis
+    from garkcli.api.runs import backward_analysis
     from garkcli.backward.series import possible_order
     from garkcli.methodfile.naming import called
     from garkcli.problems.builtin import check_seed
@@ -615,8 +615,8 @@ def _formula(method: GarkMethod, problem: str, given: Modified) -> ModifiedFormu
 
     Raises UsageProblem for rounded coefficients, or if the problem is not Hamiltonian.
     """
-    from garkcli.api.modified import modified_formula
     from garkcli.api.problems import hamiltonian_for
+    from garkcli.api.runs import modified_formula
 
     if method.tolerance is not None:
         message = "--problem: a formula has exact coefficients, and those of the file are rounded"

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from garkcli.ntrees.tree import Tree
     from garkcli.order.conditions import Condition
     from garkcli.report.conditions import ConditionRow, Valued
-    from garkcli.report.symplectic_subject import SymplecticSubject
-    from garkcli.report.trees import Query, TreeRow
+    from garkcli.report.trees import Query, SymplecticSubject, TreeRow
 
 MANY = 1_000_000
 """For more lines the command asks first."""
@@ -221,13 +220,14 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
 
 def _free_trees(given: Trees, order: int | None, output: Output) -> None:
     """Writes a row for each class of equivalent conditions of symplectic methods."""
-    from garkcli.report import symplectic as report
-    from garkcli.report.symplectic_subject import subject_of_kind
+    from garkcli.report import trees as report
 
-    subject = subject_of_kind(given.kind or "pair", given.colours, _orders(order, given.upto))
+    subject = report.subject_of_kind(
+        given.kind or "pair", given.colours, _orders(order, given.upto)
+    )
     if given.count:
         with _any_digits():
-            output.stream(report.REPORT, report.FreeList(subject, None))
+            output.stream(report.FREE_TREES, report.FreeList(subject, None))
     elif given.svg is not None:
         listed = (found.representative for found in subject.classes())
         _draw_sheet(given.svg, listed, subject.has_colours, output)
@@ -235,7 +235,7 @@ def _free_trees(given: Trees, order: int | None, output: Output) -> None:
         lines = subject.independent
         _refuse_millions(lines, given.yes)
         found = report.FreeList(subject, counting("trees", subject.classes(), lines), given.members)
-        output.stream(report.REPORT, found, given.document)
+        output.stream(report.FREE_TREES, found, given.document)
 
 
 def _single(text: str, given: Trees, output: Output) -> None:
@@ -416,7 +416,7 @@ def _subject(given: Conditions, orders: range, valued: Valued | None) -> Symplec
     """Returns what the conditions are independent for: a kind of methods, or the method of a
     file.
     """
-    from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
+    from garkcli.report.trees import subject_of_kind, subject_of_method
 
     if valued is None:
         return subject_of_kind(given.kind or "pair", given.colours, orders)

@@ -1,14 +1,40 @@
-"""The last check of a report before it is written, with the escapes of its format.
-
-Reports escape names where they write them (``plain``); here nothing that was missed reaches a
-terminal or the runner of a job.
-"""
+"""Texts made harmless: controls, commands to terminals and to the runners of jobs, formulas."""
 
 from __future__ import annotations
 
 import re
 
-from garkcli.page.plain import inert
+_COMMAND = r"^([^\S\n]*):(?=:)"
+"""A line that GitHub Actions takes for a workflow command: it begins with two colons."""
+_OLD_COMMAND = r"##(?=\[)"
+"""The older form of these commands, which may be anywhere in a line."""
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+"""The characters that start a formula in spreadsheets."""
+
+
+def inert(text: str) -> str:
+    r"""Returns text with the lines escaped that GitHub Actions would take for commands.
+
+    >>> print(inert("::error::no"))
+    \x3a:error::no
+    """
+    return re.sub(_OLD_COMMAND, r"#\\x23", re.sub(_COMMAND, r"\1\\x3a", text, flags=re.MULTILINE))
+
+
+def csv_cell(text: str) -> str:
+    """Returns a name as a CSV cell that is never a formula; numbers are unchanged.
+
+    >>> csv_cell("=1+1"), csv_cell("-1.5e-3")
+    ("'=1+1", '-1.5e-3')
+    """
+    if not text.startswith(_FORMULA):
+        return text
+    try:
+        float(text)
+    except ValueError:
+        return f"'{text}"
+    return text
+
 
 JSON = frozenset({"json", "ndjson", "sarif"})
 """Formats that are JSON, where any character may be written as ``\\u1234``."""

@@ -14,12 +14,10 @@ from garkcli.design.stable_plane import StablePlane
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
 from garkcli.plots.convergence import errors_scene
-from garkcli.plots.energy import energy_scene
+from garkcli.plots.curves import energy_scene, stable_plane_scene, sweep_scene
 from garkcli.plots.regions import stability_scene
 from garkcli.plots.saving import check_suffix, need_matplotlib, save
 from garkcli.plots.scene import Scene
-from garkcli.plots.stable_plane import stable_plane_scene
-from garkcli.plots.sweep import sweep_scene
 from garkcli.stability.summary import Stability
 from garkcli.sweep.report import SweepReport
 

@@ -16,8 +16,7 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.reference import ZANNA, Reference
 from garkcli.report import citation
-from garkcli.report.certificate import REPORT
-from garkcli.report.coq import coq_proof
+from garkcli.report.certificate import REPORT, coq_proof
 from garkcli.report.listing import all_lists
 from garkcli.sweep.file import load_plan
 from garkcli.sweep.plan import Plan

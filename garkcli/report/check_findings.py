@@ -11,7 +11,7 @@ from garkcli.check.findings import KINDS, claim_hint, claim_witness, findings
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted, printable
 from garkcli.page.paint import Paint
-from garkcli.page.plain import inert
+from garkcli.page.safety import inert
 from garkcli.report import check_text
 from garkcli.report.check_text import no_claims
 from garkcli.report.remarks import annotation, commands_off, items, log_of

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
 from garkcli.page.paint import Paint
-from garkcli.page.plain import inert
+from garkcli.page.safety import inert
 from garkcli.report import remarks
 from garkcli.report.check import claim_rows, hint_rows, hints
 from garkcli.report.checked import REPORT

@@ -8,7 +8,7 @@ from string import ascii_lowercase
 
 from garkcli.errors import counted, printable
 from garkcli.frozen import Frozen, fields
-from garkcli.page.latex_letters import ascii_letters, letters
+from garkcli.page.latex import ascii_letters, letters
 from garkcli.reference import ARXIV, Reference
 from garkcli.tell.facts import Level, Row, Section, itself, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS

@@ -10,7 +10,7 @@ from garkcli.design.search.curve import Curve, Knot
 from garkcli.design.search.search import Search
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.plots.design_curve import curve_scene
+from garkcli.plots.curves import curve_scene
 from garkcli.report.search import ENDINGS, SECONDS
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Section, itself

@@ -17,7 +17,7 @@ from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.figures import measured
-from garkcli.plots.energy import energy_scene
+from garkcli.plots.curves import energy_scene
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.problem import STEPPED, Run
 from garkcli.report.remarks import FAILURE, FailedRun

@@ -15,7 +15,7 @@ from garkcli.exact.roots import RealRoot, sign
 from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
-from garkcli.plots.stable_plane import stable_plane_scene
+from garkcli.plots.curves import stable_plane_scene
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, via

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.plots.sweep import drawn, sweep_scene
+from garkcli.plots.curves import drawn, sweep_scene
 from garkcli.report.search import with_root
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan

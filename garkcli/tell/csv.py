@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 from typing import TypeVar
 
-from garkcli.page.plain import csv_cell
+from garkcli.page.safety import csv_cell
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Section
 

@@ -29,8 +29,8 @@ from garkcli.exact.polynomial_text import (
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.ntrees.notation import format_tree
 from garkcli.page.paint import Paint, folded, indented, shown_width
-from garkcli.page.plain import inert
 from garkcli.page.plaintext import plain_text
+from garkcli.page.safety import inert
 from garkcli.reason import NO_REASON, Place, Reason
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
-from garkcli.page.plain import csv_cell
+from garkcli.page.safety import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tell.dialect import Status

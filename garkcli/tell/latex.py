@@ -11,7 +11,7 @@ from garkcli.exact.display import to_latex
 from garkcli.exact.polynomial_text import root_text
 from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
-from garkcli.page.latex_letters import greek
+from garkcli.page.latex import greek
 from garkcli.tell.dialect import WHOLE, Cells, GridLayout, Plain
 
 if TYPE_CHECKING:

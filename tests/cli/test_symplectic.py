@@ -16,7 +16,7 @@ from garkcli.methodfile.load import load
 from garkcli.ntrees.count import counts_of
 from garkcli.ntrees.notation import parse_tree
 from garkcli.ntrees.symplectic import KINDS, Kind, structure_of, superfluous_classes
-from garkcli.report.symplectic_subject import subject_of_method
+from garkcli.report.trees import subject_of_method
 from garkcli.tableau.forms import pair, with_linear
 from tests.cli.harness import ROOT, gark
 from tests.whole import in_whole

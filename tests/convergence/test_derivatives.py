@@ -8,7 +8,7 @@ import pytest
 from flint import fmpq
 from mpmath import cos, mp, mpf, sin
 
-from garkcli.api.converging import converge
+from garkcli.api.runs import converge
 from garkcli.methodfile.load import load, loads
 from garkcli.problems.builtin import problem
 from garkcli.stepping.integrator import Stepper, bind

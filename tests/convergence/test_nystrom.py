@@ -10,7 +10,7 @@ import pytest
 from flint import fmpq
 from mpmath import mp, mpf, sin
 
-from garkcli.api.converging import converge
+from garkcli.api.runs import converge
 from garkcli.api.stepped import stepped
 from garkcli.constructions.nystrom import Nystrom
 from garkcli.errors import UsageProblem

@@ -8,7 +8,7 @@ import pytest
 from flint import fmpq
 from mpmath import lu_solve, matrix, mp, mpc, mpf
 
-from garkcli.api.converging import converge, taking
+from garkcli.api.runs import converge, taking
 from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.convergence.linear_solver import hamiltonian_of, linear_solver
 from garkcli.errors import MethodError

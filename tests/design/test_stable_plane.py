@@ -17,8 +17,8 @@ from garkcli.exact.cells import has
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.family import loads_family
+from garkcli.plots.curves import stable_plane_scene
 from garkcli.plots.scene import Area
-from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.stability.linear import is_a_stable, real_and_imaginary, stability_function
 from tests.cli.harness import gark
 from tests.whole import at_most, in_whole, sample

@@ -30,8 +30,7 @@ from garkcli.constructions.rosenbrock import rosenbrock
 from garkcli.errors import MethodError
 from garkcli.order.certificate import prove
 from garkcli.reason import Reason
-from garkcli.report.certificate import REPORT
-from garkcli.report.coq import coq_proof
+from garkcli.report.certificate import REPORT, coq_proof
 from garkcli.tableau.tableau import Tableau
 from tests.constructions.test_rosenbrock import RODAS3
 from tests.whole import IS_WHOLE, at_most, in_whole, sample

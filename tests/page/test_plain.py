@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from garkcli.check.outcome import Outcome
 from garkcli.errors import Remark, printable
 from garkcli.page.paint import Paint
-from garkcli.page.plain import csv_cell, inert
+from garkcli.page.safety import csv_cell, inert
 from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 

@@ -14,7 +14,7 @@ from garkcli import converge, find_stability, long_run
 from garkcli.frozen import replace
 from garkcli.plots import terminal
 from garkcli.plots.convergence import errors_scene
-from garkcli.plots.energy import energy_scene
+from garkcli.plots.curves import energy_scene
 from garkcli.plots.figure import figure
 from garkcli.plots.regions import springs_panel, stability_scene
 from garkcli.plots.scene import (

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
-from garkcli.page.latex_letters import ascii_letters, letters
+from garkcli.page.latex import ascii_letters, letters
 from garkcli.reference import ZANNA, Reference
 from garkcli.report.calls import references
 from garkcli.report.citation import Cited, keys, render, title, together

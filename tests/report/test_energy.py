@@ -18,7 +18,7 @@ from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.methodfile.load import load
-from garkcli.plots.energy import energy_scene
+from garkcli.plots.curves import energy_scene
 from garkcli.plots.figure import figure as draw
 from garkcli.plots.saving import save_scene
 from garkcli.problems.builtin import hamiltonian

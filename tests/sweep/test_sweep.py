@@ -25,8 +25,8 @@ from garkcli.errors import MethodError, MethodFileError, UsageProblem
 from garkcli.exact.apart import start_method
 from garkcli.frozen import replace
 from garkcli.order.constants import error_constants
+from garkcli.plots.curves import sweep_scene
 from garkcli.plots.scene import Curve
-from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.sweep import run as running

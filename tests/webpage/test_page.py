@@ -27,7 +27,6 @@ from garkcli.order.conditions import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.registry import KEYS
 from garkcli.report.checked import REPORT
-from garkcli.webpage import heading as heading_module
 from garkcli.webpage import page as page_module
 from garkcli.webpage import reported as reported_module
 from garkcli.webpage.page import SECTIONS, render, report_page
@@ -345,8 +344,8 @@ def test_an_undecided_claim_is_no_failed_one(tmp_path: Path) -> None:
     text = "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
     path.write_text(f"{text}expect: {{p-stable: true, order: 2}}\n", encoding="utf-8")
     outcome = check_file(str(path))
-    assert heading_module.claims_text(outcome) == "Of its 2 claims, 1 is undecided."
-    assert heading_module.comparison_row(reported(str(path)))["mark"] == "open"
+    assert page_module.claims_text(outcome) == "Of its 2 claims, 1 is undecided."
+    assert page_module.comparison_row(reported(str(path)))["mark"] == "open"
     shown = section(str(path), "claims")
     classes = {x.get("class") for x in elements(shown, "span")}
     assert {"sign holds", "sign open"} <= classes

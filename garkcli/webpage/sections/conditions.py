@@ -16,8 +16,8 @@ from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.webpage.mathml import typeset_condition, typeset_number
+from garkcli.webpage.pictures import tree_picture
 from garkcli.webpage.reported import Content, Reported
-from garkcli.webpage.tree_picture import tree_picture
 
 _STATES = ("holds", "within", "varies", "fails")
 

@@ -14,8 +14,8 @@ from garkcli.report.checked import REPORT
 from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, label, words
 from garkcli.webpage.mathml import Typeset, typeset, typeset_condition, typeset_number
+from garkcli.webpage.pictures import tree_picture
 from garkcli.webpage.reported import Content, Reported
-from garkcli.webpage.tree_picture import tree_picture
 
 WITH_TIME = ("nonautonomous_order", "embedded_nonautonomous_order")
 OF_OTHER_KINDS = (
