@@ -18,8 +18,7 @@ from garkcli.page.figures import measured
 from garkcli.plots import scene
 from garkcli.plots.scene import Axis, Curve, Panel, Point, Scene, Shape, polygons
 from garkcli.sweep.plan import number
-from garkcli.sweep.report import kept, pareto_front
-from garkcli.sweep.report import SweepReport
+from garkcli.sweep.report import SweepReport, kept, pareto_front
 from garkcli.sweep.row import Row
 
 FACTOR = 20.0
