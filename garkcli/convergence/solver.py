@@ -1,4 +1,4 @@
-"""What solvers of a convergence test share: the cost of steps, and limits."""
+"""Steps of solvers in a convergence test, with their cost and their limits."""
 
 from __future__ import annotations
 

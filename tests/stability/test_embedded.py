@@ -118,4 +118,4 @@ def test_a_rosenbrock_method_is_no_runge_kutta_method() -> None:
     """Which is why it has no algebraic stability."""
     run = gark("stability", "ros3p")
     assert run.code == 0
-    assert "it is no Runge-Kutta method" in " ".join(run.out.split())
+    assert "not a Runge-Kutta method" in " ".join(run.out.split())
