@@ -29,7 +29,8 @@ BARE = ("hypothesis", "jsonschema", "pytest", "pytest-xdist")
 Versions = Literal["newest", "floors", "tested", "no-libyaml", "no-unix", "wheel"]
 """``newest`` and ``floors`` have the extras too, which not every Python has; all but ``floors`` are
 of the newest of each.
-``wheel`` has what a user has: a wheel of gark, not the checkout, with what reads sources.
+``wheel`` has what a user has: a wheel of gark, not the checkout, with what reads sources and
+searches for the best.
 """
 
 
@@ -107,7 +108,7 @@ def python_of(venv: Venv) -> Path:
 def _wanted(versions: Versions) -> list[str]:
     """What pip installs: gark, and what is beside it."""
     if versions == "wheel":
-        return [".[audit]", *BARE]
+        return [".[audit,design]", *BARE]
     extras = {"newest": (*EXTRAS, MSOLVE), "floors": EXTRAS}
     return ["--editable", f".[{','.join(['test', *extras.get(versions, ())])}]"]
 

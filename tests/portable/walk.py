@@ -2,9 +2,9 @@
 
     python -m tests.portable.walk [--shell zsh] [PAGE…]
 
-The wheel is made and installed with the extra ``audit`` into an environment of its own. Each page
-begins in an empty folder: its files are written, and its commands are typed into a shell, one after
-the other. What they print has to be what the page shows.
+The wheel is made and installed with the extras ``audit`` and ``design`` into an environment of its
+own. Each page begins in an empty folder: its files are written, and its commands are typed into a
+shell, one after the other. What they print has to be what the page shows.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def installed() -> Path:
     done([sys.executable, "-m", "venv", str(folder)])
     commands = folder / ("Scripts" if sys.platform == "win32" else "bin")
     pip = [str(commands / "python"), "-m", "pip", "--quiet"]
-    done([*pip, "--disable-pip-version-check", "install", f"{ROOT}[audit]"])
+    done([*pip, "--disable-pip-version-check", "install", f"{ROOT}[audit,design]"])
     return commands
 
 

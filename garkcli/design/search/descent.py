@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from typing import TYPE_CHECKING
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 
@@ -147,19 +148,22 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
 
     bounds = [*zip(-size, size, strict=True), *[(0.0, None)] * task.levels]
     try:
-        minimize(
-            lambda z: at(z).value,
-            np.append(np.zeros(len(size)), task.guess(start)),
-            jac=lambda z: at(z).gradient,
-            bounds=bounds,
-            constraints={
-                "type": "ineq",
-                "fun": lambda z: at(z).signs,
-                "jac": lambda z: at(z).of_signs,
-            },
-            method="SLSQP",
-            options={"maxiter": STEPS, "ftol": ACCURACY},
-        )
+        with catch_warnings():
+            # older versions of SciPy warn of steps that they shorten
+            simplefilter("ignore", RuntimeWarning)
+            minimize(
+                lambda z: at(z).value,
+                np.append(np.zeros(len(size)), task.guess(start)),
+                jac=lambda z: at(z).gradient,
+                bounds=bounds,
+                constraints={
+                    "type": "ineq",
+                    "fun": lambda z: at(z).signs,
+                    "jac": lambda z: at(z).of_signs,
+                },
+                method="SLSQP",
+                options={"maxiter": STEPS, "ftol": ACCURACY},
+            )
     except _EnoughError:
         pass
     except (OutsideError, ValueError, np.linalg.LinAlgError):  # numbers that are none

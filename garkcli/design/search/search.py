@@ -101,6 +101,8 @@ Proof: TypeAlias = Literal["exact", "exists", "numerical"]
 """What is known of a find: its exact order; that there is one; that residuals are small."""
 BITS = 1024
 """Bits to which solutions are polished."""
+MANY_BITS = 4 * BITS
+"""Bits of an optimum whose numbers are not told by fewer."""
 ERRORS = ("error", "A")
 """Objectives that are zero where a method has one order more."""
 SHORT = 12
@@ -249,7 +251,12 @@ class Search:
             x = polished(system, list(optimum.point), BITS)
         if x is None:
             return None
-        return self._exact(start, x) or self._inexact(start, system, x)
+        exact = self._exact(start, x)
+        if exact is None:
+            # the optimum has fixed short numbers; others in their field may be long
+            longer = polished(system, [float(a) for a in x[:, 0]], MANY_BITS)
+            exact = None if longer is None else self._exact(start, longer, MANY_BITS)
+        return exact or self._inexact(start, system, x)
 
     def value(self, find: Find) -> str:
         """The objective of a method as a decimal, or ``infinity``.
@@ -387,10 +394,10 @@ class Search:
         relations = [radical.relation for radical in self.family.radicals]
         return [*relations, *self.family.relations]
 
-    def _exact(self, start: int, x: Array) -> Find | None:
+    def _exact(self, start: int, x: Array, bits: int = BITS) -> Find | None:
         """The method with the exact numbers of which these are digits, if it has the order."""
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
-        guess = recognised(digits, BITS)
+        guess = recognised(digits, bits)
         return None if guess is None else self._certified(start, guess)
 
     @cached_property
