@@ -55,9 +55,12 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
         return len(rows) > 1 and (is_lower or bool(abs(moment) < NEAR))
     pairs = zip(rows, colour.c, strict=True)
     agreeing = sum(bool(abs(_sum(row) - to_ball(c)) < NEAR) for row, c in pairs)
-    moment = _sum(map(operator.mul, colour.b, colour.c)) - 0.5
-    if speaks(table) and abs(moment) < TINY and abs(_sum(colour.b) - 1) < TINY:
-        # weights and nodes are a quadrature: the matrix is wrong
+    by_nodes, by_rows = (
+        abs(_sum(map(operator.mul, colour.b, x)) - 0.5) for x in (colour.c, map(_sum, rows))
+    )
+    is_quadrature = by_nodes < TINY and abs(_sum(colour.b) - 1) < TINY
+    if speaks(table) and is_quadrature and by_rows > NEAR:
+        # the matrix is wrong
         return not _are_whole((*rows, colour.b))
     # whole numbers alone may be a linear system, whose zeros agree
     return agreeing >= (len(rows) if _are_whole((*rows, colour.b)) else len(rows) / 2)

@@ -159,6 +159,7 @@ class Evaluator:
         self._depth = 0
         self._inlined = 0
         self._lengths: list[int] = []
+        self._owner = ""
         self._of_cases: dict[str, dict[str, Value]] = {}
         self._gives: dict[str, Value | None] = {}
 
@@ -290,7 +291,9 @@ class Evaluator:
         target, line = statement.target, statement.line
         value: Value = self.unknown("never assigned")
         if statement.value is not None:
+            self._owner = target.name.rpartition("::")[0] if isinstance(target, ir.Name) else ""
             value = self.value(statement.value, space)
+            self._owner = ""
         if isinstance(value, Record) and not value.key:
             # RK["Heun"] = …
             key = self.value(target.at[-1], space) if isinstance(target, ir.Index) else NULL
@@ -548,6 +551,11 @@ class Evaluator:
         for scope in reversed(self._scopes):
             if scope.kind == "entry" and name in self._of_cases.get(scope.name, {}):
                 return self._of_cases[scope.name][name]
+        for owner in (self._owner, *(x.name.rpartition("::")[0] for x in reversed(self._scopes))):
+            # members of the class that a member or a function is of
+            found = space.find(f"{owner}::{name}") if owner else None
+            if found is not None:
+                return found
         plain = name.rpartition("::")[2]
         if plain in CONSTANTS:
             return CONSTANTS[plain]

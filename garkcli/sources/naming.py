@@ -56,7 +56,7 @@ METHODS = re.compile(
     r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?:rk)?(?![a-z])|dirk|dopri|dormand"
     r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
     r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
-    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|rkf(?![a-z])|cash.?karp|verner|gauss.?legendre"
+    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|rkf(?![a-z])|(?-i:AR[KS]_?\d)|cash.?karp|verner|gauss.?legendre"
     r"|radau|lobatto|tsit5|magnus",
     re.IGNORECASE,
 )
@@ -68,7 +68,7 @@ _PARTS = (
     re.compile(rf"{_WORD}_?{_WHICH}(?:_tableau)?", re.IGNORECASE),
     re.compile(rf"{_WHICH}_{_WORD}", re.IGNORECASE),
 )
-_ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order", "b": "b", "c": "c"}
+_ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order"}
 """Names beside those of one part."""
 _PAIR = {"A": "A1", "H": "A2", "c": "c"}
 """In the classes of Dedalus, where the last rows are the weights."""
@@ -115,7 +115,8 @@ def roles_of_parts(values: Mapping[str, Value]) -> Mapping[str, str]:
     """The names of the arrays of two parts, with their roles; empty without two matrices."""
     found = {name: role for name in values if (role := role_of_part(name))}
     if found:
-        found |= {name: role for name, role in _ANY_PART.items() if name in values}
+        shared = _ANY_PART | ({"b": "b", "c": "c"} if "b" in values else {})
+        found |= {name: role for name, role in shared.items() if name in values}
     elif "b" not in values and near(*items_of(values.get("c"))[-1:]) == 1:
         found = {name: role for name, role in _PAIR.items() if name in values}
     matrices = {role: values[name] for name, role in found.items() if role[0] == "A"}

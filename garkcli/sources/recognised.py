@@ -215,6 +215,9 @@ class _Source:
             values = {abs(x.value) for of in left for row in of.rows for x in row}
             fractions = sum(not x.is_integer() for x in values)
             is_other = OTHERS.search(group.title) is not None
+            if not _may_be_another(left):
+                # interpolants beside a table
+                is_other |= not known.isdisjoint(self.numbers(group.arrays))
             if is_other or not group.speaks or fractions < FEWEST_NUMBERS:
                 continue
             known |= self.numbers(left)
@@ -234,6 +237,12 @@ def _is_like_a_part(x: Given) -> bool:
         )
     total = sum(entry.value for entry in x.rows[0])
     return x.fractions > 1 and min(abs(total), abs(total - 1)) < NEAR
+
+
+def _may_be_another(arrays: Sequence[Given]) -> bool:
+    """Whether there are a matrix and weights for it."""
+    sums = [sum(entry.value for entry in x.rows[0]) for x in arrays if not x.is_matrix]
+    return any(x.is_matrix for x in arrays) and any(abs(x - 1) < NEAR for x in sums)
 
 
 def _steps(form: str, row: Value, line: int) -> dict[str, Value]:

@@ -245,3 +245,17 @@ def test_arrays_of_a_scope_that_speaks_of_methods_are_told_once() -> None:
     for name in ("fit", "plot_rk_of", "rk_interpolant"):
         told = matlab.find(f"function t = {name}()\n{text}t = sel;\nend\n", "a.m")
         assert told == []
+
+
+MEMBERS = """
+const double Sdirk::gam = 1.0 - 1.0 / std::sqrt(2.0);
+const double Sdirk::coefficients[3][3] = {
+  {gam, 0.0, 0.0}, {1.0 - 2.0 * gam, gam, 0.0}, {0.5, 0.5, 0.0} };
+"""
+
+
+def test_members_of_a_class_are_known_in_others() -> None:
+    """Their initialisers name them without the class."""
+    (found,) = filter(None, map(audit, c.find(MEMBERS, "a.cpp")))
+    assert found.order is not None
+    assert found.order.order == 2
