@@ -12,8 +12,8 @@ from flint import arb, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
 from garkcli.methodfile.build import MethodFile
+from garkcli.sources import naming
 from garkcli.sources.found import FoundTable
-from garkcli.sources.naming import METHODS
 
 _SHORT = re.compile("euler|midpoint|implicit|trapez|crank", re.IGNORECASE)
 """Words for methods of few numbers."""
@@ -69,7 +69,7 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
 def speaks(table: FoundTable) -> bool:
     """Whether the names of a table, around it or of its source are those of a method."""
     words = f"{table.name} {table.around} {PurePath(table.source).name}"
-    return METHODS.search(words) is not None or _SHORT.search(words) is not None
+    return naming.speaks(words) or _SHORT.search(words) is not None
 
 
 def _are_whole(rows: Iterable[Sequence[Number]]) -> bool:

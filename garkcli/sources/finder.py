@@ -31,7 +31,7 @@ from garkcli.sources.linear_stages import (
     roles_of_arguments,
     roles_of_kpp,
 )
-from garkcli.sources.naming import METHODS, ROLES, role_of, roles_of_parts
+from garkcli.sources.naming import ROLES, role_of, roles_of_parts, speaks
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
 from garkcli.sources.scalar_names import NEAR, whole_families
@@ -250,7 +250,7 @@ class TableFinder(Harvester):
     def _told_lost(self, scope: ir.Scope, space: Space) -> None:
         """Tell of a matrix of one way through a program that has entries which are not known."""
         for name, value in space.items():
-            is_named = METHODS.search(f"{name} {scope.title}") and MATRIX.search(name)
+            is_named = speaks(f"{name} {scope.title}") and MATRIX.search(name)
             line = space.lines.get(name, 0)
             if not is_named or not is_matrix(value) or line < scope.line:
                 continue

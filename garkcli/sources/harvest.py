@@ -23,7 +23,7 @@ from garkcli.recognise.given import (
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.evaluate import IN_A_BRANCH, Evaluator, Space
-from garkcli.sources.naming import METHODS
+from garkcli.sources.naming import speaks
 from garkcli.sources.values import (
     FILL,
     ONE,
@@ -130,12 +130,11 @@ class Harvester(Evaluator):
             return
         around = None if space.up is None else self._handle(space.up)
         names = [*(x.name for x in self._scopes), *(x.name for x in arrays), scope.title]
-        words = " ".join([*names, PurePath(self.source).name])
+        is_about_methods = speaks(" ".join([*names, PurePath(self.source).name]))
         place = self._handle(space), around
-        speaks = bool(METHODS.search(words))
         unknown = [name for name, x in space.items() if isinstance(x, Array) and _is_lost(x)]
         self.groups.append(
-            Group(place, scope.line, scope.title, arrays, found.orders, speaks, unknown)
+            Group(place, scope.line, scope.title, arrays, found.orders, is_about_methods, unknown)
         )
 
     def _handle(self, space: Space) -> int:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.naming import METHODS, ROLES
+from garkcli.sources.naming import ROLES, speaks
 from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import SIGNATURES, other_kind
 
@@ -63,7 +63,7 @@ class Lowering:
         self._data = text.encode(errors="replace")
         self._grammar = grammar or self.grammar
         self._depth = 0
-        self._speaks = METHODS.search(text) is not None
+        self._speaks = speaks(text)
         self._fields: dict[str, tuple[tuple[str, ...], int]] = {}
 
     def module(self) -> ir.Body:
@@ -218,7 +218,7 @@ class Lowering:
     def may_hold_a_table(self, node: Node) -> bool:
         """Whether the text of a function has numbers and names like those of a table."""
         text = self.text(node)
-        is_likely = len(text) < SHORT or self._speaks or bool(METHODS.search(text[:HEAD]))
+        is_likely = len(text) < SHORT or self._speaks or speaks(text[:HEAD])
         numbers = _NUMBER.finditer(text)
         fewest = 1 if is_likely else FEWEST_NUMBERS
         has_numbers = next(islice(numbers, fewest - 1, None), None) is not None

@@ -52,7 +52,7 @@ _SUFFIX = re.compile(
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""
-METHODS = re.compile(
+_METHODS = re.compile(
     r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?:rk)?(?![a-z])|dirk|dopri|dormand"
     r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
     r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
@@ -61,6 +61,31 @@ METHODS = re.compile(
     re.IGNORECASE,
 )
 """Words for methods."""
+_LIKE_METHODS = re.compile(
+    r"runge|kutta|butcher|tableau|rk(?![a-z]{2})|ssp(?:rk)?(?![a-z])|dirk|dopri|dormand|ros\d"
+    r"|rosenbrock|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida|low.?storage"
+    r"|symplectic|leapfrog|adams|ode\d|multistep|exponential.integrator|a_?[23]1(?!\w)|imex|imkg"
+    r"|ar[ks]_?\d|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus"
+)
+"""The same and more in small letters: each begins with a letter, so that it is found fast."""
+_LONGEST_BEFORE = 2
+"""So many letters of a word may be before it: ``ierk``."""
+
+
+def speaks(text: str) -> bool:
+    """Whether there is a word for a method in a text.
+
+    >>> speaks("class Heun(Solver)"), speaks("in parking, work.")
+    (True, False)
+    """
+    small = text.lower()
+    if len(small) != len(text):
+        return _METHODS.search(text) is not None
+    starts = (found.start() for found in _LIKE_METHODS.finditer(small))
+    places = (range(max(0, at - _LONGEST_BEFORE), at + 1) for at in starts)
+    return any(_METHODS.match(text, at) for each in places for at in each)
+
+
 MAX_NAME = 200
 _WORD = r"(?P<word>butcher|matrix|weights|nodes|[abcw]|b_?hat|b_?embed|order)"
 _WHICH = r"(?P<part>e(?:x(?:p|pl|plicit)?)?|i(?:m(?:p|pl|plicit)?)?)"

@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from garkcli.sources import ir
 from garkcli.sources.evaluate import names_of
-from garkcli.sources.naming import METHODS
+from garkcli.sources.naming import speaks
 from garkcli.sources.scalar_names import ARRAYS, family_of
 from garkcli.sources.signatures import CONSTRUCTOR
 from garkcli.sources.values import Number, literal
@@ -97,7 +97,7 @@ def _is_method(
     if 2 * len(found) < len(numbers):
         return False
     maker = CONSTRUCTOR.fullmatch(scope.name)
-    title = maker or METHODS.search(scope.title)
+    title = maker or speaks(scope.title)
     # a module has other numbers, too
     count, least = len({*found}), 8 if scope.kind == "module" else 3 if maker else 4
     are_many = count >= least or (least < 8 and count > 1 and count + len(found) > 6)
@@ -108,7 +108,7 @@ def _is_method(
     if is_lost and (len(named) > 1 or _SLOPES.search(words)):
         return True
     is_method = is_lost or has_names or (are_many and is_named)
-    return bool(is_method and (title or METHODS.search(words)))
+    return bool(is_method and (title or speaks(words)))
 
 
 def sized(x: float) -> str:

@@ -9,7 +9,7 @@ from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, TooLarge
-from garkcli.sources.naming import METHODS
+from garkcli.sources.naming import speaks
 from garkcli.sources.recognised import with_readings
 
 HINTS = re.compile(
@@ -45,7 +45,7 @@ def tables_in(
     Raises:
         TooLarge: the source says too much.
     """
-    if len(text) > SHORT and not (HINTS.search(text) or METHODS.search(text)):
+    if len(text) > SHORT and not (HINTS.search(text) or speaks(text)):
         return []
     allowance = Allowance(len(text))
     finder = TableFinder(source, format, base, allowance, is_growing, has_whole_quotients)

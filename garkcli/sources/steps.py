@@ -775,6 +775,8 @@ def _place_changed(calls: Sequence[ir.Call], way: Iterable[ir.Statement]) -> int
     """Which argument a function changes: the last one whose values are used elsewhere, or else the
     last one.
     """
+    if not any(_is_place(x) for call in calls for x in call.args[1:-1]):
+        return -1
     assigned = (x.value for x in ir.statements(way) if isinstance(x, ir.Assign))
     used = {y for x in assigned for y in ir.inside(x) if isinstance(y, ir.Name)}
     counts = {len(x.args) for x in calls}
