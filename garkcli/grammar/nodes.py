@@ -51,6 +51,19 @@ def extent(text: str, first: Node, last: Node) -> Extent:
     return start, start + len(text[start:end].rstrip())
 
 
+def node_at(value: object, place: Node) -> Node:
+    """Returns a mapping, a list or a text, and what it contains, as nodes at the place of another
+    one.
+    """
+    marks = place.start_mark, place.end_mark
+    if isinstance(value, Mapping):
+        pairs = [(node_at(key, place), node_at(x, place)) for key, x in value.items()]
+        return MappingNode("tag:yaml.org,2002:map", pairs, *marks)
+    if isinstance(value, (list, tuple)):
+        return SequenceNode("tag:yaml.org,2002:seq", [node_at(x, place) for x in value], *marks)
+    return value if isinstance(value, Node) else ScalarNode("tag:yaml.org,2002:str", value, *marks)
+
+
 def is_null(node: Node) -> bool:
     return isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"
 

@@ -10,7 +10,7 @@ from garkcli.frozen import replace
 from garkcli.glossary.key import METHOD_FILE
 from garkcli.grammar import keys as g
 from garkcli.grammar.keys import FILE, entries_in
-from garkcli.grammar.nodes import Extent, MappingNode, Node, ScalarNode, extent, key_of, keys_of
+from garkcli.grammar.nodes import Extent, MappingNode, Node, extent, key_of, keys_of, node_at
 from garkcli.grammar.source import Entries, Source
 from garkcli.methodfile import description as d
 from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
@@ -56,7 +56,7 @@ class ContentReader(NumbersReader):
             self.shaped = shaped(self, key_of(root, entries[form]), entries[form])
             if self.shaped is None:
                 return None
-            form = self.shaped.form
+            form, entries = self.shaped.form, {**entries, **self.shaped.entries}
         structure = self._structure(form, entries)
         content = self._content(form, structure, entries)
         if content is None:
@@ -111,17 +111,14 @@ class ContentReader(NumbersReader):
         reader = ContentReader(self.numbers, self._open)
         reader.tolerance = self.tolerance
         if isinstance(node, MappingNode) and "family" in keys_of(node):
-            key = ScalarNode("tag:yaml.org,2002:str", "methods")
-            root = MappingNode("tag:yaml.org,2002:map", [(key, node)])
-            root.start_mark = node.start_mark
+            root = node_at({"methods": node}, node)
+            assert isinstance(root, MappingNode)
             return reader.read(root, {"methods": node})
         keys = {key: KEYS[key] for key in KEYS_OF_METHOD}
         entries = entries_in(self.source, node, where, keys, elsewhere, _EXAMPLE)
         return reader.read(node, entries) if isinstance(node, MappingNode) else None
 
     def _content(self, form: d.Form, structure: d.Structure, entries: Entries) -> d.Content | None:
-        if self.shaped is not None:
-            return self.shaped.content
         if form not in entries:
             return tableau_of(self, entries, entries.get("linear"))
         node = entries[form]

@@ -12,10 +12,10 @@ from typing import Any, Literal, TypeAlias
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.frozen import Frozen, replace
 from garkcli.grammar import keys as g
-from garkcli.grammar.nodes import Extent, Node, extent, shortened
+from garkcli.grammar.nodes import Extent, Node, extent, node_at, shortened
+from garkcli.grammar.source import Entries
 from garkcli.methodfile import description as d
-from garkcli.methodfile.numbers import NumbersReader, Row, Rows
-from garkcli.methodfile.values import Values
+from garkcli.methodfile.numbers import NumbersReader
 
 TextRow: TypeAlias = tuple[str, ...]
 Texts: TypeAlias = tuple[TextRow, ...]
@@ -501,14 +501,17 @@ UNKNOWN = g.mapping(
 
 
 class Shaped(Frozen):
-    """The tableau for ``unknown``: the form and the coefficients of the equivalent method file, the
-    layout, and the place of ``unknown: …`` in the file.
+    """The tableau for ``unknown``, the keys of the equivalent method file, and the place of
+    ``unknown: …``.
     """
 
-    form: d.Form
-    content: d.Content
     layout: UnknownLayout
+    entries: Entries
     place: Extent
+
+    @property
+    def form(self) -> d.Form:
+        return self.layout.kind
 
 
 def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
@@ -533,111 +536,50 @@ def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
     for name in layout.unknowns:
         if name not in at.numbers.parameters:  # it has a value or a range there
             at.numbers.unknown(name, node, name)
-    place = extent(at.source.text, key, node)
-    return Shaped(layout.kind, _content(at, layout, node), layout, place)
+    written = {name: node_at(value, node) for name, value in _keys(layout).items()}
+    return Shaped(layout, written, extent(at.source.text, key, node))
 
 
-def _content(at: NumbersReader, layout: UnknownLayout, node: Node) -> d.Content:
-    """Returns the coefficients of a layout as in a method file."""
-
-    def row(texts: TextRow, where: str) -> Row:
-        numbered = enumerate(texts, start=1)
-        return tuple(at.numbers.written(x, node, f"{where}, entry {j}") for j, x in numbered)
-
-    matrices = []
-    for colour, texts in enumerate(layout.A):
-        numbered = enumerate(texts, start=1)
-        where = d.of_colour("A", colour)
-        matrices.append(tuple(row(x, f"{where}, row {i}") for i, x in numbered))
-    weights = [row(x, d.of_colour("b", colour)) for colour, x in enumerate(layout.b)]
-    embedded = [
-        row(x, d.of_colour("embedded", colour)) for colour, x in enumerate(layout.embedded or ())
-    ]
-    beside = [d.FurtherText(x, node=node) for x in embedded]
-    further = tuple(beside or [d.NOTHING_FURTHER])
-    if layout.kind in {"tableau", "ark", "prk"}:
-        further *= len(matrices) // len(further)
-    if layout.kind == "prk":
-        parts = zip(matrices, weights, further, strict=True)
-        return d.PrkText(*(d.ButcherText(node, "", A, b, None, x) for A, b, x in parts))
-    if layout.kind == "rosenbrock":
-        alpha, gamma = matrices
-        from garkcli.methodfile.rosenbrock import RosenbrockText  # few shapes need these
-
-        return RosenbrockText(
-            node, ((alpha,),), ((gamma,),), tuple(weights[:1]), beside=further[:1]
-        )
-    if layout.kind == "multirate":
-        return _coupling(node, row(layout.c, "c"), matrices, tuple(embedded) or None)
-    if layout.kind == "shu-osher":
-        from garkcli.methodfile.registers import RegistersText
-
-        return RegistersText(node, layout.kind, tuple(matrices), None, further)
-    if layout.kind == "nystrom":
-        Abar, *more = matrices
-        bbar, b = weights
-        q, v = (x.embedded for x in further) if layout.embedded else (None, None)
-        from garkcli.methodfile.nystrom import NystromText
-
-        return NystromText(
-            node,
-            Abar,
-            more[0] if more else None,
-            row(layout.c, "c"),
-            bbar,
-            b,
-            (q, v) if layout.embedded else None,
-        )
-    if layout.kind == "ark":
-        return d.ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
-    return d.TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
+def _keys(layout: UnknownLayout) -> dict[str, Any]:
+    """Returns the keys of the equivalent method file."""
+    (first, *more), rows = layout.A, layout.embedded
+    beside: dict[str, Any] = {} if rows is None else {"embedded": rows[0]}
+    match layout.kind:
+        case "tableau":
+            return {"A": first, "b": layout.b[0], **beside}
+        case "ark":
+            inside: dict[str, Any] = {"A": layout.A, "b": layout.b[0], **beside}
+        case "prk":
+            each = zip("qp", layout.A, layout.b, rows or (None, None), strict=True)
+            inside = {x: {"A": A, "b": b, **({"embedded": e} if e else {})} for x, A, b, e in each}
+        case "rosenbrock":
+            inside = {"alpha": first, "gamma": more[0], "b": layout.b[0], **beside}
+        case "shu-osher":
+            inside = {"alpha": first, "beta": more[0], **beside}
+        case "nystrom":
+            matrices = dict(zip(("Abar", "A"), layout.A, strict=False))
+            weights = dict(zip(("bbar", "b"), layout.b, strict=True))
+            inside = {**matrices, "c": layout.c, **weights}
+            if rows is not None:
+                inside["embedded"] = dict(zip(("bbar", "b"), rows, strict=True))
+        case "multirate":
+            coupling = {"c": layout.c, "gamma": layout.A}
+            inside = {"mri": {**coupling, **({"embedded": rows} if rows else {})}, "fast": "exact"}
+    return {layout.kind: inside}
 
 
 def spelled(layout: UnknownLayout) -> str:
-    def listed(texts: Iterable[str]) -> str:
-        return f"[{', '.join(texts)}]"
-
-    matrices = [listed(map(listed, rows)) for rows in layout.A]
-    beside = [f"embedded: {listed(row)}" for row in layout.embedded or ()]
-    weights = [f"b: {listed(row)}" for row in layout.b]
-    if layout.kind == "prk":
-        columns = [weights, beside] if beside else [weights]
-        lines = [", ".join(row) for row in zip(*columns, strict=True)]
-        parts = zip("qp", matrices, lines, strict=True)
-        return "\n".join(["prk:", *(f"  {part}: {{A: {A}, {x}}}" for part, A, x in parts)])
-    if layout.kind == "rosenbrock":
-        alpha, gamma = (f"{x}: {A}" for x, A in zip(("alpha", "gamma"), matrices, strict=True))
-        return "\n  ".join(["rosenbrock:", alpha, gamma, *weights, *beside])
-    if layout.kind == "multirate":
-        keys = [f"c: {listed(layout.c)}", f"gamma: {listed(matrices)}"]
-        if layout.embedded is not None:
-            keys.append(f"embedded: {listed(map(listed, layout.embedded))}")
-        return "\n".join(["multirate:", "  mri:", *(f"    {x}" for x in keys), "  fast: exact"])
-    if layout.kind == "shu-osher":
-        alpha, beta = matrices
-        return "\n  ".join(["shu-osher:", f"alpha: {alpha}", f"beta: {beta}", *beside])
-    if layout.kind == "nystrom":
-        lines = [f"{x}: {A}" for x, A in zip(("Abar", "A"), matrices, strict=False)]
-        bbar, b = (x.removeprefix("b: ") for x in weights)
-        if layout.embedded is not None:
-            of_q, of_v = map(listed, layout.embedded)
-            beside = [f"embedded: {{bbar: {of_q}, b: {of_v}}}"]
-        nodes = f"c: {listed(layout.c)}"
-        return "\n  ".join(["nystrom:", *lines, nodes, f"bbar: {bbar}", f"b: {b}", *beside])
-    if layout.kind == "ark":
-        return "\n  ".join(["ark:", f"A: {listed(matrices)}", weights[0], *beside])
-    return "\n".join([f"A: {matrices[0]}", weights[0], *beside])
+    """Returns the text of the equivalent method file."""
+    lines = []
+    for key, value in _keys(layout).items():
+        if isinstance(value, dict):
+            lines += [f"{key}:", *(f"  {name}: {_in_brackets(x)}" for name, x in value.items())]
+        else:
+            lines.append(f"{key}: {_in_brackets(value)}")
+    return "\n".join(lines)
 
 
-def _coupling(
-    node: Node, c: Row, gamma: Sequence[Rows], embedded: Rows | None
-) -> d.ConstructionText:
-    """Returns the coupling of exact fast problems by the matrices of 1, τ, … and embedded rows."""
-    from garkcli.constructions.infinitesimal import Coupling, following  # few shapes need it
-    from garkcli.methodfile.constructed.couplings import Infinitesimal
-
-    def coupling(_: object, values: Values) -> Coupling:
-        last = None if embedded is None else (tuple(map(values.vector, embedded)),)
-        return following(values.vector(c), (tuple(map(values.matrix, gamma)),), last)
-
-    return d.ConstructionText(node, (), Infinitesimal(None, coupling, 1))
+def _in_brackets(value: Any) -> str:
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{key}: {_in_brackets(x)}' for key, x in value.items())}}}"
+    return value if isinstance(value, str) else f"[{', '.join(map(_in_brackets, value))}]"

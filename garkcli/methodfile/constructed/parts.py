@@ -11,7 +11,7 @@ from garkcli.errors import MethodFileError
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen
 from garkcli.grammar.keys import defined
-from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
+from garkcli.grammar.nodes import Node, ScalarNode, node_at
 from garkcli.grammar.source import Source
 from garkcli.methodfile.build import part_of
 from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
@@ -100,13 +100,7 @@ class PartReader(NumbersReader):
             return None
         family = FAMILIES.get(name)
         if family is not None and family.is_single and not family.options:
-            word = ScalarNode("tag:yaml.org,2002:str", name)
-            key = ScalarNode("tag:yaml.org,2002:str", "family")
-            for made in (word, key):
-                made.start_mark, made.end_mark = node.start_mark, node.end_mark
-            mapping = MappingNode("tag:yaml.org,2002:map", [(key, word)])
-            mapping.start_mark = node.start_mark
-            return self.method(mapping, where, why)
+            return self.method(node_at({"family": name}, node), where, why)
         try:
             part = self._of_catalogue(name, why)
         except MethodFileError as error:
