@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from garkcli.check.analysis import analyse, analyse_any, remark_of
+from garkcli.check.analysis import Analysis, analyse, analyse_any, remark_of
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
 from garkcli.errors import GarkError, HasFreeParameters, MethodError, MethodFileError, Remark
-from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
@@ -132,28 +131,18 @@ def check_method(
 
 def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
     """Checks a method that is not a GARK method."""
-    from garkcli.constructions.nprk import is_nprk  # few methods need these
-    from garkcli.constructions.nystrom import is_nystrom
-    from garkcli.constructions.rosenbrock import is_rosenbrock
-
     analysis = analyse_any(method, limit)
-    outcome = Outcome(
+    assert not isinstance(analysis, Analysis)
+    own: dict[str, Any] = {analysis.form: analysis}
+    return Outcome(
         file=method.source,
         name=method.name,
         claims=verify(method.claims, analysis),
         text=method.text,
         constants=_constants(analysis) if want_constants else None,
         left_behind=method.left_behind,
+        **own,
     )
-    if is_rosenbrock(method.tableau):
-        return replace(outcome, rosenbrock=analysis)
-    if is_nprk(method.tableau):
-        return replace(outcome, nprk=analysis)
-    if is_nystrom(method.tableau):
-        return replace(outcome, nystrom=analysis)
-    if method.tableau.uses_derivatives:
-        return replace(outcome, derivatives=analysis)
-    return replace(outcome, infinitesimal=analysis)
 
 
 def _constants(analysis: AnyAnalysis) -> ErrorConstants | None:

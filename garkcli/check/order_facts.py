@@ -120,6 +120,7 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
     dense: D | None = None
     further: Further = NOTHING
 
+    form: ClassVar[str]
     kind: ClassVar[str]
     claims: ClassVar[frozenset[str]]
 
@@ -181,6 +182,7 @@ class OrderFacts(Shown, Frozen):
     further: Further = NOTHING
     nonautonomous_order: AnyOrder | None = None
 
+    form: ClassVar[str]
     kind: ClassVar[str]
     no_property: ClassVar[Reason]
 

@@ -32,6 +32,7 @@ class InfinitesimalAnalysis(OrderFacts, kw_only=True):
 
     slow_order: AnyOrder
 
+    form = "infinitesimal"
     kind = "a multirate method with the exact fast part"
     no_property = Reason("a property of Runge–Kutta methods, and the fast part is solved exactly")
 
@@ -65,6 +66,7 @@ class NprkAnalysis(OrderFacts):
     The colours of its tableau are the arguments of F, its stages the pairs at which F is evaluated.
     """
 
+    form = "nprk"
     kind = "a nonlinearly partitioned method"
     no_property = Reason(
         "a property of Runge–Kutta methods of vector fields, not of their arguments"
@@ -98,6 +100,7 @@ class DerivativesAnalysis(OrderFacts):
     Its tableau has stages along the exact solutions whose derivatives it uses.
     """
 
+    form = "derivatives"
     kind = "a multiderivative method"
     no_property = Reason("a property of Runge–Kutta methods, and derivatives of f are used")
 

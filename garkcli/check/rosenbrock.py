@@ -100,6 +100,7 @@ class RosenbrockOrders(ClaimedOrders):
 class RosenbrockAnalysis(SeveralOrders[RosenbrockOrders, DenseFacts]):
     """The orders of a Rosenbrock or W-method; ``order`` and ``tableau`` are with the Jacobian."""
 
+    form = "rosenbrock"
     kind = "a Rosenbrock method"
     claims = frozenset({"order", *VIEWS, *DAE_VIEWS})
 
