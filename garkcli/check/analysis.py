@@ -33,8 +33,8 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.check.nystrom import NystromAnalysis
+    from garkcli.check.order_facts import DenseFacts, EmbeddedFacts
     from garkcli.check.rare_kinds import DerivativesAnalysis, InfinitesimalAnalysis, NprkAnalysis
     from garkcli.check.remark import RoundingHint
     from garkcli.check.rosenbrock import RosenbrockAnalysis
@@ -339,7 +339,7 @@ def analyse(
     )
     if not further:
         return analysis
-    from garkcli.check.further import further_facts  # few files have them
+    from garkcli.check.order_facts import further_facts  # few files have them
 
     embedded, dense = further_facts(method, further, order, inconsistent, limit, spans)
     predictor = None

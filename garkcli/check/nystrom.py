@@ -6,8 +6,7 @@ from functools import cached_property
 
 from flint import fmpq
 
-from garkcli.check.further import DenseFacts
-from garkcli.check.order_facts import ClaimedOrders, LinearSubject, SeveralOrders
+from garkcli.check.order_facts import ClaimedOrders, DenseFacts, LinearSubject, SeveralOrders
 from garkcli.constructions.nystrom import POSITIONS, VELOCITIES, Which, seen
 from garkcli.exact.field import ZERO
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans

@@ -7,8 +7,7 @@ from typing import Any
 
 from flint import fmpq
 
-from garkcli.check.further import EmbeddedFacts, estimate
-from garkcli.check.order_facts import LinearSubject, OrderFacts
+from garkcli.check.order_facts import EmbeddedFacts, LinearSubject, OrderFacts, estimate
 from garkcli.constructions.infinitesimal import slow_part
 from garkcli.constructions.multirate import SLOW
 from garkcli.constructions.same_stability import with_same_function

@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.check.further import DenseFacts, dense_facts
-from garkcli.check.order_facts import ClaimedOrders, LinearSubject, SeveralOrders
+from garkcli.check.order_facts import (
+    ClaimedOrders,
+    DenseFacts,
+    LinearSubject,
+    SeveralOrders,
+    dense_facts,
+)
 from garkcli.constructions.rosenbrock import DAE_VIEWS, NO_PROPERTY, OF_BETA, VIEWS, Which, seen
 from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import replace

@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.claims import Claim
     from garkcli.check.every_family import EveryFamily
-    from garkcli.check.further import DenseFacts
+    from garkcli.check.order_facts import DenseFacts
     from garkcli.check.outcome import OtherAnalysis, Outcome
     from garkcli.check.remark import RoundingHint
     from garkcli.exact.field import Number
