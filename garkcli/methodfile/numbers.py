@@ -10,7 +10,7 @@ from garkcli.errors import ExpressionError, LimitExceeded, counted
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.exact.rewriting import Expanded, check_size, expanded
+from garkcli.exact.rewriting import Expanded, check_size, expanded, names_in
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.grammar import spellings
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, shortened
@@ -242,7 +242,8 @@ class Numbers(Mutable):
         text = self.settings[name]
         value = NOTHING
         try:
-            value = expanded(parse(text), {})
+            parsed = parse(text)
+            value = expanded(parsed, {x.name: Expanded(x) for x in names_in(parsed)})
         except ExpressionError as error:
             message = f"{where} is set to {shortened(text)}: {error.message}"
             self.source.fault(node, message, error.help, code="no-value-left")
