@@ -34,7 +34,7 @@ JUDGING_SECONDS = 60.0
 """Seconds that every table has: a pair of order 10 with its 17 stages takes a third of them."""
 
 
-class Source(Frozen):
+class SourceToRead(Frozen):
     """A source that is to be read.
 
     Attributes:
@@ -101,10 +101,10 @@ class _Work(Frozen, eq=False):
     judge: Callable[[FoundTable], Any] | None = None
     late: Callable[[FoundTable, str], Any] | None = None
 
-    def done(self, item: Source | FoundTable) -> Any:
+    def done(self, item: SourceToRead | FoundTable) -> Any:
         """The outcome of an item, or what kept it from having one: both travel."""
         try:
-            if isinstance(item, Source):
+            if isinstance(item, SourceToRead):
                 with doing(item.name):
                     text = source_text(item.name)[0] if item.text is None else item.text
                     return self.read(text, item.name)
@@ -112,7 +112,7 @@ class _Work(Frozen, eq=False):
         except Exception as error:
             return error
 
-    def given_up(self, item: Source | FoundTable) -> Any:
+    def given_up(self, item: SourceToRead | FoundTable) -> Any:
         """The outcome of an item that takes too long."""
         seconds = f"longer than {_limit(item):.0f} s"
         if isinstance(item, FoundTable):
@@ -123,8 +123,8 @@ class _Work(Frozen, eq=False):
 
 
 def _crew(
-    work: _Work, given: Sequence[Source], jobs: int
-) -> AbstractContextManager[Workers[Source | FoundTable, Any]]:
+    work: _Work, given: Sequence[SourceToRead], jobs: int
+) -> AbstractContextManager[Workers[SourceToRead | FoundTable, Any]]:
     """Who reads and judges: other processes, unless there is little to read."""
     jobs = min(jobs or os.cpu_count() or 1, len(given))
     is_apart = jobs > 1 or any(source.size > SMALL for source in given)
@@ -133,7 +133,9 @@ def _crew(
 
 
 def _known(
-    workers: Workers[Source | FoundTable, Any], items: Sequence[Source | FoundTable], what: str
+    workers: Workers[SourceToRead | FoundTable, Any],
+    items: Sequence[SourceToRead | FoundTable],
+    what: str,
 ) -> Iterator[Any]:
     """Every outcome in order; what kept an item from having one is raised."""
     for found in counting(what, in_order(workers, items), len(items)):
@@ -142,23 +144,23 @@ def _known(
         yield found
 
 
-def _source(path: str) -> Source:
+def _source(path: str) -> SourceToRead:
     if os.path.isfile(path):
-        return Source(path, os.stat(path).st_size)
+        return SourceToRead(path, os.stat(path).st_size)
     text, name = source_text(path)
-    return Source(name, len(text), text)
+    return SourceToRead(name, len(text), text)
 
 
-def _limit(item: Source | FoundTable) -> float:
+def _limit(item: SourceToRead | FoundTable) -> float:
     """How long it may take to read a source, or to judge a table."""
-    return _seconds(item) if isinstance(item, Source) else JUDGING_SECONDS
+    return _seconds(item) if isinstance(item, SourceToRead) else JUDGING_SECONDS
 
 
-def _seconds(source: Source) -> float:
+def _seconds(source: SourceToRead) -> float:
     """How long it may take to read a source."""
     return FREE_SECONDS + source.size // BYTES_PER_SECOND
 
 
-def _lost(item: Source | FoundTable, why: str) -> Exception:
-    name = item.name if isinstance(item, Source) else f"{item.source}:{item.line}"
+def _lost(item: SourceToRead | FoundTable, why: str) -> Exception:
+    name = item.name if isinstance(item, SourceToRead) else f"{item.source}:{item.line}"
     return WorkerLost(f"the reading of {name} was ended {why}", "use fewer --jobs")

@@ -169,7 +169,9 @@ def test_a_program_is_not_run_again(tmp_path: Path) -> None:
 
 def test_limits_grow_with_sources() -> None:
     """A megabyte has more time than a kilobyte, and both have some."""
-    seconds = [limited._seconds(limited.Source("x", size)) for size in (0, 1000, 10**6, 4 * 10**6)]
+    seconds = [
+        limited._seconds(limited.SourceToRead("x", size)) for size in (0, 1000, 10**6, 4 * 10**6)
+    ]
     assert seconds == [20, 20, 40, 100]
 
 
