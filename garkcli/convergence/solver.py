@@ -1,4 +1,4 @@
-"""Steps of solvers in a convergence test, with their cost and their limits."""
+"""Limits of the solvers of a convergence test, and the cost of their steps."""
 
 from __future__ import annotations
 
