@@ -171,7 +171,7 @@ def _from_here(path: str) -> str:
 
 
 def _kind() -> ValueKind:
-    from garkcli.methodfile.project_file import file_of
+    from garkcli.cli.project_file import file_of
     from garkcli.report.check_formats import FORMATS
 
     return file_of(("auto", *FORMATS))
