@@ -354,7 +354,7 @@ def test_an_unknown_name_is_no_value(tmp_path: Path) -> None:
     for text in ("x", "2*x", "sqrt(x)"):
         for command in ("design", "check"):
             run = gark(command, str(path), "--set", f"g={text}")
-            assert (run.code, "'x' is not a parameter" in run.out + run.err) == (2, True)
+            assert (run.code, "'x' has no value" in run.out + run.err) == (2, True)
 
 
 CLASSICAL = ("1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6", "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 1/8")

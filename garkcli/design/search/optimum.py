@@ -53,6 +53,9 @@ CLOSE = 1e-12
 """Residuals of a method in floats."""
 SLACK = 1e-7
 """The part of the objective that short numbers may cost."""
+LITTLE = 1e-6
+"""The part of the objective that the optimiser has to gain, or it is not started again."""
+REPEATED = 30
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20, 24, 25, 30, 40, 50, 100, 200, 500)
 FINE = tuple(10**k for k in range(3, 13))
 """Denominators where none of the short ones does."""
@@ -206,6 +209,16 @@ class Program:
                 return self._emptied(best)
             found = descended(Least(self.total, x), equations, x)
             return self.evaluated(found, fixed) or best
+
+    def settled(self, best: Optimum) -> Optimum:
+        """An optimum from which the optimiser, started again, gains nothing."""
+        for _ in range(REPEATED):
+            check_time()
+            found = self.improved(best.point)
+            if found is None or not found.is_less(best, LITTLE):
+                break
+            best = found
+        return best
 
     def _emptied(self, best: Optimum) -> Optimum:
         """A method nearby of which further coefficients are zero, the smallest first, until none

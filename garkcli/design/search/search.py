@@ -244,6 +244,7 @@ class Search:
             )
             if higher is not None and higher.found is not None and higher.is_stable:
                 return higher
+        optimum = self.program.settled(optimum)
         system, near = self.program.shortened(optimum, self._preferences[0])
         x = polished(system, list(near.point), BITS)
         if x is None:
