@@ -420,18 +420,25 @@ def phase(o: OscillatorStability) -> Answer[int]:
 
 
 PHASE: Kind[int] = Kind(Json(S.COUNT), Words(lambda n, _: f"of order {n}"))
-STABLE: Kind[Sequence[Interval]] = Kind(
-    Several(kinds.INTERVAL),
-    Words(lambda xs, d: " or ".join(_zone(x, d) for x in xs) if xs else "for no x"),
-)
 
 
-def _zone(x: Interval, d: Plain) -> str:
-    """An interval of x = (hω)², with the root of its end, which is one of hω."""
-    if x.is_point or x.end is None:
-        return d.interval(x, "x")
-    root = d.formula(r"\sqrt{x}", "sqrt(x)")
-    return f"{d.interval(x, 'x')}, {root} to {_square_root(x.end, d.digits)}"
+def stable_in(latex: str, text: str) -> Kind[Sequence[Interval]]:
+    """The kind of stable intervals of x, with the root of each end, which is one of ``text``."""
+
+    def zone(x: Interval, d: Plain) -> str:
+        if x.is_point or x.end is None:
+            return d.interval(x, "x")
+        end = _square_root(x.end, d.digits)
+        return f"{d.interval(x, 'x')}, {d.formula(latex, text)} to {end}"
+
+    return Kind(
+        Several(kinds.INTERVAL),
+        Words(lambda xs, d: " or ".join(zone(x, d) for x in xs) if xs else "for no x"),
+    )
+
+
+STABLE = stable_in(r"h\omega", "hω")
+STABLE_FAST = stable_in(r"h\omega_{\mathrm{fast}}", "hω_fast")
 
 
 def discriminant(o: OscillatorStability) -> Answer[Polynomial]:
@@ -637,11 +644,11 @@ OF_SPRINGS: Rows[TwoFrequencies] = (
         parts(FACTOR, _factors_words),
         lambda s: Answer(factors(s.discriminant), reason=Reason("tr M = N/D for a step M")),
     ),
-    Row("stable", STABLE, lambda x: x.stable),
+    Row("stable", STABLE_FAST, lambda x: x.stable),
 )
 OF_SLOW: Rows[SlowInterval] = (
     itself("slow", FROM_TO, label="two springs, x = (hω_fast)²"),
-    Row("stable", STABLE, lambda x: x.stable),
+    Row("stable", STABLE_FAST, lambda x: x.stable),
     maybe(
         "stable_for_every_fast",
         kinds.TRUTH,

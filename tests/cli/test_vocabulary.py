@@ -37,6 +37,62 @@ def test_an_old_name_is_another_command() -> None:
     assert gark("convert", "rk4", "--to", "reduced", "--stages", "5").code == 2
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("cite rk4", "show rk4 --reference"),
+        ("cite rk4", "show rk4 --format bibtex"),
+        ("cite gark rk4 --format text", "show gark rk4 --reference --format text"),
+        ("cite rk4 --format json", "show rk4 --format json --reference"),
+        ("cite rk4 -o x.txt", "show rk4 --reference -o x.txt"),
+        ("certificate heun", "export heun --to certificate"),
+        ("certificate heun --format coq", "export heun --to certificate --format coq"),
+        (
+            "certificate kvaerno-3 --format text -v",
+            "export kvaerno-3 --to certificate --format text -v",
+        ),
+        ("reduce heun --format json", "convert heun --to reduced --format json"),
+        ("check --explain b-series", "explain b-series"),
+        ("check --explain order -q", "explain order -q"),
+        ("conjugate gauss-2", "tableau gauss-2 --conjugate"),
+        ("conjugate gauss-2 --pair --format json", "tableau gauss-2 --pair --format json"),
+        ("cite --help", "show --help"),
+        ("help reduce", "convert --help"),
+    ],
+)
+def test_former_names(old: str, new: str, tmp_path: Path) -> None:
+    """What they wrote, to the letter, into the file too; the help names them no more."""
+    files = []
+    runs = []
+    for words in (old, new):
+        runs.append(gark(*words.split(), cwd=tmp_path))
+        made = tmp_path / "x.txt"
+        files.append(made.read_text(encoding="utf-8") if made.exists() else "")
+        made.unlink(missing_ok=True)
+    assert runs[0] == runs[1]
+    assert files[0] == files[1]
+    assert (runs[0].out or files[0]) or runs[0].code == 2
+    for name in FORMER:
+        assert f"  {name} " not in gark("--help").out
+    assert "--explain" not in gark("check", "--help").out
+
+
+def test_what_a_merged_command_refuses() -> None:
+    """Options of one half are not taken for the other."""
+    for words, said in (
+        ("export heun --to certificate --pair", "a certificate has no --pair"),
+        ("export heun --to certificate --digits 4", "a certificate has no --digits"),
+        ("export heun --to c --format text", "--format is for certificates"),
+        ("export heun --to certificate -o x.c", "no .c file can be written here"),
+        ("show heun rk4 --format json", "--format json shows one method"),
+    ):
+        run = gark(*words.split())
+        assert (run.code, run.out) == (2, ""), words
+        assert said in run.err, words
+    both = gark("show", "heun", "rk4")
+    assert both.out == f"{gark('show', 'heun').out}\n{gark('show', 'rk4').out}"
+
+
 @pytest.mark.parametrize("name", ["gauss-4", "gauss:4", "{family: gauss, stages: 4}"])
 def test_a_family_by_any_name(name: str) -> None:
     """In place of a file, in Python, and as a method of a file."""
