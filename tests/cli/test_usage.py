@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from garkcli.cli import options
 from garkcli.cli.command import declaration_of
 from garkcli.cli.options import Value, rules_of
 from garkcli.cli.table import COMMANDS
@@ -82,6 +85,20 @@ def test_rules_name_options_of_their_commands() -> None:
         for each in (*rule.options, *rule.others):
             assert id(each.option if isinstance(each, Value) else each) in known, name
         assert code_of(rule.message) == rule.code
+
+
+def test_every_option_is_read() -> None:
+    """Its command reads the value by its name, or hands it to the function that it is an argument
+    of.
+    """
+    for name, row in COMMANDS.items():
+        text = Path(ROOT, "garkcli", "cli", f"{row.file}.py").read_text(encoding="utf-8")
+        text += Path(options.__file__).read_text(encoding="utf-8")
+        for field, declared in options.declared_by(declaration_of(name).options).items():
+            parts = declared if isinstance(declared, tuple) else ()
+            owners = {x.of.partition(".")[0] for x in parts}
+            is_passed = any(f'.of("{owner}")' in text for owner in owners)
+            assert is_passed or re.search(rf"\b(given|self|_given)\.{field}\b", text), (name, field)
 
 
 @pytest.mark.parametrize(
