@@ -87,7 +87,8 @@ def _to_the_terminal(text: str) -> str:
 def _message(error: click.ClickException, context: click.Context | None) -> str:
     message = error.format_message()
     parameters = [] if context is None else context.command.params
-    options = [x for p in parameters if isinstance(p, click.Option) for x in p.opts]
+    told = [p for p in parameters if isinstance(p, click.Option) and not p.hidden]
+    options = [x for p in told for x in p.opts]
     if isinstance(error, click.NoSuchOption):
         return _no_such_option(error.option_name, options, context)
     if isinstance(error, click.MissingParameter):

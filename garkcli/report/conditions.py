@@ -282,7 +282,7 @@ def _multiplicity(row: ConditionRow) -> str:
     if row.stands_for:
         return f"stands for {row.stands_for}"
     if row.condition is not None and row.condition.twins:
-        return f"(the same for {len(row.condition.trees)} trees)"
+        return f"(for {len(row.condition.trees)} trees)"
     return f"∀ {','.join(row.letters)}" if row.letters else ""
 
 

@@ -74,7 +74,7 @@ def test_former_names(old: str, new: str, tmp_path: Path) -> None:
     assert (runs[0].out or files[0]) or runs[0].code == 2
     for name in FORMER:
         assert f"  {name} " not in gark("--help").out
-    assert "--explain" not in gark("check", "--help").out
+    assert "--explain" not in gark("check", "--help").out + gark("check", "--zzz").err
 
 
 def test_what_a_merged_command_refuses() -> None:
