@@ -94,12 +94,7 @@ class DesignOptions(opt.Derivable):
         "With --p-stable or --i-stable: a slow and a fast spring, the slow one of (hω)² = A.",
         of="stable_values.slow",
     )
-    fast: str | None = opt.option(
-        "--fast",
-        opt.hidden_default(opt.text("COLOUR")),
-        "With --slow: the colour of the fast spring.",
-        of="two_springs.fast",
-    )
+    fast: str | None = opt.FAST
     up_to: fmpq | None = opt.option(
         "--up-to",
         opt.read("X", square),
@@ -152,9 +147,7 @@ class DesignOptions(opt.Derivable):
     emit: str | None = opt.option(
         "--emit", opt.file("yaml"), "Write the first method into a file, with its claim."
     )
-    folder: str | None = opt.option(
-        "--output-dir", opt.file(metavar="DIR"), "Write a method file for each method into DIR."
-    )
+    folder: str | None = opt.OUTPUT_DIR
     plot: str | None = opt.option("--plot", opt.PICTURE, opt.PLOT_HELP)
     being_springs = opt.being(stability, "p-stable"), opt.being(stability, "i-stable")
     rules = (
@@ -183,8 +176,7 @@ class DesignOptions(opt.Derivable):
             "--front names two objectives",
             "leave --minimise and --along out",
         ),
-        opt.needs(slow, fast, *opt.BOTH_SPRINGS),
-        opt.needs(fast, slow, *opt.BOTH_SPRINGS),
+        *opt.of_springs(slow),
         opt.needs(
             up_to,
             slow,

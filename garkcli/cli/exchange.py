@@ -182,12 +182,7 @@ class Import(opt.Options):
         "Claim the true orders, not those that SOURCE declares.",
         of="import_methods.is_as_found",
     )
-    folder: str | None = opt.option(
-        "--output-dir",
-        opt.file(metavar="DIR"),
-        "Write a method file for each method into DIR.",
-        heading="Output",
-    )
+    folder: str | None = opt.OUTPUT_DIR
 
 
 IMPORTED = {

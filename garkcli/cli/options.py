@@ -425,4 +425,21 @@ DOCUMENT_RULE = needs(
 PLOT_HELP = "Draw a plot into FILE: .png, .svg or .pdf."
 PLOT = option("--plot", PICTURE, PLOT_HELP, heading="Report")
 JOBS_HELP = "The number of processes; 0 is one per processor."
-BOTH_SPRINGS = "--slow and --fast belong together", "give both"
+OUTPUT_DIR = option(
+    "--output-dir",
+    file(metavar="DIR"),
+    "Write a method file for each method into DIR.",
+    heading="Output",
+)
+FAST = option(
+    "--fast",
+    hidden_default(text("COLOUR")),
+    "With --slow: the colour of the fast spring.",
+    of="two_springs.fast",
+)
+
+
+def of_springs(slow: object) -> tuple[Rule, Rule]:
+    """The rules by which ``--slow`` and ``--fast`` belong together."""
+    said = "--slow and --fast belong together", "give both"
+    return needs(slow, FAST, *said), needs(FAST, slow, *said)

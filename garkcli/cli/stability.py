@@ -41,12 +41,7 @@ class StabilityOptions(opt.Derivable):
         of="two_springs.slow",
         heading="Two springs",
     )
-    fast: str | None = opt.option(
-        "--fast",
-        opt.hidden_default(opt.text("COLOUR")),
-        "With --slow: the colour of the fast spring.",
-        of="two_springs.fast",
-    )
+    fast: str | None = opt.FAST
     digits: int = opt.preset(
         "--digits",
         opt.DECIMALS,
@@ -62,8 +57,7 @@ class StabilityOptions(opt.Derivable):
     )
     plot: str | None = opt.PLOT
     rules = (
-        opt.needs(slow, fast, *opt.BOTH_SPRINGS),
-        opt.needs(fast, slow, *opt.BOTH_SPRINGS),
+        *opt.of_springs(slow),
         opt.excludes((ratio, at), slow, "OPTION does not go with --slow", "leave one of them out"),
         opt.needs(
             order_star,
