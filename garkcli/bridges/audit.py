@@ -131,8 +131,9 @@ def audit(table: FoundTable) -> Audited | None:
     found = _audit(table)
     order = 0 if found is None or found.order is None else found.order.order
     is_low = order < 2 and not table.order
-    # of a table of single numbers an error is a doubt
-    wrong = {"error", "warning"} if table.is_assembled else {"error"}
+    # of a table of single numbers, or that numbers tell, an error is a doubt
+    is_doubt = table.is_assembled or table.is_recognised
+    wrong = {"error", "warning"} if is_doubt else {"error"}
     is_wrong = found is not None and any(x.level in wrong for x in found.findings)
     if found is None or not found.is_read or is_wrong or is_low:
         least = (ENOUGH if is_low else LINKED) if order else 0
@@ -194,6 +195,9 @@ def readings_of(table: FoundTable) -> Iterator[FoundTable]:
         yield replace(
             table, parts=("q", "p"), structure="nystrom", how="for q'' = f(q)", linked=LINKED
         )
+    if table.is_recognised and table.embedded and table.order and not table.turned:
+        # the order may be declared of the other weights
+        yield replace(table, b=table.embedded, embedded=table.b, linked=LINKED)
     for each in table.rivals:
         told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
         yield replace(each, **told, is_sure=True, is_recognised=False)

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 MOST_STAGES = 60
 CLOSE = 1e-6
+WHOLE = 6.0
+"""Bits against a diagonal that is elsewhere."""
 
 
 class Parts(NamedTuple):
@@ -276,10 +278,12 @@ def _all_parts(given: Given) -> Iterator[Parts]:
     yield from filter(None, (shape(numbers) for shape in MATRICES))
     if is_lower(numbers) and numbers.shape[0] == numbers.shape[1]:
         for entry in given.beside:
-            yield from _with_diagonal(numbers, np.array(entry))
+            made = list(_with_diagonal(numbers, np.array(entry)))
             if not given.is_made and _has_diagonal(numbers):
                 # rows from the second one on, without their own diagonal
-                yield from _with_diagonal(_below(numbers, len(numbers) + 1), np.array(entry))
+                made += _with_diagonal(_below(numbers, len(numbers) + 1), np.array(entry))
+            # an array that is written out has its diagonal, as a rule
+            yield from (x._replace(prior=-WHOLE * (not given.is_made)) for x in made)
     if len({*map(len, given.rows)}) == 1:
         turned = numbers.transpose(1, 0, 2)
         for parts in filter(None, (shape(turned) for shape in MATRICES)):

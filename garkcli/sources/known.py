@@ -287,7 +287,11 @@ def _of_angle(call: Call, angle: Value) -> Value | None:
 
 @_known("constructor")
 def _constructed(call: Call, *sizes: Value) -> Value | None:
-    """An object that is made of sizes, ``Matrix A(2, 2)``: what it holds is assigned later."""
+    """An object that is made of sizes, ``Matrix A(2, 2)``: what it holds is assigned later; of a
+    fraction it is that number, ``scalar x(0.5)``.
+    """
+    if len(sizes) == 1 and isinstance(sizes[0], Number) and not sizes[0].near.is_integer():
+        return sizes[0]
     is_sized = 0 < len(sizes) < 3 and all(whole(x) for x in sizes)
     return call.unknown("never assigned") if is_sized else None
 

@@ -218,7 +218,8 @@ class _Source:
             if not _may_be_another(left):
                 # interpolants beside a table
                 is_other |= not known.isdisjoint(self.numbers(group.arrays))
-            if is_other or not group.speaks or fractions < FEWEST_NUMBERS:
+            least = FEWEST_NUMBERS // 2 if any(x.is_matrix for x in left) else FEWEST_NUMBERS
+            if is_other or not group.speaks or fractions < least:
                 continue
             known |= self.numbers(left)
             if lines.isdisjoint({group.line, *(x.line for x in left)}):
@@ -240,9 +241,11 @@ def _is_like_a_part(x: Given) -> bool:
 
 
 def _may_be_another(arrays: Sequence[Given]) -> bool:
-    """Whether there are a matrix and weights for it."""
-    sums = [sum(entry.value for entry in x.rows[0]) for x in arrays if not x.is_matrix]
-    return any(x.is_matrix for x in arrays) and any(abs(x - 1) < NEAR for x in sums)
+    """Whether there are a matrix and weights for it, or two rows of registers."""
+    rows = [x.rows[0] for x in arrays if not x.is_matrix]
+    has_weights = any(abs(sum(entry.value for entry in row) - 1) < NEAR for row in rows)
+    lengths = [len(x.rows[0]) for x in arrays if not (x.is_matrix or x.is_made)]
+    return (has_weights and any(x.is_matrix for x in arrays)) or len({*lengths}) < len(lengths)
 
 
 def _steps(form: str, row: Value, line: int) -> dict[str, Value]:

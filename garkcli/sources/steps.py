@@ -255,6 +255,7 @@ class Follower(Evaluator):
         self._place = _place_changed([x for x in calls if x.callee == self._f], self._way)
         self._has_step_inside = False
         self._slopes: list[_Slope] = []
+        self._values = 0
         self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
@@ -439,9 +440,14 @@ class Follower(Evaluator):
         match call:
             case ir.Call(ir.Name(name=name), (_,)) if name in CONVERSIONS:
                 return args[0]
-        if not any(isinstance(x, Form) for x in args):
-            return super()._called(call, space)
-        return self._slope(call.callee, args)
+        if any(isinstance(x, Form) for x in args):
+            return self._slope(call.callee, args)
+        found = super()._called(call, space)
+        if isinstance(found, Unknown) and not any(isinstance(x, Unknown | Array) for x in args):
+            # y = state(): what nothing of the step is in
+            self._values += 1
+            return Form({(f"value{self._values}",): ONE})
+        return found
 
     def _slope(self, callee: ir.Expr, args: Sequence[Value]) -> Value:
         """An evaluation of f; unknown where a call is none."""
@@ -766,8 +772,8 @@ def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
 
 
 def _is_place(expr: ir.Expr) -> bool:
-    """Whether a value may be stored there: a name, or an entry ``k[0]``."""
-    of = expr.of if isinstance(expr, ir.Index) else expr
+    """Whether a value may be stored there: a name, an entry ``k[0]``, or a field."""
+    of = expr.of if isinstance(expr, ir.Index | ir.Field) else expr
     return isinstance(of, ir.Name)
 
 

@@ -9,7 +9,7 @@ import pytest
 from garkcli.bridges.audit import audit
 from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import Find
-from garkcli.sources.languages import c, fortran, matlab, python
+from garkcli.sources.languages import c, fortran, java, julia, matlab, python
 
 CASES = """
 module coefficients
@@ -259,3 +259,62 @@ def test_members_of_a_class_are_known_in_others() -> None:
     (found,) = filter(None, map(audit, c.find(MEMBERS, "a.cpp")))
     assert found.order is not None
     assert found.order.order == 2
+
+
+STATE = """
+public class Heun extends Solver {
+  public double step() {
+    double state[] = ode.getState();
+    if (state.length != n) { initialize(h); }
+    ode.getRate(state, k1);
+    for (int i = 0; i < n; i++) { z[i] = state[i] + h * k1[i] / 3; }
+    ode.getRate(z, k2);
+    for (int i = 0; i < n; i++) { z[i] = state[i] + 2 * h * k2[i] / 3; }
+    ode.getRate(z, k3);
+    for (int i = 0; i < n; i++) { state[i] = state[i] + h * (k1[i] + 3.0 * k3[i]) / 4.0; }
+    return h;
+  }
+}
+"""
+NUMBER = """
+Schemes::Ascher::Ascher() : RungeKutta() {
+  const scalar g(1.0 - sqrt(2.0) / 2.0);
+  const scalar d(1.0 - 0.5 / g);
+  a_.setSize(3, list(3, 0.0));
+  a_[1][0] = g;
+  a_[2][0] = d;
+  a_[2][1] = 1.0 - d;
+  b_[1][1] = g;
+  b_[2][1] = 1.0 - g;
+  b_[2][2] = g;
+}
+"""
+ROWS = """
+const order = {}
+const a2 = Float64[1/2]
+const a3 = Float64[0, 3/4]
+const a4 = Float64[2/9, 1/3, 4/9]
+const a = Vector{{Float64}}[Float64[], a2, a3, a4]
+const bs = Float64[7/24, 1/4, 1/3, 1/8]
+const c = Float64[0, 1/2, 3/4, 1]
+"""
+
+
+def test_more_steps_and_numbers() -> None:
+    """The value of a call that knows nothing of the step; a number by its constructor."""
+    (found,) = filter(None, map(audit, java.find(STATE, "Heun.java")))
+    assert found.order is not None
+    assert found.order.order == 3
+    pair = [x for x in map(audit, c.find(NUMBER, "a.C")) if x is not None and x.order]
+    assert [x.order.order for x in pair if x.order] == [2, 2]
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_the_declared_order_says_which_weights_are_meant(order: int) -> None:
+    """Bogacki and Shampine's pair, of which names tell the embedded weights alone."""
+    found = [x for x in map(audit, julia.find(ROWS.format(order), "a.jl")) if x and x.order]
+    assert found
+    for each in found:
+        assert each.order is not None
+        assert each.order.order >= order
+        assert not [x for x in each.findings if x.code == "order"]
