@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 MOST_STAGES = 60
 MOST_ARRAYS = 40
 """So many arrays of a group are tried in pairs."""
+LEAST = 3
+"""Two columns of one array are drifts and kicks of that order: order 2 is one sum."""
 MOST_ROWS, MOST_ALIKE = 5, 6
 """So many rows of a matrix, and arrays of one length, are tried together."""
 HIGHEST = 4
@@ -56,7 +58,7 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
     ]
     # few arrays have rows that fit, whatever they are tried as
     pairs = ((x, y, of) for of in tables for x, y in permutations(of, 2))
-    more = [each for pair in pairs for each in _of_two_rows(*pair) if each]
+    more = [x for pair in pairs for x in _of_two_rows(*pair) if x and x.order >= LEAST]
     more += filter(None, map(_of_four_rows, (*_alike(rows), *tables)))
     return [*more, *(x for x in tried if x is not None)], len(tried) + len(more)
 

@@ -77,7 +77,15 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         read = [i for i in about if tables[i].is_read]
         bits = reading.linked if reading.form == "rk" else 0.0
         linked |= {i: max(bits, linked.get(i, 0.0)) for i in read}
-        explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
+        errors = source.of_row(reading, "error")
+        explained = [
+            i
+            for i in read
+            # what is called b is no difference of weights
+            if not reading.idle
+            and not (told[i].get("b", frozenset()) & errors)
+            and _explains(reading, numbers, told[i])
+        ]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
         # single numbers of a step are what the step makes of them
         group = reading.group
@@ -199,6 +207,11 @@ class _Source:
         """A key of the places of the numbers in arrays: equal numbers elsewhere have another."""
         entries = (x for of in arrays for row in of.rows for x in row if x.value)
         return frozenset(id(self._numbers[x.at]) for x in entries)
+
+    def of_row(self, reading: Reading, role: str) -> frozenset[int]:
+        """A key of the places of the numbers in one of the rows of a reading."""
+        row = reading.rows.get(role)
+        return frozenset(id(self._numbers[int(x[-1])]) for x in (() if row is None else row))
 
     def untold(self, tables: Iterable[FoundTable], known: set[int]) -> Iterator[FoundTable]:
         """A place for each scope that speaks of methods and has arrays like those of one, of which

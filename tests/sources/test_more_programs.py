@@ -318,3 +318,19 @@ def test_the_declared_order_says_which_weights_are_meant(order: int) -> None:
         assert each.order is not None
         assert each.order.order >= order
         assert not [x for x in each.findings if x.code == "order"]
+
+
+def test_weights_are_no_difference_of_others() -> None:
+    """The last row would be the weights, and b their error: b is told by its name."""
+    text = "class Rule(Method):\n    order = 2\n    A = [[0, 0], [1/2, 1/2]]\n"
+    (found,) = filter(
+        None, map(audit, python.find(f"{text}    b = [-1/2, 1/2]\n    c = [0, 1]\n", "a.py"))
+    )
+    assert found.has_errors
+
+
+def test_two_columns_of_order_two_are_no_splitting() -> None:
+    """Sums of 1 and one more condition may hold by chance; that of order 3 does not."""
+    for row, is_read in (("(1/4, 1/3), (1/2, 1/3), (1/4, 1/3)", False), ("(0, 7/24), (2/3, 3/4), (-2/3, -1/24), (1, 0)", True)):  # fmt: skip
+        found = python.find(f"def rk():\n    x = [{row}]\n    return go(x)\n", "a.py")
+        assert any(x.is_read for x in found) == is_read
