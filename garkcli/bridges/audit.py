@@ -134,7 +134,9 @@ def audit(table: FoundTable) -> Audited | None:
     # of a table of single numbers, or that numbers tell, an error is a doubt
     is_doubt = table.is_assembled or table.is_recognised
     wrong = {"error", "warning"} if is_doubt else {"error"}
-    is_wrong = found is not None and any(x.level in wrong for x in found.findings)
+    is_wrong = found is not None and any(
+        x.level in wrong and x.code != "order-higher" for x in found.findings
+    )
     if found is None or not found.is_read or is_wrong or is_low:
         least = (ENOUGH if is_low else LINKED) if order else 0
         for told in readings_of(table):

@@ -329,8 +329,14 @@ def test_weights_are_no_difference_of_others() -> None:
     assert found.has_errors
 
 
-def test_two_columns_of_order_two_are_no_splitting() -> None:
-    """Sums of 1 and one more condition may hold by chance; that of order 3 does not."""
-    for row, is_read in (("(1/4, 1/3), (1/2, 1/3), (1/4, 1/3)", False), ("(0, 7/24), (2/3, 3/4), (-2/3, -1/24), (1, 0)", True)):  # fmt: skip
-        found = python.find(f"def rk():\n    x = [{row}]\n    return go(x)\n", "a.py")
-        assert any(x.is_read for x in found) == is_read
+@pytest.mark.parametrize(
+    ("pairs", "is_read"),
+    [
+        ("(0.31234, 0.5), (0.37532, 0.5), (0.31234, 0)", False),
+        ("(2/3, 7/24), (-2/3, 3/4), (1, -1/24)", True),
+    ],
+)
+def test_two_columns_are_a_splitting_of_order_three(pairs: str, is_read: bool) -> None:
+    """Sums of 1 and the one condition of order 2 may hold by chance."""
+    found = python.find(f"def rk():\n    x = [{pairs}]\n    return go(x)\n", "a.py")
+    assert any(x.is_read for x in found) == is_read
