@@ -76,7 +76,11 @@ def composition(x: Given) -> Iterator[Reading]:
     if not FEWEST <= len(row) <= MOST_STEPS or len({*abs(row[:, VALUE])} - {0.0}) < FEWEST:
         return
     for form in FORMS:
-        ways = [found for each in (row, row[::-1]) if (found := _in_form(form, x, each))]
+        first = _in_form(form, x, row)
+        # conditions of low order are those of the turned row, but for its middle
+        is_possible = first is not None or form == "middle"
+        second = _in_form(form, x, row[::-1]) if is_possible else None
+        ways = [way for way in (first, second) if way is not None]
         if ways:
             yield max(ways, key=lambda way: way[0])[1]
 
