@@ -81,7 +81,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         explained = [
             i
             for i in read
-            # what is called b is no difference of weights
+            # a row with the name of b is no difference of weights
             if not reading.idle
             and not (told[i].get("b", frozenset()) & errors)
             and _explains(reading, numbers, told[i])

@@ -589,7 +589,9 @@ def told_of_each_file(run: Run) -> None:
         if line.endswith("error[internal-fault]: internal fault: RuntimeError: broken")
     ]
     helps = [line for line in lines if "please report it" in line]
-    count = len(list((ROOT / "methods").rglob("*.gark.yaml")))
+    files = (ROOT / "methods").rglob("*.gark.yaml")
+    # steps of Nyström methods are not analysed there
+    count = sum("\nnystrom:" not in file.read_text(encoding="utf-8") for file in files)
     assert len(told) == len(helps) == count
     assert "Traceback" not in run.out + run.err
 
