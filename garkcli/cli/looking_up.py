@@ -258,6 +258,7 @@ class Page(opt.Derivable):
         "--order -n", opt.number("n", 1, 100), of="report_page.order", heading="Page"
     )
     pictures: bool | None = opt.switch("--pictures/--no-pictures", of="report_page.pictures")
+    open: bool = opt.OPEN
 
 
 _PLACE = opt.option(
@@ -283,6 +284,8 @@ def report(given: Page, output: Output) -> int:
     from garkcli.webpage.page import render
     from garkcli.webpage.reported import reported
 
+    if given.open:
+        output.demand_file()
     paths = output.files_meant(given.files, given.settings)
     if output.path is None and not output.is_streamed:
         output.path = _page_name(paths, given.which)
@@ -295,6 +298,8 @@ def report(given: Page, output: Output) -> int:
     found = (reported(_meant(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
     output.write(render(methods))
+    if given.open and output.path is not None:
+        output.show(output.path)
     for method in methods:
         outcome = method.outcome
         if not outcome.is_read:

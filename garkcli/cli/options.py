@@ -407,6 +407,7 @@ REPORTED: Mapping[str, object] = {
     "color": COLOR,
 }
 """The options on the output of most commands."""
+OPEN = flag("--open", "Show it in the browser.", heading="Report")
 CATALOGUE = option(
     "--catalogue", FOLDER, "Add the method files below DIR to the catalogue; repeatable."
 )

@@ -178,6 +178,20 @@ class Output:
         save_scene(scene, Path(path))
         self.note(f"wrote {path}")
 
+    def demand_file(self) -> None:
+        """Raises UsageProblem if --open is given with -o -."""
+        if self.is_streamed:
+            message = "--open shows a file, and -o - writes none"
+            raise UsageProblem(message, "leave one of them out", code="options-clash")
+
+    def show(self, path: str) -> None:
+        """Opens a file that was written in the browser of the user."""
+        import webbrowser
+        from pathlib import Path
+
+        if not webbrowser.open(Path(path).resolve().as_uri()):
+            self.note(f"no browser was found: open {path} yourself")
+
     def tell_failure(self, error: GarkError, name: str, report: Report[Any]) -> int:
         """Reports on stderr, and in reports for programs, why a run has no result; returns the exit
         code.

@@ -41,6 +41,7 @@ COMMANDS = {
         ("load", "analyse", "catalogue", "cite"),
     ),
     "report": Command(INSPECT, "looking_up", "methods as one HTML page", ("report_page",)),
+    "plot": Command(INSPECT, "plotting", "one look at a method, in the terminal", ("plot",)),
     "list": Command(
         INSPECT,
         "looking_up",

@@ -19,7 +19,7 @@ MEANT = {
     "test": "check",
     "draw": "trees",
     "butcher": "tableau",
-    "plot": "converge",
+    "picture": "plot",
     "simulate": "converge",
     "solve": "converge",
 }

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
 
+from garkcli.constructions.same_stability import on_test_equation
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
@@ -33,9 +34,10 @@ from garkcli.plots.scene import (
     polygons,
 )
 from garkcli.stability.damping import ImexPair
-from garkcli.stability.linear import StabilityFunction
+from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.oscillator import OscillatorStability
-from garkcli.stability.summary import Stability
+from garkcli.stability.summary import Stability, directions
+from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.stability.springs_plane import SpringsPlane
@@ -203,6 +205,24 @@ def stability_scene(
         if pair is not None and found.colours.explicit_alone is not None:
             panels.append(pair_panel(pair, found.colours.explicit_alone))
     return Scene(title, panels, is_row=True)
+
+
+def region_of(
+    tableau: Tableau, tolerance: fmpq | None, is_order_star: bool = False, most: int = 4
+) -> Panel | None:
+    """Returns the regions |R(z)| ≤ 1 of a method, or its order stars: of all colours alike, and of
+    each of the first ones alone with the others at 0. None without a stability function.
+    """
+    linear = tableau if tableau.is_gark else on_test_equation(tableau, tolerance)
+    found = [] if linear is None else directions(linear)
+    if linear is None or not found:
+        return None
+    named = [(name, stability_function(linear, shares)) for name, shares in found[:most]]
+    panel = region_panel(of_directions(named), is_order_star)
+    more = len(found) - len(named)
+    left_out = f" The regions of the last {more} colours alone are left out." if more else ""
+    printed = f" {PRINTED}" if tolerance is not None else ""
+    return replace(panel, note=panel.note + left_out + printed)
 
 
 def of_directions(found: Sequence[Named]) -> list[Named]:

@@ -80,6 +80,35 @@ def svg(panel: scene.Panel) -> str:
     return "\n".join(lines)
 
 
+def document(panel: scene.Panel) -> str:
+    """Returns a panel as a file of its own, light or dark as its viewer."""
+    style = f"{_style()}svg{{color:#1d1f24;background:#fff;font-family:sans-serif}}\n"
+    dark = "@media (prefers-color-scheme:dark){svg{color:#e8e8e8;background:#17191d}}\n"
+    head, rest = svg(panel).split("\n", 1)
+    opened = head.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', 1)
+    return f"{opened}\n<style>\n{style}{dark}</style>\n{rest}\n"
+
+
+def of_lines(lines: Sequence[str]) -> str:
+    """Returns lines of text as a file of its own, with letters of equal width."""
+    wide, high = 8 * max(map(len, lines)) + 2 * _TOP, 18 * len(lines) + 2 * _TOP
+    head = _opened(
+        "svg",
+        xmlns="http://www.w3.org/2000/svg",
+        role="img",
+        viewBox=f"0 0 {wide} {high}",
+        width=float(wide),
+        font_family="DejaVu Sans Mono, monospace",
+        font_size="13",
+        style="background:#fff;white-space:pre",
+    )
+    rows = [
+        element("text", line, x=float(_TOP), y=float(_TOP + 18 * k), **{"xml:space": "preserve"})
+        for k, line in enumerate(lines, start=1)
+    ]
+    return "\n".join([head, *rows, "</svg>", ""])
+
+
 class _Frame:
     def __init__(self, panel: scene.Panel) -> None:
         x, y = panel.x, panel.y

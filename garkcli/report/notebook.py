@@ -9,7 +9,7 @@ from html import escape
 from typing import TYPE_CHECKING, TypeVar
 
 from garkcli.check.findings import witness_text
-from garkcli.errors import printable
+from garkcli.errors import GarkError, printable
 from garkcli.exact.polynomial_text import integral
 from garkcli.ntrees.drawing import draw_svg_sheet
 from garkcli.page.cells import remark
@@ -40,12 +40,26 @@ def method_latex(method: GarkMethod) -> str | None:
 
 
 def method_html(method: GarkMethod) -> str:
-    """The tableau as a table, Q and P for a method for positions and momenta."""
+    """The tableau as a table, Q and P for a method for positions and momenta, and the region of
+    stability if there is one.
+    """
     if _is_large(method):
         return f"<pre>{_text(repr(method))}</pre>"
     tables = tableau_lines(method.tableau, method.entries, method.name)
     note = remark(method.entries)
-    return "\n".join([*tables, f"<p>{_text(note)}</p>"] if note else tables)
+    noted = [f"<p>{_text(note)}</p>"] if note else []
+    return "\n".join([*tables, *noted, *_region_html(method)])
+
+
+def _region_html(method: GarkMethod) -> list[str]:
+    from garkcli.plots.regions import region_of
+    from garkcli.plots.svg import svg
+
+    try:
+        panel = region_of(method.tableau, method.tolerance)
+    except GarkError:
+        return []  # the tableau is shown all the same
+    return [] if panel is None else [f'<div style="max-width:24rem">{svg(panel)}</div>']
 
 
 def _is_large(method: GarkMethod) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 
 from markupsafe import Markup, escape
 
@@ -10,14 +11,14 @@ from garkcli.api.runs import converge, long_run
 from garkcli.constructions.same_stability import on_test_equation
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import GarkError
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.longtime.longtime import usual
 from garkcli.ntrees.drawing import PALETTE, layout
 from garkcli.ntrees.tree import Tree
 from garkcli.page.figures import order_text
 from garkcli.plots.convergence import comparison_panel, errors_panel
 from garkcli.plots.curves import became_of, history_panel
-from garkcli.plots.regions import PRINTED, of_directions, pair_panel, region_panel, trace_panel
+from garkcli.plots.regions import pair_panel, region_of, region_panel, trace_panel
 from garkcli.plots.scene import Panel
 from garkcli.plots.svg import ON_ANY, svg
 from garkcli.problems.builtin import hamiltonian
@@ -176,25 +177,16 @@ def _picture(name: str, panel: Panel, note: str) -> Picture:
     return Picture(name, panel.title, panel.description, svg(panel), note)
 
 
-def _region(method: GarkMethod) -> tuple[Panel, str]:
-    """Returns the regions |R(z)| ≤ 1: of all colours alike, and of each alone with the others at
-    0.
-    """
-    tableau = _of_stability(method)
-    found = [] if tableau is None else directions(tableau)
-    if tableau is None or not found:
+def _region(method: GarkMethod, is_order_star: bool = False) -> tuple[Panel, str]:
+    panel = region_of(method.tableau, method.tolerance, is_order_star, MOST)
+    if panel is None:
         if not _is_gark(method):
             raise NotDrawn("")
         raise NotDrawn(
             "There is no stability function: colours drive positions or momenta only, or do not "
             "depend on each other."
         )
-    named = [(name, stability_function(tableau, shares)) for name, shares in found[:MOST]]
-    panel = region_panel(of_directions(named))
-    more = len(found) - len(named)
-    left_out = f" The regions of the last {more} colours alone are left out." if more else ""
-    printed = f" {PRINTED}" if method.tolerance is not None else ""
-    return panel, panel.note + left_out + printed
+    return panel, panel.note
 
 
 def _pair(method: GarkMethod) -> tuple[Panel, str]:
@@ -285,6 +277,18 @@ PICTURES: dict[str, tuple[str, Callable[[GarkMethod], tuple[Panel, str]]]] = {
     "energy": ("Energy error over a long time", _energy),
 }
 """The titles of pictures by name, and the functions that draw them."""
+
+
+def panel_named(name: str, method: GarkMethod) -> Panel:
+    """Returns the picture of a method with its note: one of PICTURES, or ``star``, its order star.
+
+    Raises NotDrawn if there is none, GarkError if the problem does not fit the method.
+    """
+    if name not in ("region", "star") and not _is_gark(method):
+        raise NotDrawn("Steps of such a method have no picture.")
+    draw = partial(_region, is_order_star=True) if name == "star" else PICTURES[name][1]
+    panel, note = draw(method)
+    return replace(panel, note=note)
 
 
 def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:

@@ -104,7 +104,7 @@ def test_every_option_is_read() -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("check rk4 --pair", "no such option --pair\nhelp: it belongs to gark report, stability,"),
+        ("check rk4 --pair", "no such option --pair\nhelp: it belongs to gark report, plot,"),
         ("check rk4 --choose", "no such option --choose\nhelp: it belongs to gark design"),
         ("audit", "Missing argument 'PATH...'\nhelp: name a file or a folder"),
         ("stability rk4 --pair --conjugate", "--pair and --conjugate are two methods"),

@@ -1,0 +1,139 @@
+"""``gark plot``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from garkcli.cli import options as opt
+from garkcli.cli.command import declared
+from garkcli.cli.output import Output
+from garkcli.errors import UsageProblem
+
+if TYPE_CHECKING:
+    from garkcli.ntrees.tree import Tree
+    from garkcli.plots.scene import Panel
+    from garkcli.tableau.garkmethod import GarkMethod
+
+_OF_PLANES = "region", "star", "oscillator", "convergence", "energy"
+
+
+class PlotOptions(opt.Derivable):
+    """The options of ``gark plot``."""
+
+    file: str = opt.argument("FILE", opt.METHOD)
+    what: Literal["region", "star", "oscillator", "convergence", "energy", "tableau", "tree"] = (
+        opt.preset(
+            "--what",
+            opt.words("region", "star", "oscillator", "convergence", "energy", "tableau", "tree"),
+            "region",
+            "The stability region, the order star, the trace on the oscillator, errors over step "
+            "sizes, the energy over a long time, the tableau, or the tree at which the order ends.",
+            heading="Picture",
+        )
+    )
+    open: bool = opt.OPEN
+
+
+@declared("plot", PlotOptions, ["text", "svg"])
+def plot(given: PlotOptions, output: Output) -> None:
+    """One look at a method: its picture in the terminal, as SVG in a file, or in the browser.
+
+    -o FILE.svg writes the picture. With --open and without -o it is written into a temporary
+    folder. If a method has no such picture, gark says why.
+    """
+    if given.open:
+        output.demand_file()
+    if given.open and output.path is None:
+        output.path, output.format = _temporary(given.what), "svg"
+    (file,) = output.files_meant([given.file], given.settings)
+    method = given.method(file, is_any_kind=True)
+    if given.what == "tableau":
+        _tableau(method, output)
+    elif given.what == "tree":
+        _tree(_last_tree(method), method.tableau.size > 1, output)
+    else:
+        _panel(_panel_of(given.what, method), method.name, output)
+    if given.open and output.path is not None:
+        output.show(output.path)
+
+
+def _temporary(what: str) -> str:
+    """Returns a file that stays when the command ends, for the browser to read."""
+    from pathlib import Path
+    from tempfile import mkdtemp
+
+    return str(Path(mkdtemp(prefix="gark-")) / f"{what}.svg")
+
+
+def _panel_of(what: str, method: GarkMethod) -> Panel:
+    """Returns the picture of a method.
+
+    Raises UsageProblem with the pictures that others have if there is none.
+    """
+    from garkcli.webpage.pictures import NotDrawn, panel_named
+
+    try:
+        return panel_named(what, method)
+    except NotDrawn as error:
+        why = str(error).rstrip(".") or "the method has no such picture"
+        others = ", ".join(x for x in (*_OF_PLANES, "tableau", "tree") if x != what)
+        message = f"--what {what}: {why[:1].lower()}{why[1:]}"
+        raise UsageProblem(message, f"choose among {others}", code="option-value") from None
+
+
+def _panel(panel: Panel, name: str, output: Output) -> None:
+    if output.format == "svg":
+        from garkcli.plots.svg import document
+
+        output.write(document(panel))
+        return
+    from functools import partial
+
+    from garkcli.page.paint import folded
+    from garkcli.page.plaintext import plain_text
+    from garkcli.plots.terminal import drawn
+
+    # before lines are measured: signs without Unicode are longer
+    spelt = partial(plain_text, encoding=output.paint.encoding)
+    width = min(output.width, 80)
+    lines = [*folded(spelt(f"{name}: {panel.title}"), width, "  "), *drawn(panel, spelt, width)]
+    output.write("\n".join(lines) + "\n")
+
+
+def _last_tree(method: GarkMethod) -> Tree:
+    """Returns the tree at which the order of a method ends.
+
+    Raises UsageProblem if no tree is known.
+    """
+    from garkcli.api.methods import find_order
+
+    witness = find_order(method).witness
+    if witness is None:
+        message = "--what tree: no tree is known at which the order ends"
+        raise UsageProblem(message, "gark check says how far it looked", code="option-value")
+    return witness.tree
+
+
+def _tree(tree: Tree, has_colours: bool, output: Output) -> None:
+    from garkcli.ntrees.drawing import draw_svg_sheet, draw_text
+    from garkcli.ntrees.notation import format_tree
+
+    written = format_tree(tree, has_colours)
+    if output.format == "svg":
+        output.write(draw_svg_sheet([tree], [written]))
+        return
+    lines = [written, "", *draw_text(tree, has_colours, output.width)]
+    output.write("\n".join(lines) + "\n")
+
+
+def _tableau(method: GarkMethod, output: Output) -> None:
+    """Writes a tableau as text, or the text as SVG."""
+    from garkcli.page.tableau_text import tableau_lines
+
+    lines = [*tableau_lines(method.tableau, method.entries, output.width)]
+    if output.format == "svg":
+        from garkcli.plots.svg import of_lines
+
+        output.write(of_lines([method.name, *lines]))
+    else:
+        output.write("\n".join([method.name, *lines]) + "\n")

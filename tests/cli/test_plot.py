@@ -1,0 +1,102 @@
+"""``gark plot``: one look at a method."""
+
+from __future__ import annotations
+
+import webbrowser
+from pathlib import Path
+from urllib.parse import urlparse
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from garkcli import load
+from tests.cli.harness import gark
+
+METHODS = {
+    "region": "rk4",
+    "star": "gauss-2",
+    "oscillator": "leapfrog-2",
+    "convergence": "heun",
+    "energy": "rk4",
+    "tableau": "rk4",
+    "tree": "rk4",
+}
+"""A method for each picture."""
+
+
+@pytest.fixture
+def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The addresses that the browser is asked for."""
+    found: list[str] = []
+
+    def note(address: str) -> bool:
+        found.append(address)
+        return True
+
+    monkeypatch.setattr(webbrowser, "open", note)
+    return found
+
+
+@pytest.mark.parametrize("what", METHODS)
+def test_each_picture_in_the_terminal_and_as_a_file(what: str, tmp_path: Path) -> None:
+    """Its lines fit 60 and 80 columns, with and without UTF-8; the file is XML with its namespace
+    and a shape.
+    """
+    for columns, encoding in ((60, ""), (80, ""), (60, "ascii"), (80, "ascii")):
+        variables = {"COLUMNS": str(columns)}
+        run = gark("plot", METHODS[what], "--what", what, encoding=encoding, **variables)
+        assert (run.code, run.err) == (0, "")
+        assert run.out.count("\n") >= 3
+        assert max(map(len, run.out.splitlines())) <= columns
+        assert not encoding or run.out.isascii()
+    file = tmp_path / f"{what}.svg"
+    assert gark("plot", METHODS[what], "--what", what, "-o", str(file)).code == 0
+    root = ET.parse(file).getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert {"path", "text"} & {x.tag.rpartition("}")[2] for x in root.iter()}
+
+
+def test_region_and_star_of_gauss() -> None:
+    """Gauss damps nothing on the right, where its order star has two lobes."""
+    region, star = (gark("plot", "gauss-2", "--what", x).out for x in ("region", "star"))
+    axis = next(x for x in region.splitlines() if x.startswith(" 0 ┤")).index("│")
+    lobes = ["".join(x[axis:] for x in y.splitlines()).count("█") for y in (region, star)]
+    assert "█" in region
+    assert lobes[0] == 0 < lobes[1]
+
+
+def test_no_picture_has_a_reason_and_a_cure() -> None:
+    """A method that the picture is not for is refused with exit code 2."""
+    for method, what in (("leapfrog-2", "region"), ("rk4", "oscillator"), ("ros3p", "energy")):
+        run = gark("plot", method, "--what", what)
+        assert (run.code, run.out) == (2, "")
+        assert f"--what {what}: " in run.err
+        assert "help: choose among" in run.err
+        assert f" {what}," not in run.err.partition("help:")[2]
+
+
+def test_energy_of_the_symplectic_pair_is_the_one_of_the_pair() -> None:
+    """The pair of a method is drawn with --pair."""
+    assert "drifts" not in gark("plot", "rk4", "--pair", "--what", "energy").out.lower()
+    assert "drifts" in gark("plot", "rk4", "--what", "energy").out.lower()
+
+
+def test_open_shows_the_file(opened: list[str], tmp_path: Path) -> None:
+    """The one that was written, or one in a temporary folder that is still there."""
+    assert gark("plot", "rk4", "--open", "-o", "a.svg", cwd=tmp_path).code == 0
+    assert gark("plot", "rk4", "--open", "--what", "tree", cwd=tmp_path).code == 0
+    assert gark("report", "heun", "--no-pictures", "--open", cwd=tmp_path).code == 0
+    files = [Path(urlparse(x).path) for x in opened]
+    assert [x.name for x in files] == ["a.svg", "tree.svg", "heun-euler.html"]
+    assert all(x.is_file() for x in files)
+    for command in ("plot", "report"):
+        assert gark(command, "rk4", "--open", "-o", "-").code == 2
+    assert len(opened) == 3
+
+
+def test_a_notebook_shows_tableau_and_region() -> None:
+    """The region is there for a method with R(z), not for others."""
+    shown = load("rk4")._repr_html_()
+    assert "<table" in shown
+    assert "Stability region" in shown
+    assert "Stability region" not in load("leapfrog-2")._repr_html_()
