@@ -79,6 +79,8 @@ def command(name: str, group: click.Context) -> Iterator[str]:
     context = click.Context(found, info_name=name, parent=group)
     usage = " ".join(found.collect_usage_pieces(context))
     yield f'.SS "{escaped(f"gark {name} {usage}")}"'
+    if isinstance(found, GroupedCommand):
+        yield from [".PP", ".nf", *map(escaped, found.examples), ".fi"]
     yield from described(found)
     yield from options(context)
 

@@ -79,6 +79,7 @@ class Declared(Frozen, Generic[Given]):
     def made(self) -> click.Command:
         """Returns the command of click."""
         return GroupedCommand(
+            COMMANDS[self.name].examples,
             self.name,
             callback=self._run,
             params=[*self._params(), help_option()],
@@ -162,7 +163,19 @@ OUTPUT_HEADING, METHOD_HEADING = "Output", "Method"
 
 
 class GroupedCommand(click.Command):
-    """A command whose help has its options below headings."""
+    """A command whose help begins with lines to copy and has its options below headings."""
+
+    def __init__(self, examples: Sequence[str], *settings: Any, **named: Any) -> None:
+        self.examples = examples
+        super().__init__(*settings, **named)
+
+    def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        formatter.write_paragraph()
+        formatter.indent()
+        for line in self.examples:
+            formatter.write_text(line)
+        formatter.dedent()
+        super().format_help_text(ctx, formatter)
 
     def groups(self, ctx: click.Context) -> dict[str, list[tuple[str, str]]]:
         """Returns the options with their help, by the headings; those on the output are last."""

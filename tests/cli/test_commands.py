@@ -70,6 +70,7 @@ RUNS = [
     (("show", COLLOCATION), ("text", "json", "markdown", "latex")),
     (("cite", COLLOCATION), ("bibtex", "text", "json", "markdown", "latex")),
     (("report", VERLET, "--no-pictures", "-o", "-"), ("html",)),
+    (("plot", VERLET, "--what", "tableau"), ("text", "svg")),
     (("list", "methods", "rk4"), ("text", "json", "csv", "markdown", "latex")),
     (("claims", VERLET), ("text", "json", "markdown", "latex")),
     (("diff", VERLET, VERLET), ("text", "json", "markdown", "latex")),

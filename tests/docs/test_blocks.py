@@ -17,6 +17,7 @@ import yaml
 
 from garkcli.cli.main import gark
 from garkcli.cli.project import find_project
+from garkcli.cli.table import COMMANDS
 from garkcli.methodfile.description import FORMS
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
@@ -161,10 +162,17 @@ def check_json(block: Block) -> None:
     assert all(f"-o {name}\n" in page for name in schemas), block.where
 
 
+def check_examples(block: Block) -> None:
+    """Lines with which the help of a command begins, which ``test_examples`` runs."""
+    lines = [*block.text.splitlines()]
+    assert lines in [[*x.examples] for x in COMMANDS.values()], block.where
+
+
 CHECKS: dict[str, Callable[[Block], None]] = {
     "console": check_session,
     "json": check_json,
     "python": check_python,
+    "sh": check_examples,
     "toml": check_toml,
     "yaml": check_yaml,
 }

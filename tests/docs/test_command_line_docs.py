@@ -38,7 +38,9 @@ def reference() -> str:
         own = [x for x in records[name] if x not in common and _choices(*x) != USUAL]
         shared = [x[0].split()[0].rstrip(",") for x in records[name] if x in common]
         also = ", ".join(f"`{x}`" for x in shared if x not in OF_ALL)
-        parts.append(f"### gark {name}\n\n`{usage}`\n\n{_help(found)}\n")
+        assert isinstance(found, GroupedCommand)
+        lines = "\n".join(["```sh", *found.examples, "```"])
+        parts.append(f"### gark {name}\n\n`{usage}`\n\n{_help(found)}\n\n{lines}\n")
         headings = _headings(found, group)
         tables = [_options(own, headings)] if own else []
         parts.append("\n".join([*tables, f"Also {also}.\n"] if also else tables))
