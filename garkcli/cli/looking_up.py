@@ -41,7 +41,6 @@ _TRUTHS = {
     "exact": "Methods whose coefficients are not rounded.",
 }
 LISTS = ("families", "transfer", "schemes", "splittings", "problems")
-_KINDS = ("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mdrk", "mri", "family")
 
 
 class Explain(opt.Options):
@@ -99,17 +98,15 @@ def _filters() -> list[click.Option]:
     """
     from garkcli.catalogue.entries import ORDERS
     from garkcli.properties.registry import every_property
+    from garkcli.report.methods import BY_KIND
 
     counts, truths = {**_COUNTS}, {**_TRUTHS}
     for x in every_property():
         if x.kind in ("count", "truth"):
             (counts if x.kind == "count" else truths).setdefault(x.key, "")
-    kinds = (
-        "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
-        "nonlinearly partitioned (nprk), multiderivative (mdrk), multirate (mri)."
-    )
+    kinds = ", ".join(f"{word} ({kind})" for kind, word in BY_KIND.items())
     return [
-        _filter("--kind", _METHODS, kinds, type=click.Choice(_KINDS)),
+        _filter("--kind", _METHODS, f"{kinds}.", type=click.Choice([*BY_KIND])),
         _filter("--structure", _METHODS, _STRUCTURE, metavar="WORD"),
         _filter("--folder", _METHODS, _FOLDER, metavar="NAME"),
         _filter("--judge", _METHODS, _JUDGING, is_flag=True, default=None),
@@ -145,20 +142,25 @@ def list_(given: ListOptions, output: Output) -> None:
     """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
     one of these lists; methods, those of the catalogue; or exports, the targets of gark export.
 
-    gark lists a method if every option holds and its name, an alias, its title or its reference has
-    every WORD; --no-... selects methods without the property, if that is known.
+    Without options gark counts the methods by kind. It lists a method if every option holds and its
+    name, an alias, its title or its reference has every WORD; --no-... selects methods without the
+    property, if that is known.
     """
     from garkcli.report import listing, methods
 
     filters = {**given.filters, "words": given.words}
+    wanted = {key: value for key, value in filters.items() if value not in (None, ())}
     if given.what == "methods":
-        output.tell(methods.REPORT, _listed(filters))
+        found = _listed(filters)
+        if wanted or output.format != "text" or output.verbosity:
+            output.tell(methods.REPORT, found)
+        else:
+            output.write("\n".join([*methods.by_kind(found), ""]))
         return
-    for key, value in filters.items():
-        if value not in (None, ()):
-            name = "WORD" if key == "words" else f"--{key.replace('_', '-')}"
-            message = f"{name} is for methods"
-            raise UsageProblem(message, "write gark list methods", code="options-clash")
+    for key in wanted:
+        name = "WORD" if key == "words" else f"--{key.replace('_', '-')}"
+        message = f"{name} is for methods"
+        raise UsageProblem(message, "write gark list methods", code="options-clash")
     if output.format == "csv":
         message = "--format csv is for methods"
         raise UsageProblem(message, "write gark list methods", code="options-clash")

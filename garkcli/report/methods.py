@@ -83,7 +83,20 @@ PROPERTIES: Rows[Entry] = [
 ]
 TRUTHS = ["symplectic", *(x.field for x in every_property() if x.kind == "truth")]
 STAGES: Kind[list[int]] = Kind(Json(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs))))
-_KIND = choice("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mdrk", "mri", "family", None)
+BY_KIND = {
+    "rk": "Runge-Kutta",
+    "ark": "additive",
+    "prk": "partitioned",
+    "gark": "general",
+    "row": "Rosenbrock",
+    "rkn": "Nyström",
+    "nprk": "nonlinearly partitioned",
+    "mdrk": "multiderivative",
+    "mri": "multirate",
+    "family": "with free parameters",
+}
+"""Kinds of methods, in words."""
+_KIND = choice(*BY_KIND, None)
 METHOD: Rows[Entry] = [
     _field("name", TEXT, USUAL, has_null=False),
     _field("aliases", TEXTS, USUAL, has_null=False),
@@ -204,6 +217,37 @@ def _title(entries: Sequence[Entry], d: Plain) -> str:
     if any(x["facts"] == "claimed" and x["order"] is not None for x in entries):
         legend.append("*: as its file claims (--judge finds it)")
     return d.prose(". ".join(filter(None, [counted(len(entries), "method"), ", ".join(legend)])))
+
+
+def by_kind(entries: Sequence[Entry]) -> list[str]:
+    """Returns a screen: the numbers of methods by kind and type with their orders, and how to list
+    them.
+    """
+    groups: dict[tuple[str, str], list[Entry]] = {}
+    for entry in entries:
+        groups.setdefault((entry["kind"] or "", _type(entry)), []).append(entry)
+    places = [*BY_KIND, ""]
+    rows = [("kind", "", "type", "methods", "orders")]
+    for kind, form in sorted(groups, key=lambda x: (places.index(x[0]), -len(groups[x]))):
+        found = groups[kind, form]
+        orders = sorted({x["order"] for x in found if x["order"] is not None})
+        ends = dict.fromkeys(map(str, orders[:1] + orders[-1:]))
+        named = kind or "unread", BY_KIND.get(kind, ""), form
+        rows.append((*named, str(len(found)), " to ".join(ends)))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = [
+        "  ".join(
+            x.rjust(n) if k == 3 else x.ljust(n)
+            for k, (x, n) in enumerate(zip(row, widths, strict=True))
+        )
+        for row in rows
+    ]
+    return [
+        counted(len(entries), "method"),
+        *(f"  {line}".rstrip() for line in lines),
+        "gark list methods --kind rk lists one kind, --sort order all; gark list --help",
+        "has the other filters",
+    ]
 
 
 REPORT: Report[Sequence[Entry]] = ListReport.only(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -165,7 +166,7 @@ def test_what_is_hidden_is_not_listed(tmp_path: Path) -> None:
 
 def test_the_text_fits_and_says_what_its_letters_mean() -> None:
     """80 columns, every letter of a row in the first lines."""
-    run = gark("list", "methods")
+    run = gark("list", "methods", "--sort", "order")
     lines = run.out.splitlines()
     assert max(map(len, lines)) <= 80
     start = next(i for i, line in enumerate(lines) if line.startswith("  name"))
@@ -177,6 +178,20 @@ def test_the_text_fits_and_says_what_its_letters_mean() -> None:
     marks = set("".join(row[place : place + 6].split(" ")[0] for row in rows))
     for mark in marks:
         assert f"{mark}: " in legend
+
+
+def test_without_options_a_screen_has_all_kinds_with_their_numbers() -> None:
+    """The numbers are those of the lists, and their sum is that of the title."""
+    run = gark("list", "methods")
+    title, head, *rows = run.out.splitlines()
+    assert len(rows) <= 21
+    assert max(map(len, run.out.splitlines())) <= 80
+    place = head.index("methods")
+    counts: Counter[str] = Counter()
+    for row in rows[:-2]:
+        counts[row.split()[0]] += int(row[place : place + len("methods")])
+    assert counts == Counter(x["kind"] or "unread" for x in listed())
+    assert title == f"{counts.total()} methods"
 
 
 def test_a_table_with_a_wrong_node_has_its_mark() -> None:
