@@ -79,8 +79,8 @@ class Declared(Frozen, Generic[Given]):
     def made(self) -> click.Command:
         """Returns the command of click."""
         return GroupedCommand(
-            COMMANDS[self.name].examples,
             self.name,
+            COMMANDS[self.name].examples,
             callback=self._run,
             params=[*self._params(), help_option()],
             help=self._help(),
@@ -165,9 +165,9 @@ OUTPUT_HEADING, METHOD_HEADING = "Output", "Method"
 class GroupedCommand(click.Command):
     """A command whose help begins with lines to copy and has its options below headings."""
 
-    def __init__(self, examples: Sequence[str], *settings: Any, **named: Any) -> None:
+    def __init__(self, name: str, examples: Sequence[str], **settings: Any) -> None:
         self.examples = examples
-        super().__init__(*settings, **named)
+        super().__init__(name, **settings)
 
     def format_help_text(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         formatter.write_paragraph()

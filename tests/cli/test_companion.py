@@ -30,6 +30,7 @@ TAKERS = (
     "export",
     "modified",
     "report",
+    "plot",
     "stability",
     "tableau",
 )

@@ -36,6 +36,7 @@ FILES = {
 LONG = {
     "check": ["check gauss-200", "check -j 2 gauss-200 gauss-199"],
     "show": ["show gauss-200"],
+    "plot": ["plot gauss-200 --what tree"],
     "report": ["report gauss-200 -o page.html"],
     "stability": ["stability gauss-200"],
     "conditions": ["conditions -n 20", "conditions gauss-20 -n 14 -o table.txt"],

@@ -48,6 +48,7 @@ COMMANDS_WITH = {
     "claims": ["rk4"],
     "certificate": ["heun"],
     "schema": [],
+    "plot": ["rk4"],
     "report": ["heun", "--no-pictures"],
     "new": ["--tableau", "0 | ; 1/2 | 1/2; | 0 1"],
 }

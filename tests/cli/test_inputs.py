@@ -179,7 +179,11 @@ OVER_INPUTS = (
     *("converge m.gark.yaml -o m.gark.yaml", "energy m.gark.yaml -o m.gark.yaml"),
     *("converge m.gark.yaml --problem problem.yaml -o problem.yaml",),
     *("show ./m.gark.yaml -o m.gark.yaml", "cite m.gark.yaml -o m.gark.yaml"),
-    *("report . -o n.gark.yaml", "certificate m.gark.yaml -o m.gark.yaml"),
+    *(
+        "report . -o n.gark.yaml",
+        "plot m.gark.yaml -o m.gark.yaml",
+        "certificate m.gark.yaml -o m.gark.yaml",
+    ),
     *("design family.yaml --order 2 -o family.yaml",),
     *("design family.yaml --order 2 --emit family.yaml",),
     *("sweep spec.yaml --rows rows.jsonl -o spec.yaml",),

@@ -35,6 +35,7 @@ TOLD = {
     "audit": (["tests/bridges/sources/kutta.csv"], "files"),
     "certificate": (["rk4"], "proof"),
     "show": (["rk4"], "reading rk4"),
+    "plot": (["rk4"], "reading rk4"),
     "report": (["rk4", "--no-pictures", "-o", "-"], "methods"),
 }
 """Arguments of each command, and something that it says."""
