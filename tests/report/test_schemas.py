@@ -176,10 +176,11 @@ def test_the_schema_is_one(command: str) -> None:
 
 
 def test_every_command_with_a_report_has_a_schema() -> None:
-    """All commands but ``gark schema``, whose output is a schema itself, ``gark new`` and ``gark
-    report``, whose page shows what others report; and every name of a report that the program writes is the constant of a schema.
+    """All commands but ``gark schema``, whose output is a schema itself, ``gark new``, and ``gark
+    report`` and ``gark plot``, which show what others report; and every name of a report that the
+    program writes is the constant of a schema.
     """
-    assert NAMES - {"schema", "new", "report"} <= set(REPORTS)
+    assert NAMES - {"schema", "new", "report", "plot"} <= set(REPORTS)
     assert RUNS.keys() == REPORTS.keys()
     names = set()
     for path in Path(ROOT, "garkcli").rglob("*.py"):
