@@ -13,8 +13,9 @@ if TYPE_CHECKING:
     from garkcli.ntrees.tree import Tree
     from garkcli.plots.scene import Panel
     from garkcli.tableau.garkmethod import GarkMethod
+    from garkcli.tableau.tableau import Tableau
 
-_OF_PLANES = "region", "star", "oscillator", "convergence", "energy"
+_OF_STEPS = "convergence", "energy"
 
 
 class PlotOptions(opt.Derivable):
@@ -50,7 +51,7 @@ def plot(given: PlotOptions, output: Output) -> None:
     if given.what == "tableau":
         _tableau(method, output)
     elif given.what == "tree":
-        _tree(_last_tree(method), method.tableau.size > 1, output)
+        _tree(_last_tree(method), method.tableau, output)
     else:
         _panel(_panel_of(given.what, method), method.name, output)
     if given.open and output.path is not None:
@@ -68,7 +69,7 @@ def _temporary(what: str) -> str:
 def _panel_of(what: str, method: GarkMethod) -> Panel:
     """Returns the picture of a method.
 
-    Raises UsageProblem with the pictures that others have if there is none.
+    Raises UsageProblem with the pictures that the method may have if it has no such one.
     """
     from garkcli.webpage.pictures import NotDrawn, panel_named
 
@@ -76,9 +77,23 @@ def _panel_of(what: str, method: GarkMethod) -> Panel:
         return panel_named(what, method)
     except NotDrawn as error:
         why = str(error).rstrip(".") or "the method has no such picture"
-        others = ", ".join(x for x in (*_OF_PLANES, "tableau", "tree") if x != what)
+        others = ", ".join(x for x in (*_possible(method), "tableau", "tree") if x != what)
         message = f"--what {what}: {why[:1].lower()}{why[1:]}"
         raise UsageProblem(message, f"choose among {others}", code="option-value") from None
+
+
+def _possible(method: GarkMethod) -> list[str]:
+    """Returns the pictures that a method may have, as far as one sees without steps."""
+    from garkcli.webpage.pictures import NotDrawn, panel_named
+
+    found = []
+    for what in ("region", "star", "oscillator"):
+        try:
+            panel_named(what, method)
+        except NotDrawn:
+            continue
+        found.append(what)
+    return [*found, *(_OF_STEPS if method.tableau.is_gark else ())]
 
 
 def _panel(panel: Panel, name: str, output: Output) -> None:
@@ -114,26 +129,33 @@ def _last_tree(method: GarkMethod) -> Tree:
     return witness.tree
 
 
-def _tree(tree: Tree, has_colours: bool, output: Output) -> None:
+def _tree(tree: Tree, tableau: Tableau, output: Output) -> None:
+    """Writes a tree, its colours with the names that gark check gives them."""
     from garkcli.ntrees.drawing import draw_svg_sheet, draw_text
     from garkcli.ntrees.notation import format_tree
+    from garkcli.page.plaintext import plain_text
+    from garkcli.report.check import named_colours
 
-    written = format_tree(tree, has_colours)
+    names = [colour.name for colour in tableau.colours]
+    has_colours, is_named = len(names) > 1, not tableau.has_fields_alone
+    written = format_tree(tree, names if is_named else has_colours)
     if output.format == "svg":
         output.write(draw_svg_sheet([tree], [written]))
         return
-    lines = [written, "", *draw_text(tree, has_colours, output.width)]
-    output.write("\n".join(lines) + "\n")
+    lines = [written, *([named_colours(tree, names)] if is_named else []), ""]
+    lines += draw_text(tree, has_colours, output.width)
+    output.write(plain_text("\n".join(lines), encoding=output.paint.encoding) + "\n")
 
 
 def _tableau(method: GarkMethod, output: Output) -> None:
-    """Writes a tableau as text, or the text as SVG."""
-    from garkcli.page.tableau_text import tableau_lines
+    """Writes a tableau as gark tableau does, or its text as SVG."""
+    from garkcli.cli.tableaux import write_tableau
 
-    lines = [*tableau_lines(method.tableau, method.entries, output.width)]
-    if output.format == "svg":
-        from garkcli.plots.svg import of_lines
+    if output.format == "text":
+        write_tableau(method, output)
+        return
+    from garkcli.plots.svg import of_lines
+    from garkcli.report.tableau import REPORT, of_method
 
-        output.write(of_lines([method.name, *lines]))
-    else:
-        output.write("\n".join([method.name, *lines]) + "\n")
+    text = "".join(REPORT.pieces(of_method(method), width=output.width))
+    output.write(of_lines(text.splitlines()))

@@ -285,7 +285,7 @@ def panel_named(name: str, method: GarkMethod) -> Panel:
     Raises NotDrawn if there is none, GarkError if the problem does not fit the method.
     """
     if name not in ("region", "star") and not _is_gark(method):
-        raise NotDrawn("Steps of such a method have no picture.")
+        raise NotDrawn("This picture is of GARK methods alone.")
     draw = partial(_region, is_order_star=True) if name == "star" else PICTURES[name][1]
     panel, note = draw(method)
     return replace(panel, note=note)

@@ -75,6 +75,29 @@ def test_no_picture_has_a_reason_and_a_cure() -> None:
         assert f" {what}," not in run.err.partition("help:")[2]
 
 
+@pytest.mark.parametrize("method", ["leapfrog-2", "ros3p", "nystrom-4", "merk21"])
+def test_the_hint_names_pictures_that_there_are(method: str) -> None:
+    """Each word of the help after a refusal is a picture of that method."""
+    runs = [gark("plot", method, "--what", x) for x in ("region", "oscillator")]
+    refused = next(x for x in runs if x.code)
+    hint = refused.err.partition("help: choose among ")[2]
+    words = hint.strip().split(", ")
+    assert words[-2:] == ["tableau", "tree"]
+    assert all(gark("plot", method, "--what", x).code == 0 for x in words)
+
+
+@pytest.mark.parametrize("method", ["rk4", "ros3p", "nystrom-4", "merk21"])
+def test_tableau_and_tree_are_those_of_other_commands(method: str, tmp_path: Path) -> None:
+    """The tableau of gark tableau, and the tree of gark check with the names of its colours."""
+    assert gark("plot", method, "--what", "tableau").out == gark("tableau", method).out
+    lines = gark("plot", method, "--what", "tree").out.splitlines()
+    assert f"fails at {lines[0]} by" in gark("check", method, COLUMNS="200").out
+    file = tmp_path / "tableau.svg"
+    assert gark("plot", method, "--what", "tableau", "-o", str(file)).code == 0
+    texts = ["".join(x.itertext()) for x in ET.parse(file).getroot()]
+    assert [x for x in texts if x] == [x for x in gark("tableau", method).out.splitlines() if x]
+
+
 def test_energy_of_the_symplectic_pair_is_the_one_of_the_pair() -> None:
     """The pair of a method is drawn with --pair."""
     assert "drifts" not in gark("plot", "rk4", "--pair", "--what", "energy").out.lower()
