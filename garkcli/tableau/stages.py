@@ -229,7 +229,9 @@ class PointSpace(StageSpace):
         return _scaled_rows(tuple(ONE / b for b in weights), right)
 
 
-OF_OTHERS = "gark check, show, conditions, certificate, diff and report know such methods"
+OF_OTHERS = (
+    "gark check, show, tableau, conditions, converge, diff, report and export know such methods"
+)
 """The cure if a command is not defined for a method that is no GARK method."""
 
 
