@@ -19,7 +19,7 @@ SIGNS = {
     "⟨": "<", "⟩": ">", "∧": "and", "∨": "or", "¬": "not ", "→": "->", "↦": "|->",
     "\N{COMBINING DIAERESIS}": "''", "\N{COMBINING DOT ABOVE}": "'",
     "\N{COMBINING CIRCUMFLEX ACCENT}": "^", "\N{COMBINING TILDE}": "~",
-    "\N{COMBINING MACRON}": "_",
+    "\N{COMBINING MACRON}": "bar",
     # a letter that is no accented one
     "ø": "o", "æ": "ae", "ß": "ss",
     # punctuation

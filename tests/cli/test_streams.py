@@ -105,6 +105,11 @@ def test_powers_are_all_of_one_kind() -> None:
     assert plain_line("3.9 · 10¹⁹", "ascii") == "3.9 * 10^19"
 
 
+def test_a_bar_is_spelled_on_every_letter() -> None:
+    """Ā, one character, and b̄, two, are spelled alike."""
+    assert plain_line("Ā, with c and b\N{COMBINING MACRON}", "ascii") == "Abar, with c and bbar"
+
+
 @given(st.text(), st.sampled_from(["ascii", "cp1252", "cp437", "latin-1"]))
 def test_any_text_can_be_written(text: str, encoding: str) -> None:
     """Whatever a file is called, its plain form is in the encoding, and plain text is as it was."""
