@@ -123,11 +123,11 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     Args:
         design: the result of ``find_parameters``, or a family as for it; the path may be that of a
             method without free parameters, whose value is the answer.
-        objective: the quantity to be minimised: error, error-coupling or coefficients; or
-            maximised, with a minus sign: -ssp, -stability-interval, -real-interval,
+        objective: the quantity to be minimised: error, error-coupling, dense-error or coefficients;
+            or maximised, with a minus sign: -ssp, -stability-interval, -real-interval,
             -imaginary-interval, -oscillator-interval; a search alone minimises A, B, C, D, E,
-            embedded-A, largest, largest-error, infinity, embedded-infinity and sums such as
-            '2*A - ssp/10'.
+            embedded-A, largest, largest-error, nonzero, infinity, embedded-infinity, -sector and
+            sums such as '2*A - ssp/10'.
         seconds: the time after which it stops; None for never.
 
     Raises:

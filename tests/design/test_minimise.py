@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
@@ -943,3 +944,10 @@ def test_a_denominator_leaves_values_near_its_zeros_open() -> None:
     assert "1/(g - 2)" in text
     found = minimise(find_parameters(loads_family(text), 1), "coefficients")
     assert found.extent == "critical-points"
+
+
+def test_the_help_names_every_objective() -> None:
+    """``gark design --help`` lists what --minimise takes."""
+    text = gark("design", "--help").out.partition("--minimise WHAT")[2].partition("--choose")[0]
+    words = set(re.findall(r"[\w-]+", re.sub(r"-\s+", "-", text)))
+    assert set(OBJECTIVES) - words == set()
