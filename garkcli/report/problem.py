@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
+from garkcli.constructions.nystrom import is_nystrom
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
@@ -102,11 +103,14 @@ def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:
 
 
 def driving(run: Run) -> str:
-    """The part of the Hamiltonian that each colour steps; empty if the file says it."""
-    method = run.method
-    if method is None or isinstance(run.problem, RightHandSide):
+    """The part of the Hamiltonian that each colour steps; empty if the file or the kind of method
+    says it.
+    """
+    method, problem = run.method, run.problem
+    if method is None or isinstance(problem, RightHandSide):
         return ""
-    if method.tableau.is_partitioned or method.tableau.size == 1:
+    terms = problem.shares if isinstance(problem, Oscillator) else problem.terms
+    if method.tableau.is_partitioned or is_nystrom(method.tableau) or len(terms) == 1:
         return ""
     return "colour l steps the whole vector field of H{l}"
 

@@ -204,8 +204,8 @@ def test_python_and_the_command_line_agree(which: str) -> None:
 
 @in_whole
 def test_colours_without_a_partition_say_what_they_step(spelled_out: str) -> None:
-    """Each steps the whole vector field of its term; a pair, a partitioned method, one colour and a
-    right-hand side have nothing to say.
+    """Each steps the whole vector field of its term; a pair, a partitioned method, a Nyström method,
+    a single term and a right-hand side have nothing to say.
     """
     said = "colour l steps the whole vector field of H{l}"
     for command in ("converge", "energy"):
@@ -214,6 +214,8 @@ def test_colours_without_a_partition_say_what_they_step(spelled_out: str) -> Non
             assert said not in gark(command, spelled_out, "--pair", "--problem", problem).out
         for other in ("rk4", "stoermer-verlet"):
             assert said not in gark(command, other, "--problem", "pendulum").out
+    for name in ("ros3p", "dprkn-64"):
+        assert said not in gark("converge", name).out
     assert said not in gark("converge", spelled_out, "--problem", "van-der-pol").out
 
 
