@@ -155,7 +155,7 @@ def list_(given: ListOptions, output: Output) -> None:
         if wanted or output.format != "text" or output.verbosity:
             output.tell(methods.REPORT, found)
         else:
-            output.write("\n".join([*methods.by_kind(found), ""]))
+            output.write("\n".join([*methods.by_kind(found, output.width), ""]))
         return
     for key in wanted:
         name = "WORD" if key == "words" else f"--{key.replace('_', '-')}"

@@ -12,6 +12,7 @@ from garkcli.exact.display import shortest
 from garkcli.exact.expression import read_decimal
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.page.paint import folded
 from garkcli.properties.registry import every_property
 from garkcli.reference import Reference
 from garkcli.report.citation import REFERENCE, short_name
@@ -219,7 +220,10 @@ def _title(entries: Sequence[Entry], d: Plain) -> str:
     return d.prose(". ".join(filter(None, [counted(len(entries), "method"), ", ".join(legend)])))
 
 
-def by_kind(entries: Sequence[Entry]) -> list[str]:
+_MORE = "gark list methods --kind rk lists one kind, --sort order all; gark list --help"
+
+
+def by_kind(entries: Sequence[Entry], width: int) -> list[str]:
     """Returns a screen: the numbers of methods by kind and type with their orders, and how to list
     them.
     """
@@ -245,8 +249,7 @@ def by_kind(entries: Sequence[Entry]) -> list[str]:
     return [
         counted(len(entries), "method"),
         *(f"  {line}".rstrip() for line in lines),
-        "gark list methods --kind rk lists one kind, --sort order all; gark list --help",
-        "has the other filters",
+        *folded(f"{_MORE} has the other filters", width, ""),
     ]
 
 

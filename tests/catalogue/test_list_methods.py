@@ -186,6 +186,7 @@ def test_without_options_a_screen_has_all_kinds_with_their_numbers() -> None:
     title, head, *rows = run.out.splitlines()
     assert len(rows) <= 21
     assert max(map(len, run.out.splitlines())) <= 80
+    assert max(map(len, gark("list", "methods", COLUMNS="60").out.splitlines())) <= 60
     place = head.index("methods")
     counts: Counter[str] = Counter()
     for row in rows[:-2]:
