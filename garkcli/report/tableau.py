@@ -230,7 +230,8 @@ def _of_derivatives(tableau: Tableau, whole: Entries) -> Iterator[tuple[str, Tab
 def drawn(x: ShownTableau, d: Plain) -> list[str]:
     lines = []
     for text, tableau, entries in shown_parts(x.tableau, x.entries):
-        lines += d.sentence(d.prose(text), 0) if text else []
+        gap = [""] if d.breadth == "terminal" else []
+        lines += [*gap, *d.sentence(d.prose(text), 0)] if text else []
         lines += d.tableau(tableau, readable(entries) if x.is_rounded else entries)
     return lines
 

@@ -211,6 +211,8 @@ def test_the_report_and_the_arrays(tmp_path: Path) -> None:
     assert "order of q      5, proved; order 6 fails at [[[]_q]_q]_q by 1/21600" in text
     assert "order of q′     4, proved; order 5 fails as above" in text
     shown = gark("show", _written(tmp_path, FINE)).out
+    assert "\n\nĀ, with c and b̄\n\n" in shown
+    assert "\n\nA, with c and b\n\n" in shown
     first, second = shown[shown.index("Ā, with c and b̄") :].split("A, with c and b")[-2:]
     assert "19/180" in first
     assert "-243/128" in second
