@@ -270,8 +270,8 @@ def bridges() -> Mapping[str, Bridge]:
     return dict(sorted(found.items()))
 
 
-def bridge_named(name: str) -> Bridge:
-    """The target of that name.
+def bridge_named(name: str, *others: str) -> Bridge:
+    """The target of that name; ``others`` are further words that the caller takes.
 
     Raises:
         UsageProblem: there is none.
@@ -279,5 +279,6 @@ def bridge_named(name: str) -> Bridge:
     known = bridges()
     if name not in known:
         message = f"no target {name!r}"
-        raise UsageProblem(message, did_you_mean(name, known), code="unknown-word")
+        words = sorted([*known, *others])
+        raise UsageProblem(message, did_you_mean(name, words), code="unknown-word")
     return known[name]

@@ -109,7 +109,7 @@ def export(given: Export, output: Output) -> None:
     from garkcli.bridges.registry import bridge_named
     from garkcli.constructions.rosenbrock import is_rosenbrock
 
-    bridge = bridge_named(given.to)
+    bridge = bridge_named(given.to, CERTIFICATE)
     if output.path is not None:
         _refuse_other_ending(output.path, bridge)
     if given.test and bridge.words is None:

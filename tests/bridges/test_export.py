@@ -124,6 +124,15 @@ def test_free_parameters_are_refused() -> None:
     assert "--set" in run.err
 
 
+def test_the_certificate_is_a_target_that_hints_know() -> None:
+    """A misspelt target is told which one was meant, the certificate too; the hint counts those of
+    the list.
+    """
+    assert "did you mean 'certificate'?" in gark("export", "rk4", "--to", "certifcate").err
+    count = gark("list", "exports").out.split()[0]
+    assert f"({count} in all)" in gark("export", "rk4", "--to", "zzz").err
+
+
 def test_the_list_of_targets() -> None:
     """Every target is in the list, for people and for programs."""
     run = gark("list", "exports", "--format", "json")
