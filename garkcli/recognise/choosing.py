@@ -19,11 +19,11 @@ from garkcli.recognise.readings import (
 )
 
 MOST_ARRAYS = 120
-"""So many arrays of a scope are searched."""
+"""The most arrays of a scope that are searched."""
 FEWEST_FRACTIONS = 2
 """Weights of order 2 or the matrix beside them have fractions."""
 MOST_LEFT = 60
-"""So many arrays without a reading are tried with those of the scope around them."""
+"""The most arrays without a reading that are tried with those of the scope around them."""
 NEAR = 100
 """Equal numbers within so many lines are one method."""
 

@@ -28,7 +28,7 @@ FORMS: Mapping[str, str] = {
     "halves": "half of the coefficients of a symmetric composition, whose middle is left out",
     "palindrome": "the coefficients of a symmetric composition",
 }
-"""How a row is stored, in words."""
+"""The storage of a row, in words."""
 _SIGNS = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 
 
@@ -77,7 +77,7 @@ def composition(x: Given) -> Iterator[Reading]:
         return
     for form in FORMS:
         first = _in_form(form, x, row)
-        # conditions of low order are those of the turned row, but for its middle
+        # conditions of low order are those of the turned row, except its middle
         is_possible = first is not None or form == "middle"
         second = _in_form(form, x, row[::-1]) if is_possible else None
         ways = [way for way in (first, second) if way is not None]
@@ -122,7 +122,7 @@ def _exponential(M: Floats) -> Floats:
 def _reading(
     form: str, x: Given, row: Floats, steps: tuple[list[float], list[float]], tolerance: float
 ) -> Reading | None:
-    """A composition whose drifts and kicks have the sum 1; None where it has no order 3."""
+    """A composition whose drifts and kicks have the sum 1; None if its order is below 3."""
     drifts, kicks = steps
     # a step of order 3 of a splitting has two conditions, which are one of steps of order 2
     moments = (_moment(kicks, drifts), _moment(drifts, [0.0, *kicks]))
@@ -137,7 +137,7 @@ def _reading(
 
 
 def _moment(weights: Sequence[float], steps: Sequence[float]) -> float:
-    """By how much Σ wᵢ Cᵢ² misses 1/3, with the sums C of the steps up to each weight."""
+    """Returns Σ wᵢ Cᵢ² − 1/3, with the sums C of the steps up to each weight."""
     at, total = 0.0, 0.0
     for weight, step in zip(weights, steps, strict=False):
         at += step

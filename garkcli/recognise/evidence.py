@@ -1,4 +1,4 @@
-"""How much of the numbers of a method its identities explain, in bits.
+"""Bits of the numbers of a method that its identities explain.
 
 An identity is worth the bits to which it holds, or the length of the longest number in it that no
 other has taken, whichever is less. Nodes are row sums, weights have the sum 1, and order conditions
@@ -33,7 +33,7 @@ SHORT, LONG = 24.0, 45.0
 MOST = 50.0
 ROUNDING = 5e-14
 COARSEST = 1e-2
-"""Where digits explain more than this, every condition would hold."""
+"""If digits explain more than this, every condition would hold."""
 
 
 @lru_cache(maxsize=1)
@@ -96,8 +96,8 @@ def sums_of_rows(A: Floats) -> tuple[Floats, Floats, Floats]:
 def row_sums(
     A: Floats, c: Floats, power: int = 1, sums: tuple[Floats, Floats, Floats] | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """By how much the sums of rows are not c, or c²/2, the sizes of what is in them, and what
-    their digits explain; ``sums`` are those of A where they are known.
+    """Returns the residuals of the row sums against c, or c²/2, the sizes of their terms, and
+    what their digits explain; ``sums`` are those of A if they are known.
     """
     nodes = c[:, VALUE]
     total, sizes, units = sums_of_rows(A) if sums is None else sums

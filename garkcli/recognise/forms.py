@@ -34,11 +34,11 @@ if TYPE_CHECKING:
 
 MOST_STAGES = 60
 MOST_ARRAYS = 40
-"""So many arrays of a group are tried in pairs."""
+"""The most arrays of a group that are tried in pairs."""
 LEAST = 3
 """Two columns of one array are drifts and kicks of that order: order 2 is one sum."""
 MOST_ROWS, MOST_ALIKE = 5, 6
-"""So many rows of a matrix, and arrays of one length, are tried together."""
+"""The most rows of a matrix, and arrays of one length, that are tried together."""
 HIGHEST = 4
 """Orders of derived tableaus that are tried."""
 QUADRATURE = 8
@@ -83,7 +83,7 @@ def _alike(rows: Sequence[Given]) -> Iterator[list[Given]]:
 
 
 def _names(*named: bool) -> tuple[int, float]:
-    """How many names there are of three, and their bits."""
+    """Returns how many flags are true, and their bits."""
     count = sum(map(bool, named))
     return count, 1.5 * count + 2 * (count == 3)
 
@@ -211,7 +211,7 @@ def _of_four_rows(rows: Sequence[Given]) -> Reading | None:
 
 
 def _of_sums(rows: Sequence[Floats], unit: float) -> tuple[Floats, Floats] | None:
-    """The tableau of two registers; None where a stage does not begin at y."""
+    """The tableau of two registers; None if a stage does not begin at y."""
     gamma1, gamma2, delta, beta = rows
     s = len(beta)
     first, second = np.zeros(s + 1), np.zeros(s + 1)

@@ -22,7 +22,7 @@ MOST_BITS = 52.0
 """No number counts for more."""
 PER_DIGIT = 3.32
 FLOAT = 4e-16
-"""By how much of itself a float may be off."""
+"""The largest relative error of a float."""
 
 
 class Entry(NamedTuple):
@@ -78,7 +78,7 @@ class Given(Frozen, eq=False):
 
     @cached_property
     def fractions(self) -> int:
-        """How many of its numbers are no whole ones."""
+        """The number of its entries that are not integers."""
         return sum(not x.value.is_integer() for row in self.rows for x in row)
 
     @cached_property
@@ -119,7 +119,7 @@ class Group(Frozen, eq=False):
 
 
 def bits_of(value: fmpq) -> float:
-    """How long a fraction is, or the decimal that it is, in bits.
+    """Returns the length in bits of a fraction, or of the decimal that it is.
 
     >>> bits_of(fmpq(1, 6)), round(bits_of(fmpq(123, 1000)), 2)
     (3.584962500721156, 9.96)

@@ -183,7 +183,7 @@ MATRICES: tuple[Shape, ...] = (
     partial(_bordered, count=1),
     partial(_bordered, count=2),
 )
-"""Of matrices."""
+"""Hypotheses on matrices."""
 
 
 def _flat(row: Floats) -> Parts | None:
@@ -210,7 +210,7 @@ def _flat_bordered(row: Floats, count: int) -> Parts | None:
 
 
 def _are_sums(A: Floats, c: Floats) -> bool:
-    """Whether the nodes are the row sums, but for one."""
+    """Whether the nodes, not all 0, are the row sums; of three or more one may differ."""
     off = A[..., VALUE].sum(1) - c[:, VALUE]
     return int((np.abs(off) > CLOSE).sum()) <= (len(c) > 2) and bool(c[:, VALUE].any())
 
@@ -246,7 +246,7 @@ ROWS: tuple[Shape, ...] = (
     partial(_flat_bordered, count=1),
     partial(_flat_bordered, count=2),
 )
-"""Of all numbers in one row."""
+"""Hypotheses on all numbers in one row."""
 
 
 @lru_cache(maxsize=256)

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 NEAREST = 24
-"""So many vectors near a matrix are tried."""
+"""The most vectors near a matrix that are tried."""
 MOST_NODES = 3
-"""So many nodes, the best ones, are tried with each weights."""
+"""The most nodes, the best ones, that are tried with each weights."""
 FAR = 0.2
 """Weights have a sum that is nearer to 1, one wrong number among them."""
 MOST_BESIDE = 2
@@ -38,7 +38,7 @@ LAST_ROW = 3.0
 CLOSE = 1e-5
 """A residual that is larger, relative to its terms, is that of a condition that fails."""
 MOST_TRIED = 5_000
-"""So many hypotheses are tried for the arrays of a scope."""
+"""The most hypotheses that are tried for the arrays of a scope."""
 WORDS = 3.0
 """Bits of words that speak of methods."""
 ENOUGH_WITH_NAMES, ENOUGH = 4.0, 10.0
@@ -404,8 +404,8 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
 
 
 def by_names(reading: Reading, others: Sequence[Reading]) -> Reading:
-    """Of readings that differ in weights, which all fit, the one that names say, else the first:
-    never that of the higher order.
+    """Returns the reading with the weights that names say, else the first, of readings that all
+    fit and differ in weights: never by the higher order.
     """
     if reading.weights is None or reading.linked <= 6:
         return reading

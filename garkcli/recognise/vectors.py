@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 MOST_LACKING = 3
-"""So many nodes may be left out."""
+"""The most nodes that may be left out."""
 WIDEST = 3
 """A matrix of so many rows or columns may be several vectors."""
 
@@ -57,7 +57,7 @@ class Vector(Frozen, eq=False):
 
     @cached_property
     def rounding(self) -> float:
-        """By how much that may be off."""
+        """The largest error of the value."""
         x = self.numbers
         return float(12 * x[:, UNIT].sum() + 1e-13 * np.abs(x[:, VALUE]).sum())
 
