@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+
 from flint import fmpq
 
 from garkcli.exact.field import Algebraic
 from garkcli.exact.rewriting import PlainText
 
 
-class Radicals(PlainText):
+class Radicals(PlainText, ABC):
     """How a language writes a sum of multiples of radicals; each says what is its own."""
 
     POWER = "^"
 
+    @abstractmethod
     def rational(self, x: fmpq) -> str:
         """A positive rational number, as a factor that needs no parentheses."""
-        raise NotImplementedError
 
     def text(self, x: Algebraic) -> str:
         """The number."""

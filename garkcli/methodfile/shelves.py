@@ -9,6 +9,7 @@ import os
 import re
 import sys
 import unicodedata
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, cached_property, lru_cache
 from itertools import chain
@@ -89,7 +90,7 @@ def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) ->
     return by_key
 
 
-class Shelf:
+class Shelf(ABC):
     """A place with named methods; ``label`` names it in messages."""
 
     def __init__(self, label: str) -> None:
@@ -122,8 +123,8 @@ class Shelf:
         except MethodFileError:
             return ()
 
-    def _shelved(self) -> Iterator[Shelved]:
-        raise NotImplementedError
+    @abstractmethod
+    def _shelved(self) -> Iterator[Shelved]: ...
 
 
 class OwnFolder(Shelf):
