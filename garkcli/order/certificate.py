@@ -40,15 +40,18 @@ class Witness(Shown, Frozen):
         tree: the tree u.
         value: b_lᵀ 𝒜^[u], exact.
         required: 1/γ(u), or 0 if the exact solution has no such tree.
+        is_joint: whether a method within the rounding meets the condition, and none all of those
+            up to its order.
     """
 
     tree: Tree
     value: Number
     required: fmpq
+    is_joint: bool = False
 
     @property
     def residual(self) -> Number:
-        """Value − required, nonzero."""
+        """Value − required, nonzero where the condition fails by itself."""
         return self.value - self.required
 
     def __repr__(self) -> str:

@@ -309,7 +309,8 @@ def find_order_within(
     if failure is None or not failure.is_proved:
         undecided = "" if failure is None else NOT_FOUND
         return RoundedOrder(order, rounded.tolerance, None, undecided, exact.order, rounded)
-    witness = _witness(rounded, _most_telling(rounded, order + 1, failure, missed))
+    tree = _most_telling(rounded, order + 1, failure, missed)
+    witness = replace(_witness(rounded, tree), is_joint=rounded.explains(tree))
     return RoundedOrder(order, rounded.tolerance, witness, "", exact.order, rounded)
 
 

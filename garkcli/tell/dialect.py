@@ -307,6 +307,9 @@ class Plain(Mutable):
         if condition in self.told:
             return f"order {order} fails as above"
         self.told.append(condition)
+        if witness.is_joint:
+            tree = self.tree(witness.tree)
+            return f"order {order} fails at {tree}: it and other conditions exclude each other"
         residual = to_decimal(witness.residual, 4) if is_rounded else self.number(witness.residual)
         return f"order {order} fails at {self.tree(witness.tree)} by {residual}"
 

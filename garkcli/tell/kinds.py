@@ -29,6 +29,7 @@ from garkcli.tell.facts import (
     Section,
     Words,
     maybe,
+    optional,
 )
 
 if TYPE_CHECKING:
@@ -187,6 +188,7 @@ WITNESS: Section[Witness] = Section(
     Row("value", EXACT, lambda x: x.value),
     Row("required", EXACT, lambda x: x.required),
     Row("residual", EXACT, lambda x: x.residual),
+    optional("joint", TRUTH, lambda x: x.is_joint or None, Level.DATA),
 )
 
 

@@ -12,6 +12,8 @@ from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from garkcli import loads
+from garkcli.check.analysis import analyse_any
 from garkcli.errors import ZeroWeight
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
@@ -19,6 +21,7 @@ from garkcli.ntrees.table import TreeTable
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import conditions, coupling_graph
+from garkcli.order.meant import as_meant
 from garkcli.order.rounded import RoundedOrder, RoundedTableau, find_order_within
 from garkcli.order.tree_residuals import TreeResiduals
 from garkcli.tableau.enclosure import enclose_tableau
@@ -308,3 +311,32 @@ def test_limits() -> None:
     tableau = published("sprk_Yoshida_6_8")
     found = order_within(tableau, fmpq(1, 10**30), 3)
     assert (found.order, found.is_lower_bound, found.undecided) == (3, True, "")
+
+
+APART = "A: [[0, 0], [1, 0]]\nb: [0.40, 0.50]\ntolerance: 0.05\n"
+"""b₁ + b₂ = 1 at b = (0.45, 0.55) alone, where b₂ a₂₁ = 1/2 asks for a₂₁ = 0.909."""
+
+
+def test_conditions_that_exclude_each_other() -> None:
+    """Each holds within the rounding, not both; nothing fails by 0."""
+    found = analyse_any(as_meant(loads(APART))).order
+    assert found.order == 1
+    assert found.witness is not None
+    assert (found.witness.is_joint, found.witness.residual) == (True, 0)
+    corners = [
+        (b1, b2, a)
+        for b1 in (fmpq(35, 100), fmpq(45, 100))
+        for b2 in (fmpq(45, 100), fmpq(55, 100))
+        for a in (fmpq(95, 100), fmpq(105, 100))
+    ]
+    # their difference is negative at the corners, where a multilinear function is largest
+    assert max((b1 + b2 - 1) - (b2 * a - fmpq(1, 2)) for b1, b2, a in corners) < 0
+    alone = analyse_any(as_meant(loads(APART.replace("0.40", "0.45").replace("0.05", "0.1")))).order
+    assert alone.order == 2
+
+
+def test_a_condition_that_fails_alone_says_by_how_much() -> None:
+    found = analyse_any(as_meant(loads(APART.replace("0.40", "0.20")))).order
+    assert found.order == 0
+    assert found.witness is not None
+    assert not found.witness.is_joint
