@@ -25,7 +25,7 @@ from garkcli.design.minimise.sums import objective_of
 from garkcli.design.search.goals import meant
 from garkcli.design.search.optimum import Program
 from garkcli.design.search.search import Search
-from garkcli.design.search.tasks import HIGHEST, Least
+from garkcli.design.search.tasks import HIGHEST, Least, Missing
 from garkcli.design.stable_values import stable_values
 from garkcli.errors import MethodError, MethodFileError, UsageProblem
 from garkcli.exact.display import to_ball
@@ -638,3 +638,12 @@ def test_a_search_wants_stability_with_the_embedded_weights() -> None:
 def test_stability_with_embedded_weights_needs_such() -> None:
     with pytest.raises(MethodFileError, match="embedded weights of the whole method"):
         loads_family("unknown: {stages: 2, shape: sdirk}\ndesign: {embedded-a-stable: true}")
+
+
+def test_the_distance_from_wants_is_its_own_variable() -> None:
+    """The first phase minimises y where all inequalities hold up to y."""
+    search, made = program("unknown: {stages: 3, shape: explicit}\ndesign: {order: 2, ssp: 1}", "A")
+    task = Missing(made.total)
+    x = floats(points(search, 1)[0])
+    assert task.at(np.append(x, 0.25)).value == 0.25
+    assert task.at(np.append(x, 0.5)).gradient[-1] == 1.0

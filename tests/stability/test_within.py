@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import loads
+from garkcli.stability.algebraic import algebraic_within
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.summary import stability_of_rounded
 from garkcli.stability.within import stability_within
@@ -101,3 +102,13 @@ def test_a_pole_on_the_left_that_stays_decides() -> None:
     tableau = loads("methods: [{A: [[-1]], b: [-1]}]").tableau
     found = stability_within(tableau, [fmpq(1)], fmpq(1, 10**60))
     assert found.a_stable is False
+
+
+@pytest.mark.parametrize(("b", "is_stable"), [("-0.5", False), ("0.5", False), ("1.0", True)])
+def test_negative_weights_are_not_algebraically_stable(b: str, is_stable: bool) -> None:
+    """M = 2ba − b² is positive for a = −1 and b = −1/2, but b gives no norm; for b = 1/2 it is
+    negative; backward Euler is stable.
+    """
+    a = "1.0" if is_stable else "-1.0"
+    tableau = loads(f"A: [[{a}]]\nb: [{b}]").tableau
+    assert algebraic_within(tableau, fmpq(1, 100)) is is_stable
