@@ -183,7 +183,14 @@ def is_half_line(intervals: Sequence[Interval]) -> bool:
 
 
 def first_end(intervals: Sequence[Interval]) -> RealRoot | None:
-    """The end of the interval that begins at 0: 0 if there is none, None for ∞."""
+    """The end of the interval that begins at 0: 0 if there is none, None for ∞.
+
+    >>> first_end([]), first_end(where_not_negative([Polynomial([4, 0, -1])]))
+    (<RealRoot 0>, <RealRoot 0>)
+    >>> first_end(where_not_negative([Polynomial([0, 4, -1])]))
+    <RealRoot 4>
+    >>> first_end(where_not_negative([Polynomial([0, 1])]))
+    """
     if not intervals or intervals[0].start != RealRoot.rational(fmpq(0)):
         return RealRoot.rational(fmpq(0))
     return intervals[0].end

@@ -94,8 +94,7 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
             distances.sort(key=lambda entry: entry[0].mid())
             if len(distances) == 1 or distances[0][0] < distances[1][0]:
                 _, factor, number = distances[0]
-                is_positive = factor[factor.degree()] > 0
-                return (factor if is_positive else -factor), number
+                return factor, number
         bits *= 2
     message = "two roots are equally near to this number"
     raise UndefinedValue(

@@ -192,20 +192,22 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
         return sign(p(value))
     if not p:
         return 0
-    with ctx.workprec(FIRST_BITS):
-        ball = p.enclosed_at(root.ball(FIRST_BITS))
-    if ball > 0 or ball < 0:  # most often; no gcd is needed
-        return 1 if ball > 0 else -1
-    if vanishes_at(p, root):
+    found = _sign_in_balls(p, root, FIRST_BITS)  # most often no gcd is needed
+    if not found and vanishes_at(p, root):
         return 0
     bits = 2 * FIRST_BITS
-    while True:
+    while not found:
         check_time()
-        with ctx.workprec(bits):
-            ball = p.enclosed_at(root.ball(bits))
-        if ball > 0 or ball < 0:
-            return 1 if ball > 0 else -1
+        found = _sign_in_balls(p, root, bits)
         bits *= 2
+    return found
+
+
+def _sign_in_balls(p: Polynomial, root: RealRoot, bits: int) -> int:
+    """1 or −1; 0 where balls of a precision leave it open."""
+    with ctx.workprec(bits):
+        ball = p.enclosed_at(root.ball(bits))
+    return int(ball > 0) - int(ball < 0)
 
 
 def vanishes_at(p: Polynomial, root: RealRoot) -> bool:

@@ -443,6 +443,8 @@ def _least(minimum: Minimum, d: Plain) -> str:
     is_level = isinstance(minimum.objective, LevelObjective)
     what = d.prose(minimum.objective.key.removeprefix("-"))
     if minimum.value is None and not minimum.is_infinite:
+        if minimum.step.has_methods:
+            return f"{what} of the methods of order {minimum.step.order}: not decided"
         return f"no method of order {minimum.step.order} was found"
     value = d.infinity if minimum.value is None else _number(minimum.value, d)
     if not minimum.design.family.parameters:

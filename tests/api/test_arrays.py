@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from garkcli import MethodFileError, diagonal_method, find_order, from_arrays, loads
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_text
+from garkcli.exact.given import number_text
 from garkcli.families.registry import BY_STAGES
 from tests.oracles.draws import fractions
 from tests.whole import at_most
@@ -108,6 +109,8 @@ def test_radicals_of_sympy_stay_exact() -> None:
     """Sums, products, powers and roots of SymPy are the numbers they stand for."""
     import sympy
 
+    assert number_text(sympy.sqrt(2), "x", False) == "sqrt(2)"
+    assert number_text(sympy.root(2, 5), "x", False) == "root(2, 5)"
     x = sympy.sqrt(3) / 6
     quarter, half = sympy.Rational(1, 4), sympy.Rational(1, 2)
     made = from_arrays(sympy.Matrix([[quarter, quarter - x], [quarter + x, quarter]]), [half, half])

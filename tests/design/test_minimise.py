@@ -643,6 +643,26 @@ def test_by_trial() -> None:
     assert "greatest ssp found 1: the best of what was found" in render(best)
 
 
+@pytest.mark.parametrize(
+    ("degree", "says"),
+    [
+        (5, "greatest ssp 0"),
+        (9, "order 1 for 1 of 9 solutions; ssp of the methods of order 1: not decided"),
+    ],
+)
+def test_methods_of_large_fields_have_no_level(degree: int, says: str) -> None:
+    """The one real method has g⁵ = g + 1, or g⁹ = g + 1: of the second no level is decided, and
+    its order is proved.
+    """
+    family = f"""
+parameters: {{g: free}}
+A: [[], [1/2], [-g, 1 + g]]
+b: ["1/6 + g**{degree} - g - 1", 1/3, 1/2]
+"""
+    best = least(family, "-ssp", 1)
+    assert says in " ".join(render(best).split())
+
+
 @in_whole
 def test_beside_a_critical_point(monkeypatch: pytest.MonkeyPatch) -> None:
     """The smallest coefficients of three stages and order 3, without a Gröbner basis: the

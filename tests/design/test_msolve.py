@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import pytest
 from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly, fmpz_mpoly_ctx
@@ -106,6 +107,16 @@ def test_a_wrong_answer_is_not(
     monkeypatch.setattr(groebner, "find_msolve", lambda: path)
     with pytest.raises(NotDecided):
         groebner.unproved_basis(CIRCLE, CONTEXT)
+
+
+@pytest.mark.parametrize("way", [groebner._at_once, groebner._in_turn])
+def test_the_fewest_polynomials_without_a_common_zero(way: Any) -> None:
+    """X, Y and 2 X + 3 Y have the origin in common; the fourth misses it, the fifth is not used."""
+    polynomials = [X, Y, 2 * X + 3 * Y, X * Y - 1, X + 1]
+    basis, used = way([], polynomials, CONTEXT, False)
+    assert ([str(p) for p in basis], used) == (["1"], 4)
+    basis, used = way([], polynomials[:3], CONTEXT, False)
+    assert (sorted(map(str, basis)), used) == (["x", "y"], 3)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")

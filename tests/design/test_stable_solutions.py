@@ -344,6 +344,34 @@ design: {order: 2, a-stable: true}
     assert "g = 2: order 2 of the method, proved, A-stable" in point.out
 
 
+def test_a_stable_point_beside_a_line_without_stable_methods() -> None:
+    """G = −1 with any d is not A-stable, g = 2 with d = 0 is: a method is known."""
+    text = """
+parameters: {g: free, d: free}
+A: [[g, "1/2 - g + (g+1)*(g-2)"], [0, g]]
+b: [1, "(g+1)*d"]
+design: {order: 2, a-stable: true}
+"""
+    run = gark("design", "-", stdin=text)
+    assert (run.code, "A-stable for exactly g = 2\n" in run.out) == (0, True)
+
+
+@pytest.mark.parametrize("first", ["d", "e"])
+def test_an_unknown_on_the_diagonal_that_is_no_coordinate(first: str) -> None:
+    """Order 2 of b = (1/2, 1/2) asks for d + e = 1, and |R(∞)| = |1 − 1/(2de)| ≤ 1 for d = e = 1/2:
+    the set is told for d, whichever of both the line is described by.
+    """
+    other = {"d": "e", "e": "d"}[first]
+    text = f"""
+parameters: {{{first}: free, {other}: free}}
+A: [[d, 0], [0, e]]
+b: [1/2, 1/2]
+design: {{order: 2, a-stable: true}}
+"""
+    run = gark("design", "-", stdin=text)
+    assert "A-stable for exactly d = 1/2\n" in run.out
+
+
 def test_parts_of_one_set_with_a_point() -> None:
     """Stage order 2 of three ESDIRK stages asks for c₂ (c₂ − 2γ) = 0: a line, another one with
     γ = 1/2, and two points; the L-stable ones have γ = 1 ± √2/2, as on the line alone.

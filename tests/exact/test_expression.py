@@ -225,8 +225,12 @@ def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
 
 
 def test_radicands_that_are_nearly_zero() -> None:
-    """Zero is found to be zero, and 9.7e-30 positive, whose root is 3.1e-15; below it is refused."""
+    """Zero is found to be zero, also before other roots, and 9.7e-30 positive, whose root is
+    3.1e-15; below it is refused.
+    """
     assert evaluate("sqrt(sqrt(8) - 2*sqrt(2))") == 0
+    zero = "sqrt(3 + 2*sqrt(2) - (1 + sqrt(2))**2)"
+    assert to_float(evaluate(f"{zero} + sqrt(1 + sqrt(2))")) == pytest.approx((1 + 2**0.5) ** 0.5)
     digits = "1.4142135623730950488016887242"
     found = evaluate(f"sqrt(sqrt(2) - {digits}0)")
     assert 3.114e-15 < to_float(found) < 3.115e-15

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import difflib
 import hashlib
+import re
 import tomllib
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -238,15 +239,26 @@ def last_line(node: ast.AST) -> int:
     return node.body[-1].end_lineno if isinstance(node, ast.match_case) else node.end_lineno
 
 
-def known() -> list[dict[str, str]]:
-    """Survivors with a reason: file, was, why, and where it matters becomes and after."""
-    survivors: list[dict[str, str]] = tomllib.loads(KNOWN.read_text("utf-8"))["survivor"]
-    return survivors
+def known(key: str = "survivor") -> list[dict[str, str]]:
+    """Survivors with a reason: file, was, why, and where it matters becomes and after; or kinds of
+    lines: pattern, why.
+    """
+    entries: list[dict[str, str]] = tomllib.loads(KNOWN.read_text("utf-8"))[key]
+    return entries
+
+
+def reason_of_kind(line: str) -> str | None:
+    """Why no change of such a line need be killed; None for lines of no kind."""
+    kinds = known("kind")
+    return next((x["why"] for x in kinds if re.match(x["pattern"], line)), None)
 
 
 def reason(mutation: Mutation) -> str | None:
     """Why a mutation need not be killed."""
     was, becomes = mutation.difference
+    why = reason_of_kind(was)
+    if why:
+        return why
     line, _ = mutation.at
     before = [x.strip() for x in source(mutation.path).splitlines()[: line - 1]]
     for entry in known():

@@ -37,9 +37,13 @@ TESTS = (
     *(f"garkcli/{room}" for room in ROOMS),
     *("tests/oracles", "tests/paper", "tests/families", "tests/transfer", "tests/constructions"),
     *("tests/check", "tests/catalogue", "tests/comparison", "tests/conversion", "tests/api"),
-    "tests/cli",
+    *("tests/cli", "tests/convergence", "tests/longtime", "tests/methodfile", "tests/report"),
+    *("tests/integration/test_existence.py", "tests/integration/test_referee.py"),
+    *("tests/docs/test_transcripts.py", "tests/docs/test_tutorials.py"),
 )
-"""What is recorded: other tests read files and write texts, which says little of a number."""
+"""Recorded tests: folders and files. Others write texts or packages, which say little of a
+number.
+"""
 PROCESSES = 2
 """Copies in which tests run at the same time."""
 MOST_SECONDS = 120.0
@@ -111,8 +115,9 @@ def told(mutation: Mutation, said: str = "") -> str:
 
 def digests() -> dict[str, str]:
     """One of each file of tests."""
-    paths = [path for name in TESTS for path in sorted((ROOT / name).rglob("test_*.py"))]
-    return {path.relative_to(ROOT).as_posix(): digest([path]) for path in paths}
+    roots = [ROOT / name for name in TESTS]
+    paths = [p for root in roots for p in ([root] if root.is_file() else root.rglob("test_*.py"))]
+    return {path.relative_to(ROOT).as_posix(): digest([path]) for path in sorted(paths)}
 
 
 def digest(paths: Sequence[Path]) -> str:
@@ -182,7 +187,7 @@ def recorded(is_anew: bool) -> Record:
 
 def record_part(tests: str, tree: Path, parts: Path) -> None:
     """Run the tests of one folder."""
-    name = tests.replace("/", "-")
+    name = tests.removesuffix(".py").replace("/", "-")
     variables = {"GARK_RECORD": str(parts / f"{name}.json"), "GARK_ROOMS": ",".join(ROOMS)}
     said = parts / f"{name}.txt"
     process = pytest_in(tree, said, "recording", "-n", "0", tests, **variables)

@@ -15,6 +15,7 @@ from tests.mutants.places import (
     Mutation,
     known,
     lines_of_statement,
+    reason_of_kind,
     source,
     span,
     without_meaning,
@@ -128,6 +129,27 @@ def test_tests_of_the_room_come_first_and_fast_ones_before_slow_ones() -> None:
 def test_every_room_exists() -> None:
     """A room that moves is not left out in silence."""
     assert all((ROOT / "garkcli" / room).is_dir() for room in ROOMS)
+
+
+@pytest.mark.parametrize(
+    ("line", "word"),
+    [
+        ("with ctx.workprec(2 * bits):", "balls"),
+        ("MOST_FIELD = 6", "limit"),
+        ("_MAX_ROWS: int = 7", "limit"),
+    ],
+)
+def test_kinds_of_lines_have_a_reason(line: str, word: str) -> None:
+    """The precision of balls and limits."""
+    why = reason_of_kind(line)
+    assert why
+    assert word in why
+
+
+@pytest.mark.parametrize("line", ["bits = 2 * bits", "MOSTLY = 3", "if n > MOST_TREES:"])
+def test_other_lines_are_of_no_kind(line: str) -> None:
+    """Where a limit is compared a test sees it."""
+    assert reason_of_kind(line) is None
 
 
 def test_known_survivors_are_still_there() -> None:

@@ -391,6 +391,34 @@ def test_all_renumberings_say_the_same(method: tuple[Rows, list[Fraction]]) -> N
         assert found.holds == by_force
 
 
+@pytest.mark.parametrize(
+    ("diagonal", "b", "holds"),
+    [
+        ("0.251", "0.4995", True),  # 2·0.251 − 0.4995 = 0.0025
+        ("0.2512", "0.4995", True),
+        ("0.2513", "0.4995", False),  # 0.0031
+    ],
+)
+def test_three_coefficients_have_three_times_the_tolerance(
+    diagonal: str, b: str, holds: bool
+) -> None:
+    """Stages 1 and 2 are images of each other where a₁₁ + a₂₂ − b₁ is at most 0.003."""
+    text = f"{{A: [[{diagonal}, -0.039], [0.539, {diagonal}]], b: [{b}, {b}]}}"
+    assert symmetry(loads(text).tableau, fmpq(1, 1000)).holds is holds
+
+
+@pytest.mark.parametrize(("far", "holds"), [("1/2", True), ("1/3", False)])
+def test_algebras_beside_stages(far: str, holds: bool) -> None:
+    """Gauss's nodes as an algebra and the trapezoidal rule as two stages, which change places."""
+    second = f"{{A: [[0, 0], [{far}, {far}]], b: [{far}, 1 - {far}]}}"
+    text = f"{{methods: [{{family: gauss, stages: 2}}, {second}], transfer: interpolation}}"
+    tableau = loads(text).tableau
+    assert [type(x).__name__ for x in tableau.spaces] == ["PolynomialSpace", "PointSpace"]
+    assert symmetry(tableau).holds is holds
+    if holds:
+        assert symmetry(tableau).images == (None, (1, 0))
+
+
 def test_many_equal_stages_are_compared_once_each(monkeypatch: pytest.MonkeyPatch) -> None:
     """Small steps of a multirate method have pairs of stages that look alike: 2¹⁰ renumberings.
     The search tries no image in vain, and multiplies no matrices.
