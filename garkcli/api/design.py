@@ -18,6 +18,7 @@ from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.sums import refuse
 from garkcli.design.search import run as searching
+from garkcli.design.search.nearest import nearest_member
 from garkcli.design.search.run import TOLERANCE, Method, Result
 from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_plane import StablePlane, stable_set
@@ -31,6 +32,7 @@ from garkcli.methodfile import family as families
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.tableau.family import Family
+from garkcli.tableau.garkmethod import GarkMethod
 
 AnyFamily: TypeAlias = "Family | str | os.PathLike[str]"
 """The result of ``load_family`` and ``loads_family``, or the path of a file."""
@@ -158,6 +160,7 @@ def search_methods(
     whose: Whose = "method",
     seconds: float | None = None,
     objective: str | None = None,
+    start: GarkMethod | None = None,
 ) -> Result:
     r"""Search a family for methods of an order, from random starts: ``gark design --search``.
 
@@ -171,11 +174,12 @@ def search_methods(
         seconds: the time after which the search ends with the methods found; None for never.
         objective: the objective that is minimised from each start, as in ``minimise``; the methods
             are then the best ones found.
+        start: a method with as many stages and colours at which the first start is.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        UsageProblem: there is no such objective, it does not apply to the methods, or SciPy is
-            missing.
+        UsageProblem: there is no such objective, it does not apply to the methods, SciPy is
+            missing, or ``start`` has other sizes.
 
     >>> from garkcli import loads_family
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
@@ -183,8 +187,9 @@ def search_methods(
     >>> found, found.methods[0].values
     (<Result 1 method of 3 starts>, {'t': '1/2'})
     """
+    exact = exact_family_of(family, "search_methods")
     return searching.search_methods(
-        exact_family_of(family, "search_methods"),
+        exact,
         whole(order, "order", 1),
         whole(starts, "starts", 1),
         whole(seed, "seed"),
@@ -192,6 +197,7 @@ def search_methods(
         whose,
         seconds,
         objective,
+        None if start is None else nearest_member(exact, start.tableau, start.further),
     )
 
 

@@ -125,6 +125,11 @@ class DesignOptions(opt.Derivable):
         opt.text("NAME"),
         "With --search and --minimise: the optimum for values of an unknown, in place of methods.",
     )
+    start: str | None = opt.option(
+        "--start",
+        opt.text("METHOD"),
+        "With --search: begin at a method of the same sizes; the other starts are random.",
+    )
     seed: int | None = opt.option(
         "--seed",
         opt.hidden_default(opt.number("N", 0)),
@@ -152,7 +157,7 @@ class DesignOptions(opt.Derivable):
     being_springs = opt.being(stability, "p-stable"), opt.being(stability, "i-stable")
     rules = (
         opt.needs(
-            (seed, most, jobs, scheduler, front, along),
+            (start, seed, most, jobs, scheduler, front, along),
             search,
             "OPTION goes with --search",
             "add --search N",
@@ -160,7 +165,7 @@ class DesignOptions(opt.Derivable):
         opt.needs(along, minimise, "--along goes with --minimise", "add --minimise WHAT"),
         opt.excludes(
             (front, along),
-            (emit, folder, most),
+            (emit, folder, most, start),
             "OPTION has no methods but optima in floats",
             "--set an unknown and --minimise prove one of them",
         ),
@@ -559,7 +564,7 @@ def _search(family: FamilyFile, starts: int, given: DesignOptions, output: Outpu
     asked = FileSearch.of(family, _order(family, given), given.whose, given.minimise)
     result, ended = _searched(asked, starts, given)
     files = _written(family, result, given, output)
-    output.tell(REPORT, SearchReport(family.source, asked.search, result, files))
+    output.tell(REPORT, SearchReport(family.source, asked.search, result, files, given.start))
     if ended is not None:
         return ended
     # that nothing was found says nothing of what there is
@@ -617,9 +622,10 @@ def _searched(asked: FileSearch, starts: int, given: DesignOptions) -> tuple[Res
     from garkcli.design.search.run import MOST, Result, results
 
     most = given.most or (MOST if given.minimise is None else 1)
+    first = None if given.start is None else _first(asked, given.start)
 
     def steps(workers: Workers[Task, Timed]) -> Iterator[Result]:
-        return results(asked.search, starts, given.seed or 0, most, workers)
+        return results(asked.search, starts, given.seed or 0, most, workers, first)
 
     with doing("starts", starts) as work:
 
@@ -628,6 +634,15 @@ def _searched(asked: FileSearch, starts: int, given: DesignOptions) -> tuple[Res
             work.reach(found.starts)
 
         return _worked(asked, given, steps, Result(), show)
+
+
+def _first(asked: FileSearch, name: str) -> list[float]:
+    """Returns the values of the unknowns nearest to a method."""
+    from garkcli.design.search.nearest import nearest_member
+    from garkcli.methodfile.load import load
+
+    method = load(name)
+    return nearest_member(asked.family, method.tableau, method.further)
 
 
 def _worked(

@@ -253,7 +253,7 @@ def _sum(terms: _Rational) -> fmpq:
         for (p, q), (r, s) in zip(left, right, strict=True):
             numerator = p * s + r * q
             fractions.append((numerator, q * s))
-    numerator, denominator = fractions[0]
+    [(numerator, denominator)] = fractions
     return fmpq(numerator, denominator)
 
 

@@ -41,12 +41,15 @@ ENDINGS: dict[Ending, str] = {
 
 
 class SearchReport(NamedTuple):
-    """The methods that a search found, with the files that they were written to."""
+    """The methods that a search found, the files that they were written to, and the method of the
+    first start.
+    """
 
     file: str
     search: Search
     result: Result
     files: Sequence[str | None]
+    start: str | None = None
 
     @property
     def methods(self) -> list[tuple[Method, str | None]]:
@@ -61,12 +64,16 @@ def _found(x: SearchReport, d: Plain) -> str:
     if not result.methods:
         found = f"no method of {order} found, which does not say that there is none"
     starts = counted(result.starts, "start")
+    at = "" if x.start is None else f", the first at {x.start}"
     if result.objective is not None and result.methods:
         which = "greatest" if isinstance(result.objective, LevelObjective) else "least"
         best = f"{which} {_of(result.objective)} found {result.methods[0].objective}"
-        found = f"{order}; {best}, the best of {starts}"
+        found = f"{order}; {best}, the best of {starts}{at}"
+        at = ""
     end = "" if result.ending is None else f", then {ENDINGS[result.ending]}"
-    return d.prose(f"{found}; {result.successes} of {starts} solve the conditions in floats{end}")
+    return d.prose(
+        f"{found}; {result.successes} of {starts} solve the conditions in floats{at}{end}"
+    )
 
 
 def _verdict(method: Method) -> str:
@@ -178,6 +185,7 @@ WHOLE: Section[SearchReport] = Section(
     optional("objective", TEXT, lambda x: _key(x.result.objective), DATA),
     itself("objective_in_words", rows_of(_objective_rows)),
     Row("starts", COUNT, lambda x: x.result.starts, DATA),
+    optional("first_start", TEXT, lambda x: x.start, DATA),
     Row("successes", COUNT, lambda x: x.result.successes, DATA),
     Row(
         "degenerate",

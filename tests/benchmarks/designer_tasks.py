@@ -1,4 +1,4 @@
-"""Eighteen tasks of designers, by ``gark design`` and by plain programs with SciPy in one run.
+"""Nineteen tasks of designers, by ``gark design`` and by plain programs with SciPy in one run.
 
     python -m tests.benchmarks.designer_tasks [NAME ...] [--jobs N]
 
@@ -17,6 +17,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
+from garkcli import load
+from garkcli.exact.display import to_ball
+from garkcli.tableau.pointwise import numeric_entries
 from tests.benchmarks import plain_tasks as plain
 from tests.benchmarks.measuring import GARK, seconds
 from tests.benchmarks.plain_search import Problem, least
@@ -34,6 +39,7 @@ class Task:
         problem: of the plain program.
         known: the objective of a method in print, with its authors.
         is_search: whether gark searches; else it decides about all methods.
+        start: a method at which gark and the plain program start.
     """
 
     name: str
@@ -43,6 +49,22 @@ class Task:
     problem: Callable[[], Problem]
     known: str
     is_search: bool = True
+    start: str | None = None
+
+
+TSITOURAS = "tsitouras-5"
+
+
+def from_tsitouras(largest: float) -> Problem:
+    """Pairs from that of Tsitouras on."""
+    method = load(TSITOURAS)
+    [[A]], embedded = numeric_entries(method.tableau).A, method.further.embedded
+    assert A is not None
+    assert embedded is not None
+    block = np.array([[float(x) for x in row] for row in A])
+    return plain.fsal_pair(
+        block, np.array([float(to_ball(x, 64)) for x in embedded[0]]), 5, largest
+    )
 
 
 def shape(stages: int, shapes: str, wants: str) -> str:
@@ -90,6 +112,16 @@ TASKS = (
         300,
         partial(plain.fsal_error, 7, 5),
         "1.593e-7, Dormand and Prince",
+    ),
+    Task(
+        "explicit-7-54",
+        "unknown: {stages: 7, shape: [explicit, stiffly-accurate], embedded: true}\n"
+        "design: {order: 5, embedded-order: 4, fix: {b2: 0, bh2: 0}, largest-coefficient: 13}\n",
+        "error",
+        1,
+        partial(from_tsitouras, 13),
+        "1.919e-8, Tsitouras",
+        start=TSITOURAS,
     ),
     Task(
         "sdirk-3-3",
@@ -211,6 +243,7 @@ def by_gark(task: Task, jobs: int) -> tuple[str, str, float]:
         command = [*GARK, "design", str(file), f"--minimise={task.minimise}", "--format", "json"]
         if task.is_search:
             command += ["--search", str(task.starts), "--jobs", str(jobs)]
+            command += [] if task.start is None else ["--start", task.start]
         outputs: list[str] = []
 
         def run() -> None:

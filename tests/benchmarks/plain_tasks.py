@@ -73,6 +73,25 @@ def fsal_error(stages: int, order: int) -> Problem:
     )
 
 
+def fsal_pair(A: np.ndarray, embedded: np.ndarray, order: int, largest: float) -> Problem:
+    """A pair of orders p and p − 1 from a given start, with coefficients up to a size."""
+    stages = len(embedded)
+    count = stages * (stages - 1) // 2
+
+    def equations(x: np.ndarray) -> np.ndarray:
+        A, b = fsal(x, stages)
+        return np.append(
+            upto(*one_part(A, b), order), [*upto(*one_part(A, x[count:]), order - 1), b[1]]
+        )
+
+    return Problem(
+        lambda x: squared_error(*one_part(*fsal(x, stages)), order),
+        equations,
+        lambda x: np.append(largest - x, largest + x),
+        lambda _: np.append(A[np.tril_indices(stages, -1)], embedded),
+    )
+
+
 def esdirk(x: np.ndarray, stages: int) -> tuple[np.ndarray, np.ndarray]:
     """Its last row is b; γ is the first number."""
     A = lower(x[1:], stages)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from flint import Ordering, ctx, fmpq, fmpq_mpoly_ctx
 
-from garkcli import find_parameters, load, load_family, loads, loads_family, minimise
+from garkcli import Tree, find_parameters, load, load_family, loads, loads_family, minimise, trees
 from garkcli.design.ideal import Ideal
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial import Polynomial
@@ -18,6 +18,7 @@ from garkcli.order.constants import error_constants
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.forms import pair
+from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import entries, tableau
 from tests.cli.harness import gark
@@ -183,6 +184,38 @@ def test_errors_of_methods_of_order_4(name: str, norm: float, largest: float | N
     below = error_constants(load(name).tableau, 4)
     assert below is not None
     assert float(below.all.two) < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("name", "norm", "largest"),
+    [
+        ("methods/found/explicit7-order5.gark.yaml", 6.494e-5, 12.764),
+        ("tsitouras-5", 1.385e-4, 12.921),
+        ("dormand-prince-5", 3.991e-4, 11.596),
+    ],
+)
+def test_errors_of_explicit_pairs_of_order_5(name: str, norm: float, largest: float) -> None:
+    """The norms of docs/found.md by the sum over all trees of order 6, with vectors in floats."""
+    tableau = load(name).tableau
+    entries = numeric_entries(tableau)
+    A = [[float(x) for x in row] for row in entries.A[0][0] or ()]
+    b = [float(x) for x in entries.b[0]]
+
+    def vector(tree: Tree) -> list[float]:
+        product = [1.0] * len(b)
+        for branch in tree.branches:
+            inner = vector(branch)
+            for i, row in enumerate(A):
+                product[i] *= sum(a * x for a, x in zip(row, inner, strict=True))
+        return product
+
+    errors = []
+    for tree in trees(6):
+        weight = sum(x * y for x, y in zip(b, vector(tree), strict=True))
+        errors.append((weight - 1 / tree.density) / tree.symmetry)
+    assert len(errors) == 20
+    assert sum(x * x for x in errors) ** 0.5 == pytest.approx(norm, rel=4e-4)
+    assert max(abs(x) for row in A for x in row) == pytest.approx(largest, abs=6e-4)
 
 
 @pytest.mark.parametrize(

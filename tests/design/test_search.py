@@ -14,10 +14,11 @@ from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli import find_order, find_property, loads, loads_family, search_methods
+from garkcli import find_order, find_property, load, loads, loads_family, search_methods
 from garkcli.crew.work import Alone, WorkerLost
 from garkcli.design.design import find_parameters
 from garkcli.design.search.least_squares import damped_step, least_squares
+from garkcli.design.search.nearest import nearest_member
 from garkcli.design.search.points import Fixings, is_proved, polished, rank
 from garkcli.design.search.recognise import minimal_polynomial, rational, recognised
 from garkcli.design.search.residuals import Generators, Residuals
@@ -473,6 +474,60 @@ def test_the_same_finds_with_several_processes(tmp_path: Path) -> None:
     arguments = ["design", str(tmp_path / "family.yaml"), "--order", "3"]
     arguments += ["--search", "9", "--seed", "4", "--most", "3"]
     assert gark(*arguments).out == gark(*arguments, "-j", "2").out
+
+
+FOUR = "unknown: {stages: 4, shape: explicit%s}\ndesign: {order: %d}\n"
+
+
+def test_a_search_starts_at_a_method(tmp_path: Path) -> None:
+    """The first start solves the conditions where the method is of the file: it is found, by every
+    seed; another method of the order leads to itself too.
+    """
+    path = tmp_path / "four.yaml"
+    path.write_text(FOUR % ("", 4), encoding="utf-8")
+    for name, c2, c3 in (("rk4", "1/2", "1/2"), ("kutta-38", "1/3", "2/3")):
+        run = gark("design", str(path), "--search", "1", "--start", name, "--format", "json")
+        data = json.loads(run.out)
+        jsonschema.validate(data, report_schema("design-search"))
+        [method] = data["methods"]
+        assert (data["first_start"], method["start"], method["proof"]) == (name, 1, "exact")
+        assert (method["values"]["c2"], method["values"]["c3"]) == (c2, c3)
+    run = gark("design", str(path), "--search", "1", "--start", "rk4")
+    assert "1 of 1 start solve the conditions in floats, the first at rk4" in " ".join(
+        run.out.split()
+    )
+
+
+def test_a_search_starts_near_a_method_of_another_kind() -> None:
+    """An entry that the file lacks does not count; one unknown at two places is between both."""
+    family = loads_family("parameters: {s: free, t: free}\nA: [[0, 0], [s, 0]]\nb: [1 - t, t]")
+    heun = loads("{A: [[0, 0], [1, 1/2]], b: [1/2, 1/2]}")
+    assert nearest_member(family, heun.tableau, heun.further) == pytest.approx([1, 1 / 2])
+    shared = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - t, t]")
+    # (t − 1)² + 2 (t − 1/2)² is least at t = 2/3
+    assert nearest_member(shared, heun.tableau, heun.further) == pytest.approx([2 / 3])
+
+
+def test_embedded_weights_are_of_the_start() -> None:
+    """Those of Bogacki and Shampine are solved for with the rest."""
+    family = loads_family(FOUR % (", embedded: true", 3))
+    method = load("bogacki-shampine-3")
+    point = nearest_member(family, method.tableau, method.further)
+    values = dict(zip(family.parameters, point, strict=True))
+    assert values["bh1"] == pytest.approx(7 / 24)
+    assert values["bh4"] == pytest.approx(1 / 8)
+
+
+def test_a_start_has_the_stages_of_the_file(tmp_path: Path) -> None:
+    """Heun's two stages are refused for four, and so is a start without a search."""
+    path = tmp_path / "four.yaml"
+    path.write_text(FOUR % ("", 4), encoding="utf-8")
+    run = gark("design", str(path), "--search", "1", "--start", "heun")
+    assert run.code == 2
+    assert "the method has 2 stages, those of the file 4" in run.err
+    run = gark("design", str(path), "--start", "rk4")
+    assert run.code == 2
+    assert "--start goes with --search" in run.err
 
 
 def test_nothing_found_and_misuse(tmp_path: Path) -> None:

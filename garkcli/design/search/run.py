@@ -261,6 +261,7 @@ def search_methods(
     whose: Whose = "method",
     seconds: float | None = None,
     objective: str | None = None,
+    first: Start | None = None,
 ) -> Result:
     """Search a family for methods of an order, from random starts.
 
@@ -273,6 +274,7 @@ def search_methods(
         whose: order is meant: of the method, its symplectic conjugate or its pair.
         seconds: after which the search ends with what was found; None for never.
         objective: that is minimised from each start, a name or a sum of names; None for none.
+        first: values of the unknowns that take the place of the first start.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
@@ -281,7 +283,7 @@ def search_methods(
     try:
         with within(seconds):
             search = Search(family, order, whose, objective)
-            for found in results(search, starts, seed, most):
+            for found in results(search, starts, seed, most, first=first):
                 result = found
     except NotDecided:
         result.ending = "time"
@@ -294,6 +296,7 @@ def results(
     seed: int = 0,
     most: int = MOST,
     workers: Workers[Task, Timed] | None = None,
+    first: Start | None = None,
 ) -> Iterator[Result]:
     """Search from random starts; the same object again and again, with more and more in it.
 
@@ -303,11 +306,12 @@ def results(
         seed: of the starts.
         most: the most methods to look for; other successes are counted.
         workers: who does the work; what is found does not depend on that.
+        first: values of the unknowns that take the place of the first start.
     """
     workers = workers or Alone(partial(do, search))
     if search.objective is not None:
         search.program  # noqa: B018 -- an objective without meaning is refused at once
-    coming = search.starts(seed, starts)
+    coming = search.starts(seed, starts, first)
     run = _Run(search, workers, most, seed)
     size = FIRST
     while True:

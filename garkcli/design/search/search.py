@@ -177,9 +177,11 @@ class Search:
         largest = self.conditions.numbers_a_point * 8
         return max(8, min(MOST_STARTS, MEMORY // largest))
 
-    def starts(self, seed: int, count: int) -> Iterator[list[float]]:
+    def starts(
+        self, seed: int, count: int, first: list[float] | None = None
+    ) -> Iterator[list[float]]:
         """Random values of the unknowns: within their ranges; without one between 0 and 1, of
-        every fourth start between −2 and 2.
+        every fourth start between −2 and 2. ``first`` takes the place of the first one.
         """
         ends = {
             name: (as_float(least), as_float(greatest))
@@ -189,12 +191,12 @@ class Search:
         draw = Draw(seed)
         for number in range(count):
             usual = WIDE if number % 4 == 3 else USUAL
-            start = []
+            start: list[float] = []
             for name in self.family.ring.names:
                 low, high = ends.get(name, usual)
                 # a word has 64 bits, a float 53
                 start.append(low + (high - low) * ((draw.word() >> 11) / 2**53))
-            yield start
+            yield start if number or first is None else first
 
     def solve(self, starts: list[list[float]]) -> list[tuple[int, list[float]]]:
         """The starts of a batch that succeed, each with its solution in floats."""
