@@ -89,7 +89,7 @@ def check(given: Check, output: Output) -> int:
     # where all is well and nobody wants to hear it, what would tell is not even imported
     if output.format != "text" or output.verbosity >= 0 or not all(x.ok for x in outcomes):
         render = FORMATS[output.format]
-        text = render(outcomes, output.paint, output.verbosity, given.digits, output.width)
+        text = render(outcomes, output.look, output.verbosity, given.digits, output.width)
     output.write(text)
     return max(outcome.exit_code for outcome in outcomes)
 

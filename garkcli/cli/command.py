@@ -23,7 +23,7 @@ from garkcli.cli.options import (
     rules_of,
 )
 from garkcli.cli.output import Output
-from garkcli.cli.streams import put
+from garkcli.cli.streams import put_help
 from garkcli.cli.table import COMMANDS
 from garkcli.frozen import Frozen, replace
 
@@ -278,7 +278,7 @@ def told(of: str) -> str:
 
 def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted and not context.resilient_parsing:
-        put(context.get_help() + "\n")
+        put_help(context.get_help() + "\n")
         context.exit()
 
 

@@ -393,7 +393,7 @@ def audit(given: Audit, output: Output) -> int:
         _write_patch(found, files, output)
     else:
         output.suit()
-        output.write(RENDERERS[output.format](found, output.paint, output.verbosity, output.width))
+        output.write(RENDERERS[output.format](found, output.look, output.verbosity, output.width))
     if given.claim is not None:
         _claim(files, given.claim, output)
     if any(x.has_errors for x in found) or (given.strict and any(x.looks_like for x in found)):

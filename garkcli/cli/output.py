@@ -11,13 +11,13 @@ import click
 
 from garkcli.cli import arguments
 from garkcli.cli.endings import AUTO, settled
-from garkcli.cli.streams import complain, put, put_exactly, safe_pieces, say, wants_colour
+from garkcli.cli.streams import complain, look_of, put, put_exactly, safe_pieces, say, wants_colour
 from garkcli.doing import hush
 from garkcli.errors import GarkError, MethodFileError, Remark, UsageProblem
 from garkcli.files import STDIN, note_input
 
 if TYPE_CHECKING:
-    from garkcli.page.paint import Paint
+    from garkcli.page.look import Look
     from garkcli.plots.scene import Scene
     from garkcli.tell.report import Report
 
@@ -102,12 +102,13 @@ class Output:
         return found
 
     @property
-    def paint(self) -> Paint:
-        """The colours and the encoding of the report."""
-        from garkcli.page.paint import Paint
+    def look(self) -> Look:
+        """The look of a report at its place."""
+        from garkcli.page.look import Look
 
-        encoding = None if self.path else getattr(sys.stdout, "encoding", None)
-        return Paint(self._has_colour, encoding or "utf-8")
+        if self.path is not None:
+            return Look(self._has_colour)
+        return look_of(sys.stdout, self._has_colour)
 
     @property
     def width(self) -> int:
@@ -145,14 +146,14 @@ class Output:
             self.note(f"wrote {path}")
 
     def tell(self, report: Report[Any], *wholes: Any) -> None:
-        self.write(report.render(wholes, self.format, self.paint, self.verbosity, width=self.width))
+        self.write(report.render(wholes, self.format, self.look, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
         """Writes a result while it is computed.
 
         ``is_document`` says whether LaTeX has its preamble or only names it; None for neither.
         """
-        pieces = report.pieces(whole, self.format, self.paint, self.verbosity, width=self.width)
+        pieces = report.pieces(whole, self.format, self.look, self.verbosity, width=self.width)
         if self.format == "latex" and is_document is not None:
             from garkcli.page.latex import fragment
 

@@ -104,12 +104,12 @@ def _panel(panel: Panel, name: str, output: Output) -> None:
         return
     from functools import partial
 
-    from garkcli.page.paint import folded
+    from garkcli.page.lines import folded
     from garkcli.page.plaintext import plain_text
     from garkcli.plots.terminal import drawn
 
     # before lines are measured: signs without Unicode are longer
-    spelt = partial(plain_text, encoding=output.paint.encoding)
+    spelt = partial(plain_text, encoding=output.look.encoding)
     width = min(output.width, 80)
     lines = [*folded(spelt(f"{name}: {panel.title}"), width, "  "), *drawn(panel, spelt, width)]
     output.write("\n".join(lines) + "\n")
@@ -144,7 +144,7 @@ def _tree(tree: Tree, tableau: Tableau, output: Output) -> None:
         return
     lines = [written, *([named_colours(tree, names)] if is_named else []), ""]
     lines += draw_text(tree, has_colours, output.width)
-    output.write(plain_text("\n".join(lines), encoding=output.paint.encoding) + "\n")
+    output.write(plain_text("\n".join(lines), encoding=output.look.encoding) + "\n")
 
 
 def _tableau(method: GarkMethod, output: Output) -> None:

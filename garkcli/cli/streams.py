@@ -16,6 +16,7 @@ from garkcli.page.progress import aside
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
+    from garkcli.page.look import Look
 
 
 HANDLER = "garkcli.plaintext"
@@ -88,6 +89,16 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
         raise ReaderGone from None
 
 
+def put_help(text: str) -> None:
+    """Writes the help of a command, in colours on a terminal that has them."""
+    is_coloured = is_drawn_on(sys.stdout) and wants_colour(sys.stdout)
+    if is_coloured:
+        from garkcli.tell.terminal import coloured_help
+
+        text = coloured_help(text)
+    put(text, coloured=is_coloured)
+
+
 def put_exactly(text: str) -> None:
     """Writes a text as UTF-8 with its line ends, whatever the encoding of standard output.
 
@@ -148,11 +159,15 @@ def complain(error: GarkError) -> None:
 
 
 def say_faults(outcome: Outcome) -> None:
-    from garkcli.page.paint import Paint
-    from garkcli.report import remarks
+    from shutil import get_terminal_size
 
-    paint = Paint(wants_colour(sys.stderr))
-    say("\n".join(remarks.lines(outcome.faults, outcome.file, outcome.text, paint)), paint.color)
+    from garkcli.report import remarks
+    from garkcli.tell.report import dialect_of
+
+    look = look_of(sys.stderr, wants_colour(sys.stderr))
+    d = dialect_of(look=look)(look=look, width=get_terminal_size((80, 24)).columns)
+    lines = remarks.lines(outcome.faults, outcome.file, outcome.text, d)
+    say("\n".join(lines), look.has_colour)
 
 
 def drop(stream: io.TextIOBase | object) -> None:
@@ -198,6 +213,19 @@ def is_terminal(stream: object) -> bool:
     return bool(isatty is not None and isatty())
 
 
+def is_drawn_on(stream: object) -> bool:
+    """Returns whether a stream is a terminal that can move its cursor."""
+    return is_terminal(stream) and os.environ.get("TERM") != "dumb"
+
+
+def look_of(stream: object, has_colour: bool) -> Look:
+    """Returns what a stream can show."""
+    from garkcli.page.look import Look
+
+    encoding = getattr(stream, "encoding", None) or "utf-8"
+    return Look(has_colour, encoding, is_drawn_on(stream))
+
+
 def wants_colour(stream: object) -> bool:
     """Returns whether text on a stream is coloured without an option.
 
@@ -207,4 +235,4 @@ def wants_colour(stream: object) -> bool:
     if os.environ.get("NO_COLOR"):
         return False
     forced = os.environ.get("FORCE_COLOR", "")
-    return forced != "0" if forced else is_terminal(stream) and os.environ.get("TERM") != "dumb"
+    return forced != "0" if forced else is_drawn_on(stream)

@@ -1,11 +1,11 @@
-"""One line on stderr about long work, on a terminal, once a command has run for two seconds.
+"""Long work on a terminal, drawn by rich on stderr: what is done, how much of it, the time left.
 
-The line says what is being done, how much of it, and how long the command has run. It is erased
-before anything else is written there, and at the end.
+It appears once a command has run for two seconds, and is erased before anything else is written
+there, and at the end.
 
 Exact arithmetic may stay in one library call for minutes, during which no thread of Python runs.
-Therefore a separate process draws the line; where the system cannot fork, the command itself does
-at the start and the end of each task.
+Therefore a separate process draws, and it alone imports rich; where the system cannot fork, the
+command itself draws at the start and the end of each task.
 """
 
 from __future__ import annotations
@@ -13,23 +13,26 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from time import monotonic
-from typing import NoReturn, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, NoReturn, TypeAlias
 
 from garkcli import doing
 from garkcli.doing import Work
 from garkcli.errors import printable
 
+if TYPE_CHECKING:
+    from rich.live import Live
+    from rich.table import Table
+
 PATIENCE = 2.0
-"""The time before the line appears, in seconds."""
+"""The time before anything appears, in seconds."""
 EVERY = 0.25
 """The time between updates, in seconds."""
-WIPED = "\r\x1b[2K"
+BAR = 20
+"""Columns of a bar."""
 _ASIDE, _END = b"\0", b"\1"  # texts have no such signs
-_STDERR = 2
-_USUAL = 80  # columns
 
 
 @contextmanager
@@ -43,130 +46,217 @@ def watching(what: str) -> Iterator[None]:
     if not is_watched:
         yield
         return
-    line = ProgressLine(what, _pen())
+    tasks = Tasks(what, _bars())
     try:
-        with doing.telling(line):
+        with doing.telling(tasks):
             yield
     finally:
-        line.hush()
+        tasks.hush()
 
 
-def _pen() -> Draws:
+def _bars() -> Draws:
     """Returns a process that draws, if the system can fork."""
     if hasattr(os, "fork"):
         with suppress(OSError):
             return Process()
-    return Pen(_put)
+    return Bars()
 
 
 @contextmanager
 def aside() -> Iterator[None]:
-    """Removes the line while it is open, for other output on the terminal."""
-    line = doing.listener()
-    if not isinstance(line, ProgressLine):
+    """Removes what is drawn while it is open, for other output on the terminal."""
+    tasks = doing.listener()
+    if not isinstance(tasks, Tasks):
         yield
         return
-    line.make_room()
+    tasks.make_room()
     yield
-    line.tell()
+    tasks.tell()
 
 
-Draws: TypeAlias = "Pen | Process"
-"""Draws the line, erases it until the next update, and ends."""
+class Task(NamedTuple):
+    """A task at work, with a number that no other has."""
+
+    number: int
+    what: str
+    done: int
+    total: int | None
+
+    @classmethod
+    def read(cls, line: str) -> Task:
+        number, done, total, what = line.split("\t", 3)
+        return cls(int(number), what, int(done), int(total) if total else None)
+
+    def written(self) -> str:
+        total = "" if self.total is None else self.total
+        return f"{self.number}\t{self.done}\t{total}\t{printable(self.what)}"
 
 
-class ProgressLine:
+_BETWEEN = "\x1f"
+"""Between tasks on their way to another process; printable texts have no such sign."""
+Draws: TypeAlias = "Bars | Process"
+"""Draws the tasks, erases them until the next update, and ends."""
+
+
+class Tasks:
     """The tasks at work, the outermost first.
 
     ``what`` is shown while there is none.
     """
 
-    def __init__(self, what: str, pen: Draws) -> None:
-        self.pen = pen
+    def __init__(self, what: str, bars: Draws) -> None:
+        self.bars = bars
         self._what = what
-        self._stack: list[Work] = []
+        self._stack: list[tuple[int, Work]] = []
+        self._count = 0
         self._next = 0.0
         self._is_hushed = False
         self.tell()
 
     def begin(self, work: Work) -> None:
-        self._stack.append(work)
+        self._count += 1
+        self._stack.append((self._count, work))
         self.tell()
 
     def changed(self) -> None:
-        """Updates the line from time to time."""
+        """Updates the tasks from time to time."""
         if monotonic() >= self._next:
             self.tell()
 
     def end(self, work: Work) -> None:
         """Removes a task; generators may end in another order than they began."""
-        self._stack.remove(work)
+        self._stack = [x for x in self._stack if x[1] is not work]
         self.tell()
 
     def hush(self) -> None:
-        """Ends the line."""
+        """Ends the drawing."""
         if not self._is_hushed:
             self._is_hushed = True
-            self.pen.end()
+            self.bars.end()
 
     def make_room(self) -> None:
-        """Erases the line until the next update."""
+        """Erases what is drawn until the next update."""
         if not self._is_hushed:
-            self.pen.wipe()
+            self.bars.wipe()
 
     @property
-    def text(self) -> str:
-        return ": ".join(map(str, self._stack)) or self._what
+    def at_work(self) -> list[Task]:
+        told = [Task(number, x.what, x.done, x.total) for number, x in self._stack]
+        return told or [Task(0, self._what, 0, None)]
 
     def tell(self) -> None:
-        """Sends the tasks to the pen."""
+        """Sends the tasks to what draws them."""
         if not self._is_hushed:
             self._next = monotonic() + EVERY
-            self.pen.draw(self.text)
+            self.bars.draw(self.at_work)
 
 
-class Pen:
-    """Draws the line every ``EVERY`` seconds, after ``PATIENCE``; ``put`` writes to the
-    terminal.
+class Bars:
+    """Draws the tasks every ``EVERY`` seconds, after ``PATIENCE``: a line each, with a bar and the
+    time left where the amount of work is known.
     """
 
-    def __init__(self, put: Callable[[str], None]) -> None:
-        self._put = put
+    def __init__(self) -> None:
         self._start = monotonic()
         self._due = self._start + PATIENCE
-        self._is_shown = False
+        self._live: Live | None = None
+        self._begun: dict[int, tuple[float, int]] = {}
 
     @property
     def wait(self) -> float:
         return max(0.0, self._due - monotonic())
 
-    def draw(self, text: str) -> None:
-        """Writes the line over the previous one, if it is time."""
+    def draw(self, tasks: Sequence[Task]) -> None:
+        """Draws the tasks over the previous ones, if it is time."""
+        now = monotonic()
+        for task in tasks:
+            self._begun.setdefault(task.number, (now, task.done))
         if self.wait:
             return
+        with suppress(OSError):  # the terminal may be gone
+            if self._live is None:
+                self._live = _live()
+                self._live.start()
+            self._live.update(self._table(tasks, now), refresh=True)
+        self._due = monotonic() + EVERY
+
+    def _table(self, tasks: Sequence[Task], now: float) -> Table:
+        from rich.progress_bar import ProgressBar
+        from rich.table import Table
+        from rich.text import Text
+
         from garkcli.page.plaintext import plain_text
 
-        now = monotonic()
-        told = f"{text}, {int(now - self._start)} s"
-        plain = plain_text(printable(told), sys.stderr.encoding or "ascii")
-        # a line that the terminal breaks could not be wiped out
-        self._put(f"{WIPED}{plain[: _columns() - 1]}")
-        self._is_shown = True
-        self._due = now + EVERY
+        table = Table.grid(padding=(0, 2, 0, 0))
+        for _ in range(4):
+            table.add_column()
+        ran = duration(now - self._start)
+        for task in tasks:
+            what = plain_text(printable(task.what), sys.stderr.encoding or "ascii")
+            name = Text(what, no_wrap=True, overflow="ellipsis")
+            total = task.total or 0
+            bar = ProgressBar(total, task.done, BAR, complete_style="green") if total > 1 else ""
+            table.add_row(name, bar, Text(self._words(task, now), no_wrap=True), Text(ran))
+            ran = ""
+        return table
+
+    def _words(self, task: Task, now: float) -> str:
+        """Returns how much is done, and the time left at the pace so far."""
+        if task.total is None or task.total <= 1:
+            return str(task.done or "")
+        began, before = self._begun[task.number]
+        words = f"{task.done} of {task.total}"
+        if task.done <= before:
+            return words
+        left = (now - began) / (task.done - before) * (task.total - task.done)
+        return f"{words}, {duration(left)} left"
 
     def wipe(self) -> None:
-        """Erases the line until the next update."""
-        if self._is_shown:
-            self._put(WIPED)
-            self._is_shown = False
+        """Erases the tasks until the next update."""
+        if self._live is not None:
+            with suppress(OSError):
+                self._live.stop()
+            self._live = None
 
     def end(self) -> None:
-        """Erases the line for good."""
+        """Erases the tasks for good."""
         self.wipe()
 
 
+def _live() -> Live:
+    """Returns a place on stderr that is drawn over, and erased at its end."""
+    from rich.console import Console
+    from rich.live import Live
+
+    class Visible(Console):
+        """A terminal whose cursor stays: a command may be stopped while the tasks are drawn."""
+
+        def show_cursor(self, show: bool = True) -> bool:
+            return show
+
+    console = Visible(stderr=True, highlight=False, markup=False)
+    return Live(
+        console=console,
+        auto_refresh=False,
+        transient=True,
+        redirect_stdout=False,
+        redirect_stderr=False,
+    )
+
+
+def duration(seconds: float) -> str:
+    """Returns a time in its largest unit.
+
+    >>> duration(12.3), duration(150), duration(7300)
+    ('12 s', '2 min', '2 h')
+    """
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.0f} h"
+
+
 class Process:
-    """A process that draws the line with a ``Pen``, independent of this one."""
+    """A process that draws ``Bars``, independent of this one."""
 
     def __init__(self) -> None:
         commands, self._commands = os.pipe()
@@ -178,11 +268,11 @@ class Process:
         os.close(commands)
         os.close(answers)
 
-    def draw(self, text: str) -> None:
-        self._send(printable(text).encode("utf-8", "replace"))
+    def draw(self, tasks: Sequence[Task]) -> None:
+        self._send(_BETWEEN.join(x.written() for x in tasks).encode("utf-8", "replace"))
 
     def wipe(self) -> None:
-        """Erases the line until the next update, and waits until that is done."""
+        """Erases the tasks until the next update, and waits until that is done."""
         if self._send(_ASIDE):
             os.read(self._answers, 1)
 
@@ -206,42 +296,26 @@ def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
 
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # that is for the parent
-        pen = Pen(_put_at_once)
-        text, rest = "", b""
+        bars = Bars()
+        tasks: list[Task] = []
+        rest = b""
         while os.getppid() == parent:
-            ready, _, _ = select.select([commands], [], [], pen.wait or EVERY)
+            ready, _, _ = select.select([commands], [], [], bars.wait or EVERY)
             if ready:
                 *messages, rest = (rest + os.read(commands, 65536)).split(b"\n")
                 for message in messages:
                     if message == _END:
-                        pen.end()
+                        bars.end()
                         os._exit(0)
                     if message == _ASIDE:
-                        pen.wipe()
+                        bars.wipe()
                         os.write(answers, message)
-                    text = "" if message == _ASIDE else message.decode()
-            if text:
-                pen.draw(text)
-        pen.end()  # the parent was ended, and has left the line
+                        tasks = []
+                    else:
+                        tasks = [*map(Task.read, message.decode().split(_BETWEEN))]
+            if tasks:
+                bars.draw(tasks)
+        bars.end()  # the parent was ended, and has left the tasks
     finally:
         # whatever has happened, the rest of the program is for the parent
         os._exit(0)
-
-
-def _columns() -> int:
-    """Returns the width of the terminal of stderr."""
-    with suppress(OSError):
-        # 0 where the terminal does not know
-        return os.get_terminal_size(_STDERR).columns or _USUAL
-    return _USUAL
-
-
-def _put(text: str) -> None:
-    """Writes to the terminal, and ignores that it may be gone."""
-    with suppress(OSError):
-        sys.stderr.write(text)
-        sys.stderr.flush()
-
-
-def _put_at_once(text: str) -> None:
-    os.write(_STDERR, text.encode(sys.stderr.encoding or "ascii", "replace"))

@@ -43,14 +43,20 @@ XML = frozenset({"junit", "html"})
 """Formats in which a character may be written as a numeric reference."""
 TABBED = frozenset({"rungekutta-jl"})
 """Tables with columns separated by tabs, which are harmless."""
-_COLOURS = r"(\x1b\[(?:[012]|3[1-6]|31;1)m)"
+_COLOUR = r"\x1b\[(?:[012]|3[1-6])(?:;(?:[12]|3[1-6]))*m"
+_LINK = (
+    r"\x1b\]8;;(?P<site>https?://[!-~]*)\x1b\\"
+    rf"(?P<shown>(?:{_COLOUR}|[!-~])*)\x1b\]8;;\x1b\\"
+)
+"""A link to a site, as terminals read it."""
 
 
 def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
     r"""Returns a report with every nonprintable character escaped.
 
     Control characters could command a terminal, bidirectional ones could disguise the text, and
-    lone surrogates cannot be encoded. The colours of ``Paint`` are kept if ``coloured``.
+    lone surrogates cannot be encoded. If ``coloured``, colours are kept, and links that
+    show a part of their site.
 
     >>> print(written_out("a\x1b[2Jb \u202ec\n"), end="")
     a\x1b[2Jb \u202ec
@@ -59,10 +65,31 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
         return text
     if not coloured:
         return _written_out(text, format)
-    pieces = re.split(_COLOURS, text)
-    # the odd ones are colours
-    pieces[::2] = [_written_out(piece, format) for piece in pieces[::2]]
-    return "".join(pieces)
+    return _kept(rf"{_COLOUR}|{_LINK}", text, format)
+
+
+def colours_alone(text: str) -> str:
+    r"""Returns a text with every nonprintable character escaped but those of its colours.
+
+    >>> colours_alone("\x1b[1m\x1b[2J\x1b[0m").replace("\x1b", "ESC")
+    'ESC[1m\\x1b[2JESC[0m'
+    """
+    return _kept(_COLOUR, text, "text") if "\x1b" in text else written_out(text)
+
+
+def _kept(pattern: str, text: str, format: str) -> str:
+    """Returns a text with nonprintable characters escaped where the pattern does not match, and
+    links that show anything but their site.
+    """
+    made: list[str] = []
+    end = 0
+    for found in re.finditer(pattern, text):
+        link = found.groupdict()
+        is_kept = not link.get("site") or re.sub(_COLOUR, "", link["shown"]) in link["site"]
+        made.append(_written_out(text[end : found.start()], format))
+        made.append(found[0] if is_kept else _written_out(found[0], format))
+        end = found.end()
+    return "".join([*made, _written_out(text[end:], format)])
 
 
 def _written_out(text: str, format: str) -> str:

@@ -9,7 +9,7 @@ from flint import arb
 
 from garkcli.exact.display import shortest, to_ball
 from garkcli.page.cells import cell_text, distinct_rows, lines_of
-from garkcli.page.paint import aligned, indented
+from garkcli.page.lines import aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 

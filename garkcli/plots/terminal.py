@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from garkcli.errors import printable
-from garkcli.page.paint import folded
+from garkcli.page.lines import folded
 from garkcli.plots.scene import Area, Curve, Mark, Panel, RuledLine, shortened
 
 COLUMNS = 58

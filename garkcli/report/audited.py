@@ -12,7 +12,7 @@ from garkcli.bridges.finding import CODES
 from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import Remark, counted
 from garkcli.frozen import replace
-from garkcli.page.paint import Paint
+from garkcli.page.look import PLAIN, Look
 from garkcli.report.remarks import OF_TABLE, annotation, commands_off, log_of, rows
 from garkcli.tell.facts import Level, Row, Section, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
-PLAIN = Paint()
 MOST = 100
 """Tables with findings that usual reports have at most."""
 
@@ -159,13 +158,13 @@ def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
 
 def _told(
     tables: Sequence[Audited],
-    paint: Paint = PLAIN,
+    look: Look = PLAIN,
     verbosity: int = 0,
     width: int = 80,
     format: str = "text",
 ) -> str:
     audit, verbosity = Audit(tables, verbosity < 0), max(verbosity, 0)
-    return REPORT.render([audit], format, paint, verbosity, width=width)
+    return REPORT.render([audit], format, look, verbosity, width=width)
 
 
 def _github(tables: Sequence[Audited], *_: object) -> str:

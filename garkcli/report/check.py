@@ -23,7 +23,7 @@ from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
-from garkcli.page.paint import folded
+from garkcli.page.lines import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Place, Reason, joined

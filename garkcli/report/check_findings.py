@@ -10,7 +10,7 @@ from garkcli.check.baseline import Regression
 from garkcli.check.findings import KINDS, claim_hint, claim_witness, findings
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted, printable
-from garkcli.page.paint import Paint
+from garkcli.page.look import PLAIN
 from garkcli.page.safety import inert
 from garkcli.report import check_text
 from garkcli.report.check_text import no_claims
@@ -29,7 +29,7 @@ def markdown_findings(outcomes: Sequence[Outcome]) -> str:
 def github(outcomes: Sequence[Outcome]) -> str:
     """A workflow command for each finding, and what every file has for the log."""
     found = "".join(f"{annotation(x)}\n" for outcome in outcomes for x in findings(outcome))
-    text = check_text.render(outcomes, Paint(False), 0 if len(outcomes) > 1 else -1)
+    text = check_text.render(outcomes, PLAIN, 0 if len(outcomes) > 1 else -1)
     if text:
         found += commands_off(text)
     return found

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, TypeAlias
 from garkcli.check.outcome import Outcome
 
 if TYPE_CHECKING:
-    from garkcli.page.paint import Paint
+    from garkcli.page.look import Look
 
-Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None, int], str]"
+Renderer: TypeAlias = "Callable[[Sequence[Outcome], Look, int, int | None, int], str]"
 MACHINES = ("sarif", "junit", "github")
 """Formats that no option changes, by the functions of ``check_findings`` that write them."""
 
@@ -19,7 +19,7 @@ MACHINES = ("sarif", "junit", "github")
 def _render(
     format: str,
     outcomes: Sequence[Outcome],
-    paint: Paint,
+    look: Look,
     verbosity: int,
     digits: int | None,
     width: int,
@@ -28,13 +28,13 @@ def _render(
     if format == "text":
         from garkcli.report import check_text
 
-        return check_text.render(outcomes, paint, verbosity, digits, width)
+        return check_text.render(outcomes, look, verbosity, digits, width)
     from garkcli.report import check_findings
     from garkcli.report.checked import REPORT
 
     if format in MACHINES:
         return str(getattr(check_findings, format)(outcomes))
-    text = REPORT.render(outcomes, format, paint, verbosity, places=digits, width=width)
+    text = REPORT.render(outcomes, format, look, verbosity, places=digits, width=width)
     return text + check_findings.markdown_findings(outcomes) if format == "markdown" else text
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.page.safety import inert
 from garkcli.report import remarks
 from garkcli.report.check import claim_rows, hint_rows, hints
@@ -14,11 +14,12 @@ from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, one
+from garkcli.tell.report import dialect_of
 
 
 def render(
     outcomes: Sequence[Outcome],
-    paint: Paint,
+    look: Look,
     verbosity: int = 0,
     digits: int | None = None,
     width: int = 80,
@@ -27,7 +28,7 @@ def render(
 
     Args:
         outcomes: what was found.
-        paint: colour or none.
+        look: what the output can show.
         verbosity: −1 tells faults and failed claims only; 0 one file in full, several a line each;
             1 everything of all.
         digits: significant digits of values and residuals; None for exact numbers.
@@ -37,9 +38,9 @@ def render(
     level = Level.DETAIL if verbosity > 0 else Level.USUAL
     blocks = []
     for outcome in outcomes:
-        d = REPORT.dialect(outcome, "text", paint, verbosity <= 0, width=width, places=digits)
+        d = REPORT.dialect(outcome, "text", look, verbosity <= 0, width=width, places=digits)
         if not outcome.is_read:
-            lines = remarks.lines(outcome.faults, outcome.file, outcome.text, paint)
+            lines = remarks.lines(outcome.faults, outcome.file, outcome.text, d)
         elif is_full:
             lines = one(REPORT.form(outcome), outcome, d, level)
         else:
@@ -48,7 +49,7 @@ def render(
             blocks.append(text)
     text = ("\n\n" if is_full else "\n").join(blocks)
     if len(outcomes) > 1 and verbosity >= 0:
-        text += f"\n\n{_summary(outcomes, paint)}"
+        text += f"\n\n{_summary(outcomes, dialect_of(look=look)(look=look))}"
     return f"{inert(text)}\n" if text else ""
 
 
@@ -69,7 +70,8 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         not_ok = d.note("open") if outcome.is_open else d.bad("FAIL")
         mark = d.good("ok  ") if outcome.ok else not_ok
         claims = counted(len(outcome.claims), "claim")
-        yield f"{mark} {d.prose(outcome.file)}: {', '.join(said)}  ({claims})"
+        text = f"{mark} {d.prose(outcome.file)}: {', '.join(said)}  ({claims})"
+        yield from d.message(text, hanging=5)
     if not outcome.ok:
         told = [row for row in claim_rows(outcome, d) if "hold" not in row[0]]
         if outcome.analysis is not None:
@@ -77,13 +79,13 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         yield from d.rows(told)
 
 
-def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
+def _summary(outcomes: Sequence[Outcome], d: Plain) -> str:
     left_open = sum(outcome.is_open for outcome in outcomes)
     failed = sum(not outcome.ok for outcome in outcomes) - left_open
     claims = sum(len(outcome.claims) for outcome in outcomes)
     words = [f"{counted(failed, 'file')} failed"] if failed else []
     words += [f"{counted(left_open, 'file')} undecided"] if left_open else []
-    verdict = paint.verdict(not words, "all hold", ", ".join(words))
+    verdict = d.bad(", ".join(words)) if words else d.good("all hold")
     text = f"{len(outcomes)} files, {counted(claims, 'claim')}: {verdict}"
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
     return f"{text}; {no_claims(silent)}" if silent else text

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from garkcli.check.analysis import Analysis
 from garkcli.check.true_claims import TrueClaims
 from garkcli.errors import printable
-from garkcli.page.paint import folded
+from garkcli.page.lines import folded
 from garkcli.properties.registry import KEYS
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, property_verdict
 from garkcli.report.other_methods import TOLD_BY

@@ -20,7 +20,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition
 from garkcli.order.meant import AnyTableau, printed, tolerance_of
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.paint import numbered
+from garkcli.page.lines import numbered
 from garkcli.report.other_methods import OF_NPRK_TREES, OF_NYSTROM_TREES
 from garkcli.report.trees import DATA, DETAIL, SIZES, SUBJECT, TREES, SymplecticSubject, picture
 from garkcli.tableau.tableau import Tableau

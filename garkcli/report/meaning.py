@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.glossary.term import TOPICS, terms_of
-from garkcli.page.paint import folded, indented
+from garkcli.page.lines import folded, indented
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Labels, Level, Row, Rows, Section, optional, via
 from garkcli.tell.kinds import TEXT, TEXTS

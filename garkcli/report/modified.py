@@ -13,7 +13,7 @@ from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.paint import numbered
+from garkcli.page.lines import numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import describe
 from garkcli.tell.dialect import Plain, Status

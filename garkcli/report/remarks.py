@@ -16,7 +16,6 @@ from garkcli.version import __version__
 
 if TYPE_CHECKING:
     from garkcli.check.findings import Finding
-    from garkcli.page.paint import Paint
     from garkcli.tell.dialect import Plain
 
 MESSAGE: Row[Remark] = Row("message", TEXT, lambda x: x.message)
@@ -59,18 +58,18 @@ def rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
     return found
 
 
-def lines(remarks: Sequence[Remark], file: str, text: str, paint: Paint) -> Iterator[str]:
+def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator[str]:
     """Remarks on the text of a file, each with a caret under its place."""
     source = text.splitlines()
     for x in remarks:
         place = printable(file)
         if x.line:
             place += f":{x.line}:{x.column}"
-        yield f"{place}: {paint('bad', 'error')}[{x.code}]: {printable(x.message)}"
+        yield from d.message(f"{place}: {d.bad('error')}[{x.code}]: {printable(x.message)}")
         if 0 < x.line <= len(source):
-            yield from excerpt(source[x.line - 1], x.line, x.column, paint("bad", "^"))
+            yield from excerpt(source[x.line - 1], x.line, x.column, d.bad("^"))
         if x.help:
-            yield f"      {paint('note', 'help')}: {printable(x.help)}"
+            yield from d.message(f"      {d.note('help')}: {printable(x.help)}", hanging=12)
 
 
 def items(finding: Finding) -> Iterator[str]:

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
-from garkcli.page.paint import Paint
+from garkcli.page.look import PLAIN
 from garkcli.tell.report import FORMATS, Report
 
 if TYPE_CHECKING:
@@ -21,7 +21,6 @@ Writer: TypeAlias = "Callable[[Sequence[Any], str, str], str]"
 """Writes values in a format; the text is the name of the method."""
 WIDTH = 80
 """Columns of texts."""
-_PLAIN = Paint()
 TOLD_BY = {
     "backward.BackwardAnalysis": "modified",
     "backward.ModifiedRun": "modified_energy",
@@ -143,7 +142,7 @@ def _methods(methods: Sequence[GarkMethod], format: str, _: str) -> str:
 def _outcomes(outcomes: Sequence[Outcome], format: str, _: str) -> str:
     from garkcli.report.check_formats import FORMATS
 
-    return FORMATS[format](outcomes, _PLAIN, 0, None, WIDTH)
+    return FORMATS[format](outcomes, PLAIN, 0, None, WIDTH)
 
 
 def _sweeps(reports: Sequence[SweepReport], format: str, _: str) -> str:

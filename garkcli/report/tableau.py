@@ -24,7 +24,7 @@ from garkcli.frozen import replace
 from garkcli.order.meant import as_meant, printed
 from garkcli.order.simplifying import inconsistent_blocks, is_symplectic
 from garkcli.page.cells import cell_text, remark
-from garkcli.page.paint import aligned
+from garkcli.page.lines import aligned
 from garkcli.page.schema import NUMBER, NUMERAL, Schema, array, nullable
 from garkcli.page.tableau_text import readable
 from garkcli.report.check import COLOURS, colours_of, wrong

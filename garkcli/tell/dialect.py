@@ -1,7 +1,7 @@
-"""The signs of a terminal: what differs between the outputs, and nothing that knows a result.
+"""The signs of plain text: what differs between the outputs, and nothing that knows a result.
 
-Kinds word values through a dialect; ``Plain`` is that of a terminal and of the texts in JSON, the
-others change signs. Sentences are shared.
+Kinds word values through a dialect; ``Plain`` is that of pipes and of the texts in JSON, the others
+change signs. Sentences are shared.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.ntrees.notation import format_tree
-from garkcli.page.paint import Paint, folded, indented, shown_width
+from garkcli.page.lines import folded, indented, shown_width
+from garkcli.page.look import PLAIN, Look
 from garkcli.page.plaintext import plain_text
 from garkcli.page.safety import inert
 from garkcli.reason import NO_REASON, Place, Reason
@@ -64,6 +65,11 @@ FEW = 4
 
 Cells: TypeAlias = Sequence[str]
 _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
+
+
+def are_numbers(cells: Iterable[str]) -> bool:
+    """Whether the cells of a column stand at its right."""
+    return all(map(_NUMBER.match, cells))
 
 
 class Status(Frozen):
@@ -112,28 +118,8 @@ def _cell_width(text: str) -> int:
     return max(map(shown_width, text.split("\n"))) if "\n" in text else shown_width(text)
 
 
-def _beside(
-    columns: Sequence[Sequence[str]], widths: Sequence[int], room: int, heads: int = 1
-) -> Iterator[str]:
-    """The lines of a table, numbers by their ends. Long cells are folded, a long name has its own
-    line.
-    """
-    are_right = [all(_NUMBER.match(x) for x in column[heads:]) for column in columns]
-    for row in zip(*columns, strict=True):
-        if len(row) > 1 and shown_width(row[0]) > widths[0]:
-            yield from folded(row[0], room, "  ")
-            row = ("", *row[1:])
-        cells = [_broken(x, width) for x, width in zip(row, widths, strict=True)]
-        for texts in zip_longest(*cells, fillvalue=""):
-            padded = []
-            for x, width, is_right in zip(texts, widths, are_right, strict=True):
-                gap = " " * (width - shown_width(x))
-                padded.append(gap + x if is_right else x + gap)
-            yield "  ".join(padded).rstrip()
-
-
 class Plain(Mutable):
-    """The signs of a terminal.
+    """The signs of plain text.
 
     Attributes:
         digits: of decimals.
@@ -141,7 +127,7 @@ class Plain(Mutable):
         colours: names of the colours of a method; where there is one it is not named.
         names: of the colours in trees, where they are not numbers.
         parameter: the free parameter, where there is one.
-        paint: colour or none.
+        look: what the output can show.
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
         told: failures that were reported: the second time they are "as above".
@@ -154,7 +140,7 @@ class Plain(Mutable):
     colours: Sequence[str] = ("1",)
     names: Sequence[str] = ()
     parameter: str = ""
-    paint: Paint = field(default_factory=Paint)
+    look: Look = PLAIN
     is_brief: bool = True
     places: int | None = None
     told: list[tuple[str, str]] = field(default_factory=list)
@@ -170,23 +156,23 @@ class Plain(Mutable):
 
     def good(self, text: str) -> str:
         """Good news."""
-        return self.paint("good", text)
+        return text
 
     def bad(self, text: str) -> str:
         """Bad news."""
-        return self.paint("bad", text)
+        return text
 
     def note(self, text: str) -> str:
         """Advice."""
-        return self.paint("note", text)
+        return text
 
     def drawing(self, lines: Iterable[str]) -> list[str]:
-        """A drawn tree, its dots in their colours."""
-        return [self.paint.dots(line) for line in lines]
+        """A drawn tree."""
+        return [*lines]
 
     def strong(self, text: str) -> str:
         """The most important part."""
-        return self.paint("strong", text)
+        return text
 
     def reason(self, reason: Reason) -> str:
         """A reason with its values in the signs of this dialect."""
@@ -359,11 +345,15 @@ class Plain(Mutable):
 
     def spelt(self, text: str) -> str:
         """A text in the signs that the output has: widths are those of what is written."""
-        return text if text.isascii() else plain_text(text, self.paint.encoding)
+        return text if text.isascii() else plain_text(text, self.look.encoding)
 
     def headline(self, text: str) -> list[str]:
         """The first line."""
         return [self.strong(line) for line in folded(self.spelt(text), self.width, "  ")]
+
+    def message(self, text: str, hanging: int = 2) -> list[str]:
+        """A message, which programs want in one line; later lines of it hang."""
+        return [text]
 
     def title(self, text: str, depth: int) -> list[str]:
         """The title of a part."""
@@ -437,7 +427,7 @@ class Plain(Mutable):
             ):
                 end += 1
             shown = [columns[0], *columns[start:end]]
-            yield from _beside(shown, [widths[0], *widths[start:end]], room)
+            yield from self.beside(shown, [widths[0], *widths[start:end]], room)
             start = end
             is_begun = True
 
@@ -460,8 +450,27 @@ class Plain(Mutable):
                 widths[-1] = min(widest[-1], max(room - sum(widths[:-1]), WORDS))
                 if sum(widths) <= room:
                     break
-            yield from _beside(columns, widths, self.width - 2 * how.depth, len(heads))
+            yield from self.beside(columns, widths, self.width - 2 * how.depth, len(heads))
             heads = []
+
+    def beside(
+        self, columns: Sequence[Cells], widths: Sequence[int], room: int, heads: int = 1
+    ) -> Iterable[str]:
+        """The lines of a table, numbers by their ends. Long cells are folded, a long name has its
+        own line.
+        """
+        are_right = [are_numbers(column[heads:]) for column in columns]
+        for row in zip(*columns, strict=True):
+            if len(row) > 1 and shown_width(row[0]) > widths[0]:
+                yield from folded(row[0], room, "  ")
+                row = ("", *row[1:])
+            cells = [_broken(x, width) for x, width in zip(row, widths, strict=True)]
+            for texts in zip_longest(*cells, fillvalue=""):
+                padded = []
+                for x, width, is_right in zip(texts, widths, are_right, strict=True):
+                    gap = " " * (width - shown_width(x))
+                    padded.append(gap + x if is_right else x + gap)
+                yield "  ".join(padded).rstrip()
 
     def _columns(self, rows: Iterable[Cells]) -> list[tuple[str, ...]]:
         """Columns in the signs of the output."""

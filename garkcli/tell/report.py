@@ -9,7 +9,7 @@ from typing import Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
 
 from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
-from garkcli.page.paint import Paint
+from garkcli.page.look import PLAIN, Look
 from garkcli.page.schema import Schema, array, one_of, published
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Plot, Section, Stream
@@ -21,7 +21,6 @@ Lines: TypeAlias = "tuple[Section[Any], Iterable[Any]]"
 TABLES = ("markdown", "latex")
 """The formats in which several results are a table, unless everything is requested."""
 NOTHING: Section[object] = Section()
-PLAIN = Paint()
 CLOSED = {"additionalProperties": False}
 FORMATS = ("text", "json", "markdown", "latex")
 
@@ -38,7 +37,7 @@ class DialectSigns(TypedDict, total=False):
     is_inserted: bool
 
 
-def _dialect(format: str) -> type[Plain]:
+def dialect_of(format: str = "text", look: Look = PLAIN) -> type[Plain]:
     if format == "latex":
         from garkcli.tell.latex import Latex
 
@@ -51,6 +50,10 @@ def _dialect(format: str) -> type[Plain]:
         from garkcli.tell.html import Html
 
         return Html
+    if format == "text" and (look.is_drawn or look.has_colour):
+        from garkcli.tell.terminal import Coloured, Terminal  # they need rich
+
+        return Terminal if look.is_drawn else Coloured
     return Plain
 
 
@@ -97,7 +100,7 @@ class Report(Frozen, Generic[Whole]):
         self,
         wholes: Sequence[Whole],
         format: str = "text",
-        paint: Paint = PLAIN,
+        look: Look = PLAIN,
         verbosity: int = 0,
         **signs: Unpack[DialectSigns],
     ) -> str:
@@ -106,7 +109,7 @@ class Report(Frozen, Generic[Whole]):
         Args:
             wholes: the results.
             format: one of ``FORMATS``.
-            paint: colour or none.
+            look: what the output can show.
             verbosity: −1 the answers alone, 1 everything.
             signs: attributes of the dialect: the width of the terminal, digits.
         """
@@ -122,14 +125,14 @@ class Report(Frozen, Generic[Whole]):
             level = Level.HEADLINE
         if len(wholes) > 1 and verbosity == 0 and format in TABLES and self.columns(wholes[0]):
             return self.table(wholes, format)
-        texts = (self._told(x, format, paint, level, **signs) for x in wholes)
+        texts = (self._told(x, format, look, level, **signs) for x in wholes)
         return ("" if level == Level.HEADLINE and format == "text" else "\n").join(texts)
 
     def pieces(
         self,
         whole: Whole,
         format: str = "text",
-        paint: Paint = PLAIN,
+        look: Look = PLAIN,
         verbosity: int = 0,
         **signs: Unpack[DialectSigns],
     ) -> Iterator[str]:
@@ -138,7 +141,7 @@ class Report(Frozen, Generic[Whole]):
         Args:
             whole: the result.
             format: one of ``FORMATS``, ``csv`` or ``ndjson``.
-            paint: colour or none.
+            look: what the output can show.
             verbosity: −1 without the stream, 1 for everything.
             signs: as in ``render``.
         """
@@ -147,8 +150,8 @@ class Report(Frozen, Generic[Whole]):
         if not streams and format == "ndjson":
             yield _json_line(self.document([whole])) + "\n"
         elif not streams:
-            brief = self.render([whole], format, paint, verbosity, **signs)
-            yield brief or self.render([whole], format, paint, **signs)
+            brief = self.render([whole], format, look, verbosity, **signs)
+            yield brief or self.render([whole], format, look, **signs)
         elif format == "json":
             yield from self._json_pieces(form, whole)
         elif format in ("csv", "ndjson"):
@@ -168,7 +171,7 @@ class Report(Frozen, Generic[Whole]):
                     deque(row.fact(whole).value, 0)
                 form = Section([row for row in form.rows if row not in streams])
             level = Level.DETAIL if verbosity > 0 or format == "latex" else Level.USUAL
-            d = self.dialect(whole, format, paint, level < Level.DETAIL, **signs)
+            d = self.dialect(whole, format, look, level < Level.DETAIL, **signs)
             yield from d.page(one(form, whole, d, level))
 
     def _json_pieces(self, form: Section[Whole], whole: Whole) -> Iterator[str]:
@@ -192,17 +195,17 @@ class Report(Frozen, Generic[Whole]):
         self,
         whole: Whole,
         format: str,
-        paint: Paint = PLAIN,
+        look: Look = PLAIN,
         is_brief: bool = True,
         **signs: Unpack[DialectSigns],
     ) -> Plain:
         merged: DialectSigns = {**self.signs(whole), **signs}
-        return _dialect(format)(paint=paint, is_brief=is_brief, **merged)
+        return dialect_of(format, look)(look=look, is_brief=is_brief, **merged)
 
     def _told(
-        self, whole: Whole, format: str, paint: Paint, level: Level, **signs: Unpack[DialectSigns]
+        self, whole: Whole, format: str, look: Look, level: Level, **signs: Unpack[DialectSigns]
     ) -> str:
-        d = self.dialect(whole, format, paint, level < Level.DETAIL, **signs)
+        d = self.dialect(whole, format, look, level < Level.DETAIL, **signs)
         return "".join(d.page(one(self.form(whole), whole, d, level)))
 
     def columns(self, whole: Whole) -> Sequence[str]:

@@ -20,7 +20,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import load, loads
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.page.plaintext import ascii_form
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
@@ -285,7 +285,7 @@ def test_a_method_of_one_colour_fits_a_glance() -> None:
     for name, outcome in outcomes().items():
         found = outcome.analysis or outcome.of_other_kind
         assert found is not None
-        text = render([outcome], Paint())
+        text = render([outcome], Look())
         lines = text.splitlines()
         assert max(len(line) for line in lines if len(line.split()) > 1) <= 80, name
         assert lines[0].startswith(f"{name}: order {found.order.order}"), name

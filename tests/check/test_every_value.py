@@ -20,7 +20,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from tests.cli.harness import gark
@@ -174,7 +174,7 @@ def test_witness_has_its_polynomial(tmp_path: object) -> None:
     """The condition that not every value meets is told by its residual, and where it is met with
     the command that finds the values; nothing is wider than 80 columns.
     """
-    text = render([checked(tmp_path, SDIRK)], Paint(False), digits=None)
+    text = render([checked(tmp_path, SDIRK)], Look(False), digits=None)
     said = " ".join(text.split())
     assert "every value of g: order 2; order 3 fails at [[[]]] by -g^2 + g - 1/6; " in said
     assert "; order 3 where 6*g^2 - 6*g + 1 = 0, g = 1/2 - sqrt(3)/6 or 1/2 + sqrt(3)/6" in said

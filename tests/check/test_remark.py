@@ -17,7 +17,7 @@ from garkcli.methodfile.load import loads
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Order, Witness
 from garkcli.order.rounded import RoundedTableau, find_order_within
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from tests.catalogue.method_files import method_file
 from tests.order.rounded_samples import ENTRIES, EXACT, ROUNDED, gauss_lobatto, published
@@ -39,7 +39,7 @@ def remark(text: str, limit: int = LIMIT) -> RoundingHint | None:
 
 def shown(outcome: Outcome) -> str:
     """The report, on one line."""
-    return " ".join(render([outcome], Paint()).split())
+    return " ".join(render([outcome], Look()).split())
 
 
 FAST = [x for x in EXACT if len(str(ENTRIES[x]["blocks"])) < 2_000]

@@ -22,7 +22,7 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.meant import as_meant
 from garkcli.order.recovering import Recovery, RecoveryFailure
 from garkcli.order.rounded import RoundedTableau
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau, butcher
@@ -41,7 +41,7 @@ LIMIT = at_most(5, 9)
 
 def words(outcomes: list[Outcome]) -> str:
     """The report with every fact, in one line."""
-    return " ".join(render(outcomes, Paint(), verbosity=1).split())
+    return " ".join(render(outcomes, Look(), verbosity=1).split())
 
 
 def assert_no_contradiction(found: Analysis) -> None:

@@ -13,7 +13,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from garkcli.cli.main import COMMANDS
-from garkcli.page.paint import folded
+from garkcli.page.lines import folded
 from garkcli.page.plaintext import broken, plain_line, plain_text
 from tests.cli.harness import gark
 from tests.whole import in_whole

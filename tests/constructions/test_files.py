@@ -13,7 +13,7 @@ from garkcli.check.check_file import check_file
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.load import loads
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 
@@ -193,7 +193,7 @@ def test_further_weights_are_left_behind(text: str, tmp_path: Path) -> None:
         path.write_text(text % base, encoding="utf-8")
         outcome = check_file(str(path), limit=4)
         assert outcome.is_read
-        report = render([outcome], Paint())
+        report = render([outcome], Look())
         said = "embedded weights and dense output of its parts"
         assert (said in " ".join(report.split())) == (left is not None)
         (data,) = REPORT.document([outcome])["files"]

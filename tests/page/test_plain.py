@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import Remark, printable
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.page.safety import csv_cell, inert
 from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
@@ -47,9 +47,9 @@ def test_every_format_writes_faults_without_controls() -> None:
     fault = Remark(f"no {TURNED}", f"not {TURNED}", 1, 2)
     outcome = Outcome(f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}")
     texts = [
-        check_text.render([outcome], Paint()),
+        check_text.render([outcome], Look()),
         check_findings.github([outcome]),
-        FORMATS["markdown"]([outcome], Paint(), 0, None, 80),
+        FORMATS["markdown"]([outcome], Look(), 0, None, 80),
         check_findings.junit([outcome]),
         check_findings.sarif([outcome]),
     ]
@@ -61,5 +61,5 @@ def test_every_format_writes_faults_without_controls() -> None:
 def test_the_caret_stands_under_the_text_as_it_is_shown() -> None:
     """What is written out before the column moves the caret."""
     outcome = Outcome("f", "f", faults=(Remark("wrong", "", 1, 3),), text="a\x1bb")
-    _, line, caret = check_text.render([outcome], Paint()).splitlines()
+    _, line, caret = check_text.render([outcome], Look()).splitlines()
     assert line.index("b", line.index("x1b") + 3) == caret.index("^")

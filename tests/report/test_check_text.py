@@ -12,9 +12,11 @@ from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.constants import error_constants
-from garkcli.page.paint import Paint, aligned, beside
+from garkcli.page.lines import aligned
+from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from garkcli.report.hints import blame_text
+from garkcli.tell.terminal import Coloured
 from tests.whole import in_whole
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
@@ -31,7 +33,7 @@ def outcome(text: str, file: str = "m.gark.yaml") -> Outcome:
 
 def report(text: str) -> str:
     """The full report on a text, with no colour."""
-    return render([outcome(text)], Paint())
+    return render([outcome(text)], Look())
 
 
 def tableau(entry: str, weight: str = "1") -> str:
@@ -41,7 +43,7 @@ def tableau(entry: str, weight: str = "1") -> str:
 
 def everything(text: str) -> str:
     """The same with every fact, each on lines of its own."""
-    return render([outcome(text)], Paint(), verbosity=1)
+    return render([outcome(text)], Look(), verbosity=1)
 
 
 def words(text: str) -> str:
@@ -135,8 +137,8 @@ def test_the_summary_counts_files_and_claims() -> None:
         "methods: [{family: gauss, stages: 2}]\nexpect: {order: 4}",
         tableau("0") + "\nexpect: {order: 2}",
     )
-    assert "2 files, 1 claim: all hold" in render([outcome(good), outcome(tableau("0"))], Paint())
-    found = render([outcome(good), outcome(bad)], Paint())
+    assert "2 files, 1 claim: all hold" in render([outcome(good), outcome(tableau("0"))], Look())
+    found = render([outcome(good), outcome(bad)], Look())
     assert "2 files, 2 claims: 1 file failed" in found
     assert found.startswith("ok   m.gark.yaml: order 4")
     assert "\nFAIL m.gark.yaml: order 1" in found
@@ -144,32 +146,30 @@ def test_the_summary_counts_files_and_claims() -> None:
 
 @pytest.mark.parametrize("verbosity", [-1, 0, 1])
 def test_colour_adds_nothing_but_colour(verbosity: int) -> None:
-    """Without paint there is no escape code; with paint the words are the same."""
+    """Without colour there is no escape code; with it the words are the same."""
     outcomes = [
         outcome("methods: [{family: gauss, stages: 2}]\nexpect: {order: 5}"),
         outcome(tableau("0")),
     ]
-    plain, painted = (render(outcomes, Paint(color), verbosity) for color in (False, True))
+    plain, painted = (render(outcomes, Look(color), verbosity) for color in (False, True))
     assert "\x1b" not in plain
     assert "\x1b[" in painted
     assert ESCAPE.sub("", painted) == plain
 
 
-def test_paint_off_is_the_text_itself() -> None:
-    """Every style leaves the text alone when colour is off, and marks it when colour is on."""
-    for style in ("good", "bad", "strong", "faint", "note"):
-        assert Paint()(style, "text") == "text"
-        assert ESCAPE.sub("", Paint(True)(style, "text")) == "text" != Paint(True)(style, "text")
-    assert Paint(True)("good", "") == ""
+def test_colours_are_in_the_text_where_they_are_wanted() -> None:
+    """Every style leaves the text alone without colour, and marks it with colour."""
+    for name in ("good", "bad", "strong", "note"):
+        assert getattr(Coloured(), name)("text") == "text"
+        marked = getattr(Coloured(look=Look(True)), name)("text")
+        assert ESCAPE.sub("", marked) == "text" != marked
+    assert Coloured(look=Look(True)).good("") == ""
 
 
 def test_columns_line_up() -> None:
-    """Cells of a column are equally wide; a shorter block beside a longer one is filled with
-    nothing.
-    """
+    """Cells of a column are equally wide."""
     assert aligned([["1/2", "-1"], ["0", "1/36"]], right=False) == ["1/2  -1", "0    1/36"]
     assert aligned([]) == []
-    assert beside(["a", "bcd"], ["x"]) == ["a     x", "bcd"]
 
 
 @in_whole
@@ -199,7 +199,7 @@ def test_hints_and_constants_of_one_colour() -> None:
     assert hint.startswith("the one condition of order 2 fails; ")
     assert "would hold with a[2,1] = 1/2 instead of 1/3, or a[2,2] = 1/6 instead of 0" in hint
     found = Outcome("m", "m", analysis=analysis, constants=error_constants(method.tableau, 2))
-    shown = words(render([found], Paint()))
+    shown = words(render([found], Look()))
     assert "of order 2: 2-norm 0.166667, largest 0.166667 at [[]], of 1 tree" in shown
     assert "coupling" not in shown
 
@@ -214,7 +214,7 @@ expect: {pair-order: 4}
     path = tmp_path / "pair.gark.yaml"
     path.write_text(method, encoding="utf-8")
     for verbosity in (0, 1):
-        text = render([check_file(str(path))], Paint(), verbosity)
+        text = render([check_file(str(path))], Look(), verbosity)
         _, _, hint = text.partition("  hint ")
         assert max(len(line) for line in text.splitlines() if str(path) not in line) <= 80
         assert "all of them coupling conditions; all of them involve A{V2,F1}" in words(hint)
@@ -227,7 +227,7 @@ def test_long_places_fit_a_screen() -> None:
     """
     text = "methods: [{family: gauss, stages: 2}]\nexpect: {symplectic: false}\n"
     file = "a-folder-with-a-long-name/long/and-deeper/m.gark.yaml"
-    found = render([outcome(text, file)], Paint()).splitlines()
+    found = render([outcome(text, file)], Look()).splitlines()
     assert max(map(len, found)) <= 80
     assert found[0].startswith(f"{file}: order 4")
     assert found[1].startswith("  ")
@@ -276,6 +276,6 @@ def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         ),
     ):
         Path("m.gark.yaml").write_text(text, encoding="utf-8")
-        found = render([check_file("m.gark.yaml")], Paint())
+        found = render([check_file("m.gark.yaml")], Look())
         assert shown in words(found)
         assert max(map(len, found.splitlines())) <= 80

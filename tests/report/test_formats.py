@@ -27,7 +27,7 @@ from garkcli.cli.main import gark as commands
 from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.checked import REPORT
@@ -441,7 +441,7 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
         ("symplectic", consequence),
         ("B", ""),
     ]
-    text = check_text.render([found], Paint())
+    text = check_text.render([found], Look())
     assert f"would hold with {repair}, and so would conjugate-order, symplectic" in words(text)
     (data,) = REPORT.document([found])["files"]
     assert data["blame"]["restores"] == ["conjugate-order", "symplectic"]
@@ -504,7 +504,7 @@ def test_the_format_auto_knows_where_it_runs() -> None:
 
 def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
     """The cells of the table, where a pipe after a backslash belongs to a cell."""
-    lines = FORMATS["markdown"](outcomes, Paint(), 0, None, 80).split("\n")
+    lines = FORMATS["markdown"](outcomes, Look(), 0, None, 80).split("\n")
     table = [line for line in lines if line.startswith("|")]
     return [[cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table]
 
@@ -522,7 +522,7 @@ def test_markdown_has_a_row_a_file() -> None:
 
 def test_markdown_of_one_file_is_its_report() -> None:
     """The answer is set off, labels and words are a table, findings with their places follow."""
-    text = FORMATS["markdown"]([outcome(WRONG)], Paint(), 0, None, 80)
+    text = FORMATS["markdown"]([outcome(WRONG)], Look(), 0, None, 80)
     first, *_ = text.splitlines()
     assert first == "**m.gark.yaml: order 2, proved; order 3 fails at `[[[]]]` by 1/12**"
     failing = "| CLAIM FAILS | order: expected 3, found 2"
@@ -535,7 +535,7 @@ def test_markdown_says_what_is_a_lower_bound() -> None:
     limited = outcome("methods: [{family: gauss, stages: 3}]", limit=2)
     _, _, row, _ = rows([limited, outcome(MIDPOINT)])
     assert row[1:4] == ["at least 2"] * 3
-    alone = FORMATS["markdown"]([limited], Paint(), 0, None, 80)
+    alone = FORMATS["markdown"]([limited], Look(), 0, None, 80)
     assert alone.startswith("**m.gark.yaml: order at least 2; ")
 
 
@@ -545,7 +545,7 @@ def test_markdown_cells_hold_any_file_name(file: str) -> None:
     sign of it is markup.
     """
     pair = [outcome(WRONG, file), outcome(MIDPOINT)]
-    text = FORMATS["markdown"](pair, Paint(), 0, None, 80)
+    text = FORMATS["markdown"](pair, Look(), 0, None, 80)
     _, _, row, _ = rows(pair)
     assert len(row) == 7
     shown = row[0].replace("&lt;", "<")
@@ -557,7 +557,7 @@ def test_markdown_cells_hold_any_file_name(file: str) -> None:
 def test_markdown_escapes_messages() -> None:
     """A message cannot start a tag or a column, and is one line."""
     text = FORMATS["markdown"](
-        [Outcome("m", "m", faults=(Remark("a <b> | c\nd \\", "", 1, 1),))], Paint(), 0, None, 80
+        [Outcome("m", "m", faults=(Remark("a <b> | c\nd \\", "", 1, 1),))], Look(), 0, None, 80
     )
     assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
 
@@ -579,9 +579,9 @@ def test_no_format_forgets_a_finding() -> None:
     shown = [text for _, text in annotations(*outcomes)]
     for said in (results, shown):
         assert all(x.startswith(message) for x, message in zip(said, messages, strict=True))
-    markdown = FORMATS["markdown"](outcomes, Paint(), 0, None, 80)
+    markdown = FORMATS["markdown"](outcomes, Look(), 0, None, 80)
     assert all(message in markdown for message in messages)
-    text = check_text.render(outcomes, Paint(False))
+    text = check_text.render(outcomes, Look(False))
     assert all(message.partition("; ")[0] in text for message in messages)
 
 
@@ -606,7 +606,7 @@ def test_every_format_for_machines_has_witness_and_hint(tmp_path: Path) -> None:
         ],
         "junit": ET.fromstring(check_findings.junit([found])).find(".//failure").text,  # type: ignore[union-attr]
         "github": check_findings.github([found]).splitlines()[0],
-        "markdown": FORMATS["markdown"]([found], Paint(), 0, None, 80),
+        "markdown": FORMATS["markdown"]([found], Look(), 0, None, 80),
         "json": json.dumps(REPORT.document([found])),
     }
     for name, text in texts.items():

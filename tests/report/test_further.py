@@ -15,7 +15,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.check.true_claims import true_claims
 from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.load import load, loads
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.page.tableau_latex import tableau_lines
 from garkcli.report import check_findings
 from garkcli.report.check_formats import FORMATS
@@ -47,7 +47,7 @@ def words(text: str) -> str:
 def test_text_tells_orders_estimate_and_how_pieces_fit() -> None:
     """Each has its line, with the tree that fails; the leading term of the estimate is a detail."""
     outcome = check_file(str(FILE))
-    text = words(render([outcome], Paint()))
+    text = words(render([outcome], Look()))
     for line in (
         " embedded order 2, proved; order 3 fails at [[[]]] by 1/48 ",
         " error estimate O(h^3); b − embedded sums to 0 ",
@@ -55,7 +55,7 @@ def test_text_tells_orders_estimate_and_how_pieces_fit() -> None:
         " dense output C¹, of degree 3 ",
     ):
         assert line in text
-    detailed = words(render([outcome], Paint(), verbosity=1))
+    detailed = words(render([outcome], Look(), verbosity=1))
     assert " two norm 0.0294628 inf norm 0.0208333 worst [[],[]] " in detailed
     assert " degree 3 continuous yes smooth yes " in detailed
 
@@ -65,7 +65,7 @@ def test_text_tells_orders_estimate_and_how_pieces_fit() -> None:
 def test_no_line_is_wide_and_json_keeps_its_schema(path: Path) -> None:
     """Text fits 80 columns, and the JSON report of each example is valid."""
     outcome = check_file(str(path))
-    text = render([outcome], Paint())
+    text = render([outcome], Look())
     assert max(map(len, text.splitlines())) <= 80 + len(str(path))
     assert all(len(line) <= 80 for line in text.splitlines() if path.name not in line)
     data = json.loads(REPORT.json([outcome]))
@@ -82,11 +82,11 @@ def test_markdown_has_a_column_where_there_is_one() -> None:
     """The table has a column of embedded orders with such a method, and none without."""
     plain = check_file(str(VALID / "smallest.gark.yaml"))
     paired = check_file(str(FILE))
-    head = FORMATS["markdown"]([plain, plain], Paint(), 0, None, 80).splitlines()[0]
+    head = FORMATS["markdown"]([plain, plain], Look(), 0, None, 80).splitlines()[0]
     assert head.startswith("| file | order | conjugate order |")
     assert "embedded" not in head
     head, rule, first, second = FORMATS["markdown"](
-        [plain, paired], Paint(), 0, None, 80
+        [plain, paired], Look(), 0, None, 80
     ).splitlines()[:4]
     assert head.startswith("| file | order | embedded order | conjugate order |")
     assert rule.count("|") == head.count("|") == first.count("|")
@@ -105,7 +105,7 @@ def test_failing_claims_have_witness_and_repair(tmp_path: Path) -> None:
     outcome = checked(tmp_path, f"{wrong}expect: {{order: 3, embedded-order: 2}}")
     (failed,) = outcome.failed_claims
     assert (failed.claim, failed.found) == ("embedded-order", "0")
-    text = render([outcome], Paint())
+    text = render([outcome], Look())
     assert "would hold with embedded b[1] = 7/24 instead of 5/24" in words(text)
     junit = check_findings.junit([outcome])
     assert "fails at order 1: []: 11/12 instead of 1" in junit
@@ -135,7 +135,7 @@ def test_a_wrong_node_shows_in_both_orders_with_time(tmp_path: Path) -> None:
     outcome = checked(tmp_path, f"{PAIR}{nodes}expect: {{order: 3, {claims}}}")
     found = {x.claim: x.found for x in outcome.failed_claims}
     assert found == {"nonautonomous-order": "1", "embedded-nonautonomous-order": "1"}
-    text = words(render([outcome], Paint()))
+    text = words(render([outcome], Look()))
     assert " non-autonomous order 1, proved; order 2 fails at " in text
     assert " embedded non-autonomous order 1, proved; order 2 fails " in text
     assert " consistent no: A𝟙 differs from c: row" in text
@@ -168,7 +168,7 @@ def test_a_family_has_the_embedded_order_of_every_value(tmp_path: Path) -> None:
     assert outcome.every is not None
     assert outcome.every.embedded_order is not None
     assert outcome.every.embedded_order.order == 1
-    text = render([outcome], Paint())
+    text = render([outcome], Look())
     assert re.search(r"  embedded order +1[;\n]", text)
     data = json.loads(REPORT.json([outcome]))
     jsonschema.validate(data, REPORT.schema)

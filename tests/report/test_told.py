@@ -20,7 +20,7 @@ from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
 from garkcli.frozen import replace
 from garkcli.glossary.labels import label_of
-from garkcli.page.paint import Paint
+from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
@@ -50,7 +50,7 @@ def checked(path: Path) -> Outcome:
 
 def everything(outcome: Outcome) -> list[tuple[int, str, str]]:
     """The rows of the report with details: margin, label and text, whole."""
-    wide = render([outcome], Paint(), verbosity=1, width=10_000)
+    wide = render([outcome], Look(), verbosity=1, width=10_000)
     rows = (re.match(r"( +)(\S.*?)(?:  +(\S.*))?$", line) for line in wide.splitlines())
     return [(len(x[1]), x[2], x[3] or "") for x in rows if x]
 
@@ -74,7 +74,7 @@ def test_details_hold_every_number_of_the_json_report(path: Path) -> None:
     data = REPORT.data(outcome)
     rows = everything(outcome)
     said: dict[tuple[int, str], str] = {(margin, label): text for margin, label, text in rows}
-    answer = render([outcome], Paint(), verbosity=1, width=10_000).partition("\n")[0]
+    answer = render([outcome], Look(), verbosity=1, width=10_000).partition("\n")[0]
     assert answer.startswith(f"m: order {data['order']}")
     for key in ("conjugate_order", "pair_order", "nonautonomous_order", "embedded_order"):
         if data[key] is not None:

@@ -1,51 +1,12 @@
-"""Colours for the terminal, and aligned columns."""
+"""Texts as lines: aligned columns, folded formulas."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from itertools import zip_longest
-
-from garkcli.frozen import Frozen
-
-_CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
 _STYLE = "\x1b\\[[0-9;]*m"
 """The start or end of a style."""
-_DOT = "●([0-9]+)"
-"""A dot of a drawn tree, with the number of its colour."""
-_DOTS = (34, 33, 32, 35, 36, 31)
-"""The codes of the colours 1, 2, …, repeated after the last."""
-
-
-class Paint(Frozen):
-    """Colours text for a terminal if ``color`` is set; the colour is never the only information.
-
-    Characters that the ``encoding`` lacks are replaced before columns are aligned.
-    """
-
-    color: bool = False
-    encoding: str = "utf-8"
-
-    def __call__(self, style: str, text: str) -> str:
-        """Returns ``text`` in one of the styles good, bad, strong, faint, note."""
-        return text if not self.color or not text else _in_code(_CODES[style], text)
-
-    def dots(self, line: str) -> str:
-        """Returns a line of a drawn tree with its dots in colour."""
-        return line if not self.color else re.sub(_DOT, _coloured_dot, line)
-
-    def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
-        return self("good", yes) if holds else self("bad", no)
-
-
-def _coloured_dot(dot: re.Match[str]) -> str:
-    number = int(dot[1])
-    return _in_code(str(_DOTS[(number - 1) % len(_DOTS)]), dot[0])
-
-
-def _in_code(code: str, text: str) -> str:
-    return f"\x1b[{code}m{text}\x1b[0m"
 
 
 def numbered(names: Sequence[str]) -> str:
@@ -87,10 +48,19 @@ _JOINTS = r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)"
 """Pieces of a formula or tree, each up to a place where a line may end."""
 
 
-def shown_width(text: str) -> int:
-    """Returns the width of a text in columns, without colour codes.
+def joints(text: str) -> list[int]:
+    """Returns the places where pieces of a formula or tree begin.
 
-    >>> shown_width(Paint(True)("good", "yes"))
+    >>> joints("b{l}A{l,m} = 1/6")
+    [0, 4, 11]
+    """
+    return [piece.start() for piece in re.finditer(_JOINTS, text)]
+
+
+def shown_width(text: str) -> int:
+    r"""Returns the width of a text in columns, without colour codes.
+
+    >>> shown_width("\x1b[32myes\x1b[0m")
     3
     """
     return len(re.sub(_STYLE, "", text)) if "\x1b" in text else len(text)
@@ -112,13 +82,3 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
             lines.append("")
         lines[-1] = longer
     return [line.rstrip() for line in lines]
-
-
-def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
-    """Returns two blocks of lines side by side."""
-    width = max((len(line) for line in left), default=0)
-    lines = []
-    for a, b in zip_longest(left, right, fillvalue=""):
-        line = a.ljust(width) + gap + b
-        lines.append(line.rstrip())
-    return lines
