@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     Equations: TypeAlias = Callable[[Array], Gradient]
 
 STEPS = 12
-"""Steps of Newton's method at most."""
+"""Most steps of Newton's method."""
 CLOSE = 1e-12
 """Residuals of a solution."""
 RANK = 1e-7
-"""Singular values count as zero below this, and below this part of the largest."""
+"""Singular values below this, or below this share of the largest, count as zero."""
 
 
 class OutsideError(Exception):
@@ -33,10 +33,10 @@ class OutsideError(Exception):
 
 
 class Chart:
-    """Solutions near one of them.
+    """The solutions of equations near one of them.
 
     Args:
-        equations: what is zero.
+        equations: the functions that vanish.
         x: a solution, shape (unknowns,).
     """
 
@@ -52,11 +52,11 @@ class Chart:
 
     @property
     def dimension(self) -> int:
-        """How many coordinates there are."""
+        """The number of coordinates."""
         return int(self.tangent.shape[1])
 
     def scale(self, matrix: Array) -> None:
-        """Take other coordinates, those in which this matrix is S."""
+        """Changes to the coordinates in which the matrix is S."""
         _, x, _ = self._last
         self.tangent = self.tangent @ matrix
         self._last = np.zeros(self.dimension), x, self.tangent
@@ -65,7 +65,7 @@ class Chart:
         """The solution over a point, shape (unknowns,), and its derivatives, (unknowns, dimension).
 
         Raises:
-            OutsideError: there is none that Newton's method finds.
+            OutsideError: Newton's method finds none.
         """
         before, x, slopes = self._last
         x = x + slopes @ (u - before)

@@ -1,8 +1,8 @@
-"""Optima along a curve: an objective against bounds on another one, the front of both, or against
-values of an unknown.
+"""Optima along a curve: an objective for bounds on another one, the front of both, or for values of
+an unknown.
 
-Each place of the curve is a bound or a value. The optimiser starts there from the optima that
-random starts lead to, and then from the optima of its neighbours, until none of them improves.
+Each place of the curve is a bound or a value. There the optimiser starts from the optima of random
+starts, and then from the optima of the neighbours, until none improves.
 """
 
 from __future__ import annotations
@@ -28,19 +28,19 @@ if TYPE_CHECKING:
     from garkcli.design.search.run import Task
 
 PLACES = 17
-"""Places of a curve, both ends among them."""
+"""Places of a curve, ends included."""
 SEEDS = 4
-"""Optima of random starts of each objective that a place begins with."""
+"""Optima of random starts of each objective from which a place begins."""
 PASSES = 12
-"""How often neighbours are tried at most."""
+"""Most passes over the neighbours."""
 GAIN = 1e-5
-"""The part of an objective that counts as an improvement."""
+"""The share of an objective that counts as an improvement."""
 ALIKE = 1e-8
-"""Numbers that differ by a smaller part are one number up to rounding."""
+"""Numbers that differ by a smaller share are equal up to rounding."""
 WIDE = 20.0
 """The bounds of a front are in geometric progression if its ends differ by a larger factor."""
 INSIDE = 1e-3
-"""The last bound is inside the front by this part: at its end only single points are left."""
+"""The last bound is inside the front by this share: at its end there are only single points."""
 
 
 class Knot(Frozen):
@@ -58,11 +58,11 @@ class Knot(Frozen):
 
 
 class Curve(Mutable):
-    """Optima along a curve, as far as they are known.
+    """Optima along a curve, as far as known.
 
     Attributes:
         across, up: the names of both axes.
-        knots: in ascending order across.
+        knots: in ascending order of ``across``.
         order: of the methods.
         seed: of the starts.
         starts: the number of starts so far.
@@ -85,7 +85,7 @@ class Curve(Mutable):
 
 
 class Place(Frozen):
-    """Work: the best method at a place of a curve; None if there is none.
+    """A task: the best method at a place of a curve; None if there is none.
 
     Attributes:
         points: values of the unknowns from which the optimiser starts.
@@ -100,7 +100,6 @@ class Place(Frozen):
     value: tuple[str, str] | None = None
 
     def result(self, search: Search) -> object:
-        """The outcome of the work."""
         wanted = self.objective or search.text
         assert wanted is not None
         cap = None if self.cap is None else (_single(self.cap[0], search), self.cap[1])
@@ -110,8 +109,8 @@ class Place(Frozen):
             name, text = self.value
             ring = search.family.ring
             fixed = [Fixed(RationalFunction(ring.parameter(name), ring), fmpq(*_parts(text)))]
-        found = [program.moved(point, fixed) for point in self.points]
-        return min((x for x in found if x is not None), key=lambda x: x.value, default=None)
+        moved = [program.moved(point, fixed) for point in self.points]
+        return min((x for x in moved if x is not None), key=lambda x: x.value, default=None)
 
 
 def _parts(text: str) -> list[int]:
@@ -134,17 +133,17 @@ def _single(text: str, search: Search) -> Single:
 def front(
     search: Search, second: str, starts: int, seed: int, workers: Workers[Task, Timed]
 ) -> Iterator[Curve]:
-    """The front of two objectives; the same curve again and again, better each time.
+    """The front of two objectives; yields one curve object again and again as it improves.
 
     Args:
         search: with the first objective.
-        second: the other one.
+        second: the second objective.
         starts: the number of random starts.
         seed: of the starts.
-        workers: of the work.
+        workers: run the tasks.
 
     Raises:
-        UsageProblem: an objective is a sum or has no meaning for the methods.
+        UsageProblem: an objective is a sum or not applicable.
     """
     assert search.text is not None
     one, other = _single(search.text, search), _single(second, search)
@@ -177,14 +176,14 @@ def along(
 
     Args:
         search: with the objective.
-        name: of the unknown.
+        name: the unknown.
         starts: the number of random starts.
         seed: of the starts.
-        workers: of the work.
+        workers: run the tasks.
 
     Raises:
-        UsageProblem: there is no such unknown, it has no range with two ends, or the objective has
-            no meaning for the methods.
+        UsageProblem: there is no such unknown, it has no range with two ends, or the objective is
+            not applicable.
     """
     assert search.objective is not None
     least, greatest = _range(search, name)
@@ -244,7 +243,9 @@ def _between(start: float, end: float) -> list[float]:
 
 
 def _best(knots: Sequence[Knot], across: int, up: int) -> Iterator[Knot]:
-    """The knots that no other one beats in both objectives; a sign is −1 if more is better."""
+    """The knots that no other one beats in both objectives; a sign is −1 if larger values are
+    better.
+    """
     ranked = sorted(knots, key=lambda x: (across * x.across, up * x.up))
     least = float("inf")
     chosen: list[Knot] = []
@@ -270,7 +271,7 @@ class _Run:
             yield timed.result
 
     def seek(self, starts: int, seed: int, objectives: Sequence[str | None]) -> Iterator[Curve]:
-        """The best optima of each objective from random starts."""
+        """Finds the best optima of each objective from random starts."""
         every = list(self.search.starts(seed, starts))
         size = max(1, min(self.search.batch, -(-starts // self.workers.size)))
         batches = [Batch(every[k : k + size]) for k in range(0, starts, size)]
@@ -317,7 +318,7 @@ class _Run:
 
 
 def _distinct(optima: Sequence[Optimum]) -> list[Optimum]:
-    """The first ones, each once."""
+    """The first distinct optima, at most ``SEEDS``."""
     chosen: list[Optimum] = []
     for x in optima:
         if not any(are_same(x.point, other.point) for other in chosen):

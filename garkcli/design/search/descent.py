@@ -1,5 +1,5 @@
-"""SciPy's sequential quadratic programming (D. Kraft, 1988) on the solutions of equations, in their
-local coordinates: every point that it looks at solves them.
+"""SciPy's sequential quadratic programming (D. Kraft, 1988) on the solutions of equations, in local
+coordinates: every point it evaluates is a solution.
 """
 
 from __future__ import annotations
@@ -19,32 +19,32 @@ if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
 
 STEPS = 30
-"""Steps of the optimiser before it begins anew, in coordinates where it is."""
+"""Steps of the optimiser before it restarts, in coordinates around the new point."""
 ROUNDS = 20
-"""Most rounds."""
+"""Most restarts."""
 REACH = 1.0
-"""The bound of each coordinate in a round."""
+"""The bound on each coordinate in a round."""
 LEAST_REACH = 1e-4
-"""The search ends if Newton's method finds no solutions as near as this."""
+"""The search ends if Newton's method finds no solutions even as near as this."""
 GAIN = 1e-4
-"""The part of the value that a round has to gain, or it is the last."""
+"""The share of the value that a round must gain, or it is the last."""
 ACCURACY = 1e-12
 """The change of the value at which a round ends."""
 TINY = 1e-20
-"""A smaller value counts as 0."""
+"""Smaller values count as 0."""
 STRETCH = 1e-8
-"""Second derivatives that are smaller than this part of the largest count as this."""
+"""Second derivatives below this share of the largest count as this."""
 
 
 class Look(Frozen):
-    """A task at a point.
+    """The functions of a task at a point.
 
     Attributes:
         value: the function to minimise.
         gradient: its derivatives.
-        signs: the inequalities, at least 0.
+        signs: functions that must be at least 0.
         of_signs: their derivatives.
-        found: the value of the unknowns alone; infinite if something is negative.
+        found: the value for the unknowns alone; infinite if a sign is violated.
     """
 
     value: float
@@ -55,11 +55,11 @@ class Look(Frozen):
 
 
 class Task(ABC):
-    """A function to minimise on the solutions, under inequalities.
+    """A function to minimise on the solutions of equations, under inequalities.
 
     Attributes:
         levels: the number of further variables, all at least 0.
-        enough: a value at which the optimiser may stop.
+        enough: the optimiser stops at this value.
     """
 
     levels = 0
@@ -71,7 +71,7 @@ class Task(ABC):
 
     @abstractmethod
     def value(self, x: Array) -> float:
-        """The function to minimise, at unknowns that meet all wants."""
+        """The function to minimise, at unknowns with all wants."""
 
     def guess(self, x: Array) -> Array:  # noqa: ARG002
         """The first values of the further variables."""
@@ -82,7 +82,7 @@ class Task(ABC):
         return None
 
     def scale(self, x: Array) -> float:
-        """A factor of the value: the optimiser takes small numbers for a minimum."""
+        """A factor of the value: the optimiser would stop at small numbers."""
         return 1 / max(abs(self.value(x)), TINY)
 
 
@@ -112,11 +112,11 @@ def descended(task: Task, equations: Equations, x: Array) -> Array:
 
 
 class _EnoughError(Exception):
-    """Nothing smaller is wanted."""
+    """The value is small enough."""
 
 
 def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array, bool]:
-    """The best point of one run; whether that ended where the chart does."""
+    """The best point of one run, and whether the run left the domain of the chart."""
     from scipy.optimize import minimize
 
     if not chart.dimension:
@@ -149,7 +149,7 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
     bounds = [*zip(-size, size, strict=True), *[(0.0, None)] * task.levels]
     try:
         with catch_warnings():
-            # older versions of SciPy warn of steps that they shorten
+            # older versions of SciPy warn about steps that they shorten
             simplefilter("ignore", RuntimeWarning)
             minimize(
                 lambda z: at(z).value,
@@ -166,7 +166,7 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
             )
     except _EnoughError:
         pass
-    except (OutsideError, ValueError, np.linalg.LinAlgError):  # numbers that are none
+    except (OutsideError, ValueError, np.linalg.LinAlgError):  # NaN or infinity
         return best, True
     return best, False
 
@@ -175,9 +175,9 @@ def _in_chart(task: Task, chart: Chart, z: Array, scale: float) -> tuple[Look, A
     """The task at coordinates, with its further variables; and the unknowns there."""
     d = chart.dimension
     x, tangent = chart.at(z[:d])
-    more = len(z) - d
-    whole = np.zeros((len(z), len(x) + more))
-    whole[:d, : len(x)], whole[d:, len(x) :] = tangent.transpose(), np.eye(more)
+    further = len(z) - d
+    whole = np.zeros((len(z), len(x) + further))
+    whole[:d, : len(x)], whole[d:, len(x) :] = tangent.transpose(), np.eye(further)
     look = task.at(np.append(x, z[d:]))
     return Look(
         scale * look.value,

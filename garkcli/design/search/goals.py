@@ -1,7 +1,7 @@
 """Objectives of a search in floats, with their gradients.
 
 An objective is a smooth function of the unknowns x, or a *level*: the y up to which inequalities
-g(x, y) ≥ 0 hold, which is made as large as possible as a further unknown.
+g(x, y) ≥ 0 hold, a further unknown to maximise.
 """
 
 from __future__ import annotations
@@ -43,20 +43,20 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 SAMPLES = 40
-"""Points of an interval at which a stability function is held against 1."""
+"""Points of an interval at which a stability function is compared with 1."""
 HEAVIEST = 1e5
-"""The largest weight of a point near 0: rounding must not look like an inequality that fails."""
+"""The largest weight of a point near 0, so that rounding does not violate inequalities."""
 NOTHING = 1e-10
-"""A coefficient that is smaller counts as zero."""
+"""Smaller coefficients count as zero."""
 TINY = 1e-20
-"""A norm that is smaller counts as this."""
+"""A lower bound for norms in denominators."""
 FAR = 1.5
 """Points of a half line are (1/t - 1)^FAR with t between 0 and 1."""
 
 
 class Trees:
-    """The order conditions at one point, kept until the next point: an optimiser wants values and
-    gradients one after the other.
+    """The order conditions at one point, remembered until the next point: an optimiser asks for
+    values and gradients separately.
 
     Args:
         conditions: of all trees up to some order.
@@ -83,11 +83,11 @@ def kept(function: Callable[[Array], T]) -> Callable[[Array], T]:
 
 
 class Smooth(Frozen):
-    """A function of the unknowns to be made small.
+    """A function of the unknowns to minimise.
 
     Attributes:
         at: its value and its gradient, shape (unknowns,), at a point, shape (unknowns,).
-        parts: if it is a sum of squares, what is squared, with derivatives.
+        parts: the squared terms with derivatives, if it is a sum of squares.
     """
 
     at: Callable[[Array], tuple[float, Array]]
@@ -95,7 +95,7 @@ class Smooth(Frozen):
 
 
 class Reach(Frozen):
-    """A level to be made large.
+    """A level to maximise.
 
     Attributes:
         at: the inequalities at a point of the unknowns, with y as the last one.
@@ -105,7 +105,7 @@ class Reach(Frozen):
 
 
 class Bound(Frozen):
-    """Functions of which the largest size is to be made small.
+    """Functions whose largest absolute value is to minimise.
 
     Attributes:
         at: the functions at a point.
@@ -138,10 +138,10 @@ class Setting:
         """e(u) of all trees of an order.
 
         Args:
-            above: the order, counted from that of the embedded weights, or of the methods if it is
-                1 and theirs.
-            is_embedded: whether the errors are those of the embedded weights.
-            is_coupling: whether trees of one colour are left out.
+            above: the order minus that of the embedded weights, or minus that of the methods for
+                their own errors at 1.
+            is_embedded: whether the errors are of the embedded weights.
+            is_coupling: whether to omit trees of one colour.
         """
         tableau, order = self.tableau, self.order
         if is_embedded or above > 1:
@@ -153,14 +153,14 @@ class Setting:
         return errors_of(self._further[key], order + above, is_coupling)
 
     def functions(self, numbers: Iterable[object]) -> Functions:
-        """Numbers that depend on the unknowns, each once."""
+        """The distinct numbers that depend on the unknowns."""
         distinct = {x for x in numbers if isinstance(x, Parametric)}
-        found = [RationalFunction(x, self.ring) for x in distinct]
-        return Functions(found, len(self.ring.names))
+        functions = [RationalFunction(x, self.ring) for x in distinct]
+        return Functions(functions, len(self.ring.names))
 
     def sizes(self, numbers: Iterable[object]) -> Bound:
-        """The largest of some numbers in size; those that do not depend on the unknowns count as
-        one.
+        """The numbers whose largest absolute value is to minimise; one number stands for all
+        constants.
         """
         import numpy as np
 
@@ -180,19 +180,19 @@ def goal_of(objective: Single, setting: Setting) -> Goal:
     """An objective in floats.
 
     Raises:
-        UsageProblem: it has no meaning for the methods.
+        UsageProblem: it is not applicable.
     """
     if objective.key in GOALS:
         return GOALS[objective.key](setting)
     assert isinstance(objective, Objective)
     quotient = objective.formula(setting.subject, setting.ring)
     number = setting.ring.quotient(quotient.numerator, quotient.denominator)
-    whole = RationalFunction(number, setting.ring)
-    return Smooth(_alone(whole, len(setting.ring.names)))
+    function = RationalFunction(number, setting.ring)
+    return Smooth(_alone(function, len(setting.ring.names)))
 
 
 def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
-    """The terms of a sum, or a single objective alone; weights of levels are negative."""
+    """The terms of a sum, or a single objective; weights of levels are negative."""
     if isinstance(wanted, Sum):
         return list(wanted.terms)
     one = wanted.meant(tableau) if isinstance(wanted, Either) else wanted
@@ -200,13 +200,12 @@ def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
 
 
 def levels_of(family: Family) -> list[tuple[Level, fmpq]]:
-    """The levels that a family is to have, each with the least value."""
-    found = [(OBJECTIVES[key], bound) for key, bound in family.levels]
-    return [(x, bound) for x, bound in found if isinstance(x, Level)]
+    """The wanted levels of a family, with their bounds."""
+    levels = [(OBJECTIVES[key], bound) for key, bound in family.levels]
+    return [(x, bound) for x, bound in levels if isinstance(x, Level)]
 
 
 def meant(name: str, tableau: Tableau) -> Single | Sum:
-    """The objective of a name or a sum, for a tableau."""
     objective = objective_of(name)
     return objective.meant(tableau) if isinstance(objective, Either) else objective
 
@@ -226,12 +225,12 @@ Errors: TypeAlias = "Callable[[Array], Gradient]"
 
 
 def errors_of(trees: Trees, order: int, is_coupling: bool = False) -> Errors:
-    """Those of the trees of an order.
+    """The errors of the trees of an order.
 
     Args:
-        trees: the conditions up to that order, or further.
+        trees: the conditions up to at least that order.
         order: of the trees.
-        is_coupling: whether trees of one colour are left out.
+        is_coupling: whether to omit trees of one colour.
     """
     import numpy as np
 
@@ -253,8 +252,6 @@ def errors_of(trees: Trees, order: int, is_coupling: bool = False) -> Errors:
 
 
 def squared(parts: Errors) -> Smooth:
-    """A sum of squares."""
-
     def at(x: Array) -> tuple[float, Array]:
         e, slopes = parts(x)
         return float(e @ e), 2.0 * e @ slopes
@@ -262,21 +259,21 @@ def squared(parts: Errors) -> Smooth:
     return Smooth(at, parts)
 
 
-def quotient_of_norms(above: Errors, below: Errors | None = None) -> Smooth:
+def quotient_of_norms(numerator: Errors, denominator: Errors | None = None) -> Smooth:
     """The 2-norm of some errors over that of others."""
     import numpy as np
 
     def parts(x: Array) -> Gradient:
-        e, slopes = above(x)
-        size = 1.0 if below is None else max(float(np.linalg.norm(below(x)[0])), TINY)
+        e, slopes = numerator(x)
+        size = 1.0 if denominator is None else max(float(np.linalg.norm(denominator(x)[0])), TINY)
         return e / size, slopes / size
 
     def at(x: Array) -> tuple[float, Array]:
         e, slopes = parts(x)
         value = max(float(np.linalg.norm(e)), TINY)
         gradient = e @ slopes / value
-        if below is not None:
-            d, of_d = below(x)
+        if denominator is not None:
+            d, of_d = denominator(x)
             gradient = gradient - value * (d @ of_d) / max(float(d @ d), TINY**2)
         return value, gradient
 
@@ -284,7 +281,7 @@ def quotient_of_norms(above: Errors, below: Errors | None = None) -> Smooth:
 
 
 def difference(one: Errors, other: Errors) -> Errors:
-    """The errors of two methods, one minus the other."""
+    """The errors of one method minus those of another."""
 
     def at(x: Array) -> Gradient:
         (e, of_e), (d, of_d) = one(x), other(x)
@@ -299,7 +296,7 @@ def _coupling(setting: Setting) -> Goal:
 
 
 def _nonzero(setting: Setting) -> Goal:
-    """A number of coefficients, which has no slope."""
+    """The number of nonzero coefficients, a function without slope."""
     import numpy as np
 
     counts = Counter(coefficients_of(setting.tableau))
@@ -316,14 +313,14 @@ def _nonzero(setting: Setting) -> Goal:
 
 
 def entries_of(tableau: Tableau, ring: Parameters) -> list[RationalFunction]:
-    """The coefficients that depend on the unknowns, each once."""
+    """The distinct coefficients that depend on the unknowns."""
     unknown = (x for x in coefficients_of(tableau) if isinstance(x, Parametric))
     return [RationalFunction(x, ring) for x in dict.fromkeys(unknown)]
 
 
 def _at_infinity(setting: Setting, tableau: Tableau, key: str) -> Goal:
-    above, below = at_infinity(tableau, key)
-    return setting.sizes([above / below])
+    numerator, denominator = at_infinity(tableau, key)
+    return setting.sizes([numerator / denominator])
 
 
 def _interval(direction: complex) -> Callable[[Setting], Goal]:
@@ -359,17 +356,16 @@ GOALS: dict[str, Callable[[Setting], Goal]] = {
     "infinity": lambda x: _at_infinity(x, x.tableau, "infinity"),
     "embedded-infinity": lambda x: _at_infinity(x, x.subject.embedded[0], "embedded-infinity"),
 }
-"""How objectives are computed in floats; of others the formula is."""
+"""Objectives in floats; for others the exact formula is evaluated."""
 
 
 def _matrix(rows: Matrix, ring: Parameters) -> Entries:
-    """A matrix of rational functions, at points."""
     return Entries([[RationalFunction(x, ring) for x in row] for row in rows], len(ring.names))
 
 
 class _Contractive:
-    """The conditions of absolute monotonicity (``garkcli.stability.ssp``): with M = (I + rK)⁻¹,
-    M K_l ≥ 0 for each colour and M 𝟙 ≥ 0.
+    """The conditions of absolute monotonicity (``garkcli.stability.ssp``): with M = (I + rK)⁻¹, M
+    K_l ≥ 0 for each colour and M 𝟙 ≥ 0.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
@@ -382,7 +378,7 @@ class _Contractive:
             raise UsageProblem(message, cure, code="no-radicals")
         _, parts = stacked(tableau, [ONE] * tableau.size)
         self.parts = [_matrix(part, ring) for part in parts]
-        # entries of M K_l that are zero for all methods decide nothing
+        # entries of M K_l that vanish for all methods give no inequality
         reach = np.linalg.matrix_power(
             np.eye(len(parts[0])) + sum(map(_pattern, parts)), len(parts[0])
         )
@@ -392,13 +388,13 @@ class _Contractive:
         import numpy as np
 
         x, r = point[:-1], point[-1]
-        found = [part.at(x) for part in self.parts]
-        total = np.sum(found, axis=0)
+        parts = [part.at(x) for part in self.parts]
+        total = np.sum(parts, axis=0)
         K, dK = total[0], total[1:]
         M = np.linalg.inv(np.eye(len(K)) + r * K)
         dM = np.concatenate([-r * (M @ dK @ M), (-M @ K @ M)[None]])
         values, slopes = [M.sum(1)], [dM.sum(2)]
-        for k, (rows, columns) in zip(found, self.used, strict=True):
+        for k, (rows, columns) in zip(parts, self.used, strict=True):
             slope = dM @ k[0]
             slope[:-1] += M @ k[1:]
             values.append((M @ k[0])[rows, columns])
@@ -407,7 +403,7 @@ class _Contractive:
 
 
 def _pattern(rows: Matrix) -> Array:
-    """Where a matrix has entries, as 0 and 1."""
+    """The pattern of nonzero entries of a matrix, as 0 and 1."""
     import numpy as np
 
     return np.array([[float(bool(x)) for x in row] for row in rows])
@@ -422,7 +418,7 @@ class _Step:
         self.E = _matrix(system.E, ring)
 
     def at(self, x: Array, z: Array) -> tuple[Array, Array, Array]:
-        """M, its derivatives by the unknowns, and by z.
+        """M and its derivatives in the unknowns and in z.
 
         Args:
             x: shape (unknowns,).
@@ -443,7 +439,7 @@ class _Step:
 
 
 class _Bounded:
-    """|R(z)| ≤ 1 at points of a line, times weights, so that points near 0 count too."""
+    """|R(z)| ≤ 1 at points of a line, weighted so that points near 0 count too."""
 
     def __init__(self, step: _Step, direction: complex, points: Array, power: int) -> None:
         self.step = step
@@ -455,7 +451,7 @@ class _Bounded:
     def on_line(
         cls, tableau: Tableau, ring: Parameters, direction: complex, order: int
     ) -> _Bounded:
-        """On an interval from 0 on, whose length is the last unknown."""
+        """On an interval from 0, whose length is the last unknown."""
         import numpy as np
 
         refuse_partitioned(tableau)
@@ -463,11 +459,12 @@ class _Bounded:
         return cls(step, direction, np.arange(1, SAMPLES + 1) / SAMPLES, order + 1)
 
     def at(self, point: Array) -> Gradient:
-        """The inequalities and their derivatives, the length of the interval the last unknown."""
         return self.over(point[:-1], float(point[-1]))
 
     def over(self, x: Array, length: float) -> Gradient:
-        """The inequalities on an interval of some length."""
+        """The inequalities on an interval of a length, with derivatives in the unknowns and the
+        length.
+        """
         import numpy as np
 
         z = self.direction * length * self.points
@@ -484,7 +481,7 @@ class AStable:
 
     Args:
         family: on linear problems.
-        colour: the one that is driven, counted from 0; None for all.
+        colour: the colour with λ ≠ 0, counted from 0; None for all.
         order: of the methods.
     """
 
@@ -495,14 +492,14 @@ class AStable:
         self._bounded = _Bounded(step, 1.0j, whole_axis(), order + 1)
 
     def at(self, x: Array) -> Gradient:
-        """The inequalities and their derivatives by the unknowns."""
+        """The inequalities and their derivatives in the unknowns."""
         values, derivatives = self._bounded.over(x, 1.0)
         return values, derivatives[:, :-1]
 
 
 class _Rays:
-    """|R| ≤ 1 at points of the edges of a sector, whose angle in degrees is the last unknown, and
-    that is at most a right one.
+    """|R| ≤ 1 at points of the edges of a sector; its angle in degrees, at most 90, is the last
+    unknown.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
@@ -540,8 +537,8 @@ def whole_axis() -> Array:
 
 
 class _Oscillating:
-    """All powers of the step on the oscillator are bounded: det M ≤ 1 and |tr M| ≤ 1 + det M at
-    points of an interval of hω from 0 on, whose length is the last unknown.
+    """Bounded powers of the step on the oscillator: det M ≤ 1 and |tr M| ≤ 1 + det M at points of
+    an interval of hω from 0, whose length is the last unknown.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters, order: int) -> None:

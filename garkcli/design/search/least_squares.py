@@ -24,23 +24,23 @@ if TYPE_CHECKING:
     System = Callable[[Array], tuple[Array, Array]]
 
 MAX_STEPS = 300
-"""Steps of a start before it is given up."""
+"""Most steps of a start."""
 SMALL = 1e-13
-"""What residuals are where nothing but rounding is left of them."""
+"""Residuals that are nothing but rounding."""
 LARGE = 40.0
-"""Unknowns beyond are on the way to infinity, where many starts end up."""
+"""Unknowns beyond are taken to diverge, as many starts do."""
 MAX_DAMPING = 1e10
 MIN_DAMPING = 1e-14
 PATIENCE = 35
-"""Steps in which the sum of squares has to fall by half."""
+"""Steps within which the sum of squares must fall by half."""
 
 
 class Minima(Frozen):
-    """Where the starts ended.
+    """The ends of the starts.
 
     Attributes:
         points: shape (unknowns, starts).
-        succeeded: which of them solve the system up to rounding.
+        succeeded: whether each solves the system up to rounding.
     """
 
     points: Array
@@ -54,15 +54,15 @@ def least_squares(
     small: float = SMALL,
     are_kept: bool = False,
 ) -> Minima:
-    """Solve a system from every start.
+    """Solves a system from every start.
 
     Args:
         system: residuals (conditions, points) and derivatives (conditions, unknowns, points).
         starts: shape (unknowns, starts).
-        steps: after which a start is given up.
-        small: a start has succeeded when no residual is larger.
-        are_kept: whether the system is that of these points in this order, so that none may be
-            left out when it has ended.
+        steps: most steps of a start.
+        small: a start succeeds when no residual is larger.
+        are_kept: whether the system depends on the places of the points, so that none may be
+            dropped when it has ended.
     """
     import numpy as np
 
@@ -93,7 +93,7 @@ def least_squares(
 
 
 class _Run:
-    """The starts that are still on their way."""
+    """The starts that are still active."""
 
     def __init__(self, system: System, starts: Array) -> None:
         import numpy as np
@@ -114,7 +114,7 @@ class _Run:
         return largest
 
     def is_promising(self) -> Array:
-        """Which starts still get better and stay bounded."""
+        """Whether each start still improves and stays bounded."""
         np = self.np
         self.age += 1
         fell = self.squares < 0.5 * self.mark
@@ -126,14 +126,14 @@ class _Run:
         return promising
 
     def keep(self, stays: Array) -> None:
-        """Forget the other starts."""
+        """Drops the other starts."""
         for name in ("x", "residuals", "jacobians"):
             setattr(self, name, self.np.ascontiguousarray(getattr(self, name)[..., stays]))
         for name in ("squares", "largest", "damping", "age", "mark"):
             setattr(self, name, getattr(self, name)[stays])
 
     def step(self) -> None:
-        """One step of each, taken where it makes the residuals smaller."""
+        """Makes one step of each start, accepted if it decreases the residuals."""
         np = self.np
         amount = self.damping * np.sqrt(self.squares)
         change = damped_step(self.residuals, self.jacobians, amount)
@@ -157,7 +157,9 @@ class _Run:
 
 
 def _sum_of_squares(rows: Array) -> Array:
-    """Over the first axis, one row after the other: sums in any other order may round otherwise."""
+    """Sums squares over the first axis row by row: another order of summation may round
+    differently.
+    """
     total: Array = rows[0] * rows[0]
     for row in rows[1:]:
         total = total + row * row
@@ -191,7 +193,7 @@ def _gram(jacobians: Array, axis: int) -> Array:
     size, points = vectors.shape[1], vectors.shape[2]
     gram = np.zeros((size, size, points))
     for i in range(size):
-        # of a symmetric matrix the lower half
+        # the lower half of a symmetric matrix
         part = gram[i, : i + 1]
         for v in vectors:
             part += v[i] * v[: i + 1]
@@ -199,7 +201,9 @@ def _gram(jacobians: Array, axis: int) -> Array:
 
 
 def _solve(matrices: Array, damping: Array, right: Array) -> Array:
-    """(M + λ I)⁻¹ r for each point by Cholesky's method; M by its lower half, and destroyed."""
+    """(M + λ I)⁻¹ r for each point by Cholesky's method; only the lower half of M is read, and M is
+    overwritten.
+    """
     import numpy as np
 
     size = len(right)
@@ -211,7 +215,7 @@ def _solve(matrices: Array, damping: Array, right: Array) -> Array:
     for k in range(size):
         matrices[k, k] += amount
     for k in range(size):
-        pivot = np.sqrt(matrices[k, k])  # NaN where rounding has made it negative
+        pivot = np.sqrt(matrices[k, k])  # NaN if rounding has made it negative
         matrices[k, k] = pivot
         column = matrices[k + 1 :, k]
         column /= pivot

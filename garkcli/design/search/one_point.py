@@ -1,4 +1,4 @@
-"""Rational functions and residuals at one point in floats, with derivatives, for an optimiser: in
+"""Rational functions and residuals at one point in floats, with derivatives, for an optimiser: by
 products of arrays, whose last bits depend on the machine.
 """
 
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 
 class Functions:
-    """Rational functions of the same unknowns at one point in floats, all at once: each monomial is
-    computed once. Sums are in an order that suits the machine.
+    """Rational functions of the same unknowns at one point in floats: each monomial is computed
+    once. The order of summation depends on the machine.
 
     Args:
-        functions: P/Q each.
-        unknowns: how many there are.
+        functions: quotients P/Q.
+        unknowns: their number.
     """
 
     def __init__(self, functions: Sequence[RationalFunction], unknowns: int) -> None:
@@ -93,7 +93,7 @@ class Matrix:
 
     Args:
         rows: of the functions.
-        unknowns: of them.
+        unknowns: their number.
     """
 
     def __init__(self, rows: Sequence[Sequence[RationalFunction]], unknowns: int) -> None:
@@ -104,24 +104,24 @@ class Matrix:
         self._functions = Functions([rows[i][j] for i, j in places], unknowns)
 
     def at(self, point: Array) -> Array:
-        """The matrix and its derivatives by each unknown, shape (1 + unknowns, rows, columns)."""
+        """The matrix and its derivatives in each unknown, shape (1 + unknowns, rows, columns)."""
         values, gradients = self._functions.at(point)
-        found = np.zeros((1 + gradients.shape[1], *self.shape))
-        found[0, self._rows, self._columns] = values
-        found[1:, self._rows, self._columns] = gradients.transpose()
-        return found
+        matrix = np.zeros((1 + gradients.shape[1], *self.shape))
+        matrix[0, self._rows, self._columns] = values
+        matrix[1:, self._rows, self._columns] = gradients.transpose()
+        return matrix
 
 
 Steps: TypeAlias = "list[Array]"
-"""What was made at a point, a step after the other."""
+"""The arrays of all steps so far at a point."""
 
 
 class Recorded(StageVectors[int]):
-    """The conditions of a family: the steps in which the stage vectors of its trees come about,
-    recorded once. In place of vectors there are numbers of steps.
+    """The conditions of a family: the steps that compute the stage vectors of its trees, recorded
+    once. Numbers of steps stand for vectors.
 
-    The vectors of some trees have the shape (trees, 1 + unknowns, stages): their values and their
-    derivatives, to which matrices are applied at once.
+    The vectors of some trees have the shape (trees, 1 + unknowns, stages): their values and
+    derivatives, to which matrices are applied together.
     """
 
     def __init__(self, system: Residuals) -> None:
@@ -155,14 +155,14 @@ class Recorded(StageVectors[int]):
         made: Steps = []
         for step in self._steps:
             made.append(step(made))
-        found = np.zeros((self._size, 1 + self.unknowns))
+        residuals = np.zeros((self._size, 1 + self.unknowns))
         scale, required = self._floats
         for root, ids, number in self._closing:
-            found[ids] = scale[ids, None] * _applied(weights[root], made[number])[:, :, 0]
-            found[ids, 0] -= required[ids]
+            residuals[ids] = scale[ids, None] * _applied(weights[root], made[number])[:, :, 0]
+            residuals[ids, 0] -= required[ids]
         trees = len(scale)
-        found[trees:, 0], found[trees:, 1:] = self._more.at(point)
-        return found[:, 0], found[:, 1:]
+        residuals[trees:, 0], residuals[trees:, 1:] = self._more.at(point)
+        return residuals[:, 0], residuals[:, 1:]
 
     def _add(self, step: Callable[[Steps], Array]) -> int:
         self._steps.append(step)
@@ -191,13 +191,13 @@ class Recorded(StageVectors[int]):
 def _applied(matrix: Array, vectors: Array) -> Array:
     """A matrix times vectors, with derivatives."""
     transposed = matrix.transpose(0, 2, 1)
-    found: Array = vectors @ transposed[0]
-    found[:, 1:] += (vectors[:, 0] @ transposed[1:]).transpose(1, 0, 2)
-    return found
+    images: Array = vectors @ transposed[0]
+    images[:, 1:] += (vectors[:, 0] @ transposed[1:]).transpose(1, 0, 2)
+    return images
 
 
 def _multiplied(u: Array, v: Array, powers: Array | None) -> Array:
-    """Products of vectors, with derivatives."""
+    """The products of vectors, with derivatives."""
     if powers is None:
         product: Array = u * v[:, :1]
         other = u[:, :1] * v
@@ -209,7 +209,7 @@ def _multiplied(u: Array, v: Array, powers: Array | None) -> Array:
 
 
 def _multiplication(space: PolynomialSpace) -> Array:
-    """By each power of x, as matrices that rows are multiplied with."""
+    """Multiplication by each power of x, as matrices to the right of row vectors."""
     s = space.stages
     rows = space.reductions(2 * s - 1)
     reductions = np.array([[as_float(x) for x in row] for row in rows])  # type: ignore[arg-type]

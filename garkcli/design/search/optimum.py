@@ -1,5 +1,5 @@
 """The best method near a solution: SciPy's sequential quadratic programming (D. Kraft, 1988) on the
-order conditions, with an objective and inequalities; then short numbers that cost next to nothing.
+order conditions, with an objective and inequalities; then short numbers that cost hardly anything.
 """
 
 from __future__ import annotations
@@ -44,28 +44,28 @@ if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
 
 ROUNDING = 1e-17
-"""A smaller sum of squares may be zero."""
+"""Sums of squares below this may be zero."""
 LARGEST = 20.0
-"""Unknowns are no larger."""
+"""Bound on the unknowns."""
 MARGIN = 1e-6
-"""Positive functions are at least so large."""
+"""Lower bound on positive functions."""
 CLOSE = 1e-12
 """Residuals of a method in floats."""
 SLACK = 1e-7
-"""The part of the objective that short numbers may cost."""
+"""Share of the objective that short numbers may cost."""
 LITTLE = 1e-6
-"""The part of the objective that the optimiser has to gain, or it is not started again."""
+"""Share of the objective that a restart of the optimiser must gain."""
 REPEATED = 30
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20, 24, 25, 30, 40, 50, 100, 200, 500)
 FINE = tuple(10**k for k in range(3, 13))
-"""Denominators where none of the short ones does."""
+"""Denominators tried if no short one works."""
 
 
 class Optimum(Frozen):
-    """A method in floats at which an objective is least nearby.
+    """A method in floats at a local minimum of an objective.
 
     Attributes:
-        value: of the objective; of a level, minus the level.
+        value: of the objective; minus the level for a level.
         point: values of the unknowns.
     """
 
@@ -74,24 +74,24 @@ class Optimum(Frozen):
 
     @property
     def grade(self) -> float:
-        """The objective to seven digits: what is the same up to rounding is the same."""
+        """The objective to seven digits, so that values equal up to rounding are equal."""
         return float(f"{self.value:.6e}")
 
     def is_less(self, other: Optimum, part: float = 0.0) -> bool:
-        """Whether the objective is less than at another one by more than a part of it."""
+        """Whether the objective is less than at another method by more than a share of it."""
         return self.value < other.value - part * abs(other.value)
 
 
 class Program:
-    """Minimise an objective over the methods of a family of an order.
+    """Minimises an objective over the methods of a family with an order.
 
     Args:
-        family: of methods; with ranges, signs and kinds of stability.
+        family: with ranges, signs and kinds of stability.
         conditions: of the order.
         objective: one of ``OBJECTIVES``.
 
     Raises:
-        UsageProblem: SciPy is not there, or the objective has no meaning for the methods.
+        UsageProblem: SciPy is not installed, or the objective is not applicable.
     """
 
     def __init__(self, family: Family, conditions: Residuals, objective: Single | Sum) -> None:
@@ -106,7 +106,7 @@ class Program:
         ring = family.ring
         order = conditions.table.max_order
         self.conditions = conditions
-        # the conditions of one order more are the error
+        # the conditions of the next order are the error
         wide = Residuals(conditions.tableau, ring, order + 1, conditions.relations)
         self._trees = Trees(wide)
         trees, last = len(wide.table), wide.table.ids(order + 1)
@@ -149,7 +149,7 @@ class Program:
 
         Args:
             objective: the new one.
-            cap: a number that is at most a bound, or a level that is at least the bound.
+            cap: an objective with its bound, which is a lower one for levels.
         """
         other = copy(self)
         if cap is not None:
@@ -159,40 +159,42 @@ class Program:
         return other
 
     def equations(self, fixed: Sequence[Fixed] = ()) -> Equations:
-        """The conditions, and those of given values, at one point."""
+        """The conditions, and those of given values, as functions of one point."""
         import numpy as np
 
         functions = Functions([one.function for one in fixed], self.conditions.unknowns)
-        given = np.array([as_float(one.value) for one in fixed])
+        values_wanted = np.array([as_float(one.value) for one in fixed])
 
         def at(x: Array) -> Gradient:
             values, slopes = self._trees.at(x)
             values, slopes = values[self._own], slopes[self._own]
             if not fixed:
                 return values, slopes
-            found, of_found = functions.at(x)
-            return np.concatenate([values, found - given]), np.concatenate([slopes, of_found])
+            of_fixed, of_found = functions.at(x)
+            return np.concatenate([values, of_fixed - values_wanted]), np.concatenate(
+                [slopes, of_found]
+            )
 
         return at
 
     def signs(self, x: Array) -> Gradient:
-        """The inequalities without the level, values and derivatives."""
+        """The inequalities without those of the optimised level: values and derivatives."""
         import numpy as np
 
-        found, slopes = self._signs.at(x)
-        values, derivatives = [found - self._margin], [slopes]
+        signs, slopes = self._signs.at(x)
+        values, derivatives = [signs - self._margin], [slopes]
         for at in (*(one.at for one in self.stable), *self._caps):
-            found, slopes = at(x)
-            values.append(found)
+            signs, slopes = at(x)
+            values.append(signs)
             derivatives.append(slopes)
         return np.concatenate(values), np.concatenate(derivatives)
 
     def improved(self, start: Sequence[float], fixed: Sequence[Fixed] = ()) -> Optimum | None:
-        """The best method near a solution; None where no method is near that is as it is wanted.
+        """The best method near a solution; None if no method near it meets the wants.
 
         Args:
             start: values of the unknowns, a solution of the conditions.
-            fixed: functions that have given values.
+            fixed: functions with given values.
         """
         import numpy as np
 
@@ -207,22 +209,22 @@ class Program:
             x = np.array(best.point)
             if self._entries:
                 return self._emptied(best)
-            found = descended(Least(self.total, x), equations, x)
-            return self.evaluated(found, fixed) or best
+            end = descended(Least(self.total, x), equations, x)
+            return self.evaluated(end, fixed) or best
 
     def settled(self, best: Optimum) -> Optimum:
-        """An optimum from which the optimiser, started again, gains nothing."""
+        """An optimum from which a restart of the optimiser gains nothing."""
         for _ in range(REPEATED):
             check_time()
-            found = self.improved(best.point)
-            if found is None or not found.is_less(best, LITTLE):
+            improved = self.improved(best.point)
+            if improved is None or not improved.is_less(best, LITTLE):
                 break
-            best = found
+            best = improved
         return best
 
     def _emptied(self, best: Optimum) -> Optimum:
-        """A method nearby of which further coefficients are zero, the smallest first, until none
-        can be.
+        """A method nearby with as many zero coefficients as possible, the smallest coefficients
+        first.
         """
         zeros = self._zeros(best)
         found: Optimum | None = best
@@ -231,8 +233,8 @@ class Program:
             found = None
             for function in tried:
                 check_time()
-                more = [*zeros, Fixed(function, fmpq(0))]
-                found = self.moved(best.point, more)
+                extended = [*zeros, Fixed(function, fmpq(0))]
+                found = self.moved(best.point, extended)
                 if found is not None and found.value < best.value:
                     zeros = self._zeros(found)
                     break
@@ -240,7 +242,7 @@ class Program:
         return best
 
     def _by_size(self, at: Optimum) -> list[RationalFunction]:
-        """The coefficients that are not zero, in ascending order."""
+        """The nonzero coefficients, in ascending order of size."""
         import numpy as np
 
         values = with_gradients(self._entries, np.array(at.point)[:, None])[0][:, 0]
@@ -248,12 +250,12 @@ class Program:
         return [f for x, f in sorted(pairs, key=lambda pair: pair[0]) if x > NOTHING]
 
     def _zeros(self, at: Optimum) -> list[Fixed]:
-        """The coefficients that are to be zero because they are."""
+        """Conditions that keep zero coefficients zero."""
         others = self._by_size(at)
         return [Fixed(f, fmpq(0)) for f in self._entries if f not in others]
 
     def within(self, x: Array) -> Gradient:
-        """The signs, and that unknowns are not too large."""
+        """The signs, and bounds on the unknowns."""
         import numpy as np
 
         values, slopes = self.signs(x)
@@ -264,7 +266,7 @@ class Program:
         )
 
     def evaluated(self, x: Array, fixed: Sequence[Fixed] = ()) -> Optimum | None:
-        """A point led back to the methods, with its objective; None where it is none of them."""
+        """A point corrected to a method, with its objective; None if it is none of the methods."""
         import numpy as np
 
         system = Fixings(self.conditions, fixed)
@@ -292,34 +294,34 @@ class Program:
     def shortened(
         self, best: Optimum, wanted: Sequence[RationalFunction]
     ) -> tuple[Fixings, Optimum]:
-        """Short values for functions, as many as solutions leave free, which cost little.
+        """Gives short values to as many functions as the solutions leave free, at little cost.
 
         Args:
             best: an optimum.
-            wanted: functions that are to be short, in this order.
+            wanted: functions that should be short, in this order.
         """
         import numpy as np
 
         fixed = self._zeros(best)
         present = best
-        most = self._rounding if self.is_none(best) else best.value + SLACK * abs(best.value)
-        known = self._rank(fixed, present)
+        bound = self._rounding if self.is_none(best) else best.value + SLACK * abs(best.value)
+        settled = self._rank(fixed, present)
         for function in wanted:
-            if known == len(best.point):
+            if settled == len(best.point):
                 break
-            if self._rank([*fixed, Fixed(function, fmpq(0))], present) == known:
+            if self._rank([*fixed, Fixed(function, fmpq(0))], present) == settled:
                 continue
             now = with_gradients([function], np.array(present.point)[:, None])[0]
             for value in _near(float(now[0, 0])):
                 check_time()
-                more = [*fixed, Fixed(function, value)]
-                moved = self.moved(present.point, more)
-                if moved is None or moved.value > most:
+                extended = [*fixed, Fixed(function, value)]
+                moved = self.moved(present.point, extended)
+                if moved is None or moved.value > bound:
                     continue
-                if self._rank(more, moved) > known:
-                    fixed, present, known = more, moved, self._rank(more, moved)
+                if self._rank(extended, moved) > settled:
+                    fixed, present, settled = extended, moved, self._rank(extended, moved)
                     if not self.is_none(best):
-                        most = min(most, moved.value + SLACK * abs(moved.value))
+                        bound = min(bound, moved.value + SLACK * abs(moved.value))
                     break
         return Fixings(self.conditions, fixed), present
 
@@ -344,10 +346,10 @@ class Program:
 
 
 def _near(present: float) -> Iterator[fmpq]:
-    """Numbers near one, the shorter first; each once."""
-    known = set()
+    """Distinct rational numbers near a number, the shorter first."""
+    yielded = set()
     for q in (*DENOMINATORS, *FINE):
         value = fmpq(round(present * q), q)
-        if abs(as_float(value) - present) < 0.02 and value not in known:
-            known.add(value)
+        if abs(as_float(value) - present) < 0.02 and value not in yielded:
+            yielded.add(value)
             yield value

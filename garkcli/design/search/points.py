@@ -1,5 +1,5 @@
-"""Points that solve a system: how they may move, Newton's method to any number of digits, and
-proofs that a solution exists, by Krawczyk's test in ball arithmetic.
+"""Points that solve a system: their freedom, Newton's method to any number of digits, and proofs
+that a solution exists, by Krawczyk's test in ball arithmetic.
 
 For a square system F, a point m, a matrix Y near F'(m)⁻¹ and a box X around m:
 
@@ -31,7 +31,7 @@ FIRST_BITS = 106
 
 
 class Fixed(Frozen):
-    """A function of the unknowns that is given a value.
+    """A function of the unknowns with a given value.
 
     Attributes:
         function: an unknown, or a node.
@@ -43,7 +43,7 @@ class Fixed(Frozen):
 
 
 class Fixings:
-    """The conditions of a family together with values for some functions.
+    """The conditions of a family, with given values for some functions.
 
     Args:
         conditions: of a family, or any equations.
@@ -65,7 +65,7 @@ class Fixings:
         self.trials = tuple(trials)
 
     def at(self, points: Array) -> tuple[Array, Array]:
-        """Values and derivatives as those of ``Residuals.at``, the functions below them."""
+        """Values and derivatives of the conditions, then of the functions minus their values."""
         import numpy as np
 
         values, gradients = self.conditions.at(points)
@@ -88,7 +88,7 @@ class Fixings:
 
 
 class Rank(Frozen):
-    """Rows and columns of a matrix with a nonzero determinant, of the largest size.
+    """Rows and columns of a largest submatrix with a nonzero determinant.
 
     Attributes:
         rows: indices, in the order of elimination.
@@ -107,14 +107,14 @@ def rank(matrix: Array, grain: float = RANK) -> Rank:
 
     Args:
         matrix: of floats.
-        grain: pivots smaller than this times the largest count as zero; the largest is 1 at least.
+        grain: pivots below this times the largest entry, or below this, count as zero.
     """
     import numpy as np
 
     rest = matrix.copy()
     rows: list[int] = []
     columns: list[int] = []
-    # the conditions are scaled to entries about 1: a matrix with small ones alone is nearly zero
+    # conditions are scaled to entries about 1, so a matrix of small entries is nearly zero
     least = grain * max(1.0, float(np.max(np.abs(rest), initial=0.0)))
     for _ in range(min(rest.shape)):
         sizes = np.abs(rest)
@@ -131,7 +131,6 @@ def rank(matrix: Array, grain: float = RANK) -> Rank:
 
 
 def balls(point: Sequence[Any]) -> Array:
-    """A column of balls."""
     import numpy as np
 
     made = np.empty((len(point), 1), object)
@@ -142,9 +141,8 @@ def balls(point: Sequence[Any]) -> Array:
 def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None:
     """A solution near a point to many bits, a column of balls without radius.
 
-    Newton's method on as many equations and unknowns as the rank; the other equations have to
-    hold at the end, and the other unknowns stay. None where they do not: then there is no solution
-    near, or one at which the equations are degenerate.
+    Newton's method on as many equations and unknowns as the rank; the other unknowns stay. None if
+    the other equations fail at the end: then no solution is near, or a degenerate one.
     """
     import numpy as np
 
@@ -170,7 +168,7 @@ def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None
 
 
 def small_bits(bits: int) -> int:
-    """Residuals have to be below 2 to minus this after so many bits."""
+    """The e in the bound 2^−e on residuals after a polish to so many bits."""
     return 4 * bits // 5
 
 
@@ -179,7 +177,7 @@ def _small(bits: int) -> arb:
 
 
 def _newton(system: Fixings, x: Array, chosen: Rank) -> bool:
-    """One step, in place; whether there is one."""
+    """Makes one step in place; False if the matrix is singular or an unknown gets large."""
     if not len(chosen):
         return True
     residuals, jacobians = system.at(x)
@@ -195,12 +193,12 @@ def _newton(system: Fixings, x: Array, chosen: Rank) -> bool:
 
 
 def largest_residual(system: Fixings, x: Array) -> arb:
-    """A bound on all of them."""
+    """A bound on all residuals."""
     residuals, _ = system.at(x)
     largest = arb(0)
     for value in residuals[:, 0]:
         upper = abs(value).upper()
-        if not upper <= largest:  # also where it is no number
+        if not upper <= largest:  # also for NaN
             largest = upper
     return largest
 
@@ -211,11 +209,11 @@ def is_proved(
     """Whether there is a solution of all equations within 2^(−bits/2) of a point.
 
     Args:
-        system: as many equations as unknowns, else the answer is no: a solution of some of the
-            equations proves nothing of the others.
+        system: as many equations as unknowns; otherwise the answer is False, since a solution of
+            some equations proves nothing about the others.
         point: a column of balls without radius.
         bits: of the arithmetic.
-        nonzero: functions that are not to be zero at the solution.
+        nonzero: functions that must not vanish at the solution.
     """
     check_time()
     with ctx.workprec(bits):

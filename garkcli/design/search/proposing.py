@@ -24,9 +24,9 @@ BITS_A_DIGIT = 3.3
 MAX_DEGREE = 4
 """Largest degree of a proposed root."""
 PRECISION = 4_000
-"""Bits in which exact forms are compared with decimals; no decimal has so many."""
+"""Precision of the comparison of exact forms with decimals; no decimal has so many bits."""
 MAX_DIGITS = 1_000
-"""Longer decimals are left as they are."""
+"""Longer decimals are left unchanged."""
 _DECIMAL = re.compile(r"-?[0-9]*\.[0-9]*(?:e[-+]?[0-9]{1,3})?")
 
 
@@ -35,8 +35,8 @@ class Proposal(Frozen):
 
     Attributes:
         printed: the decimal.
-        exact: the text of a coefficient; the longer it is, the less it says.
-        distance: how far they are apart, as a decimal, rounded up.
+        exact: the exact form as text of a coefficient.
+        distance: the difference, as a decimal, rounded up.
     """
 
     printed: str
@@ -45,14 +45,14 @@ class Proposal(Frozen):
 
 
 def significant_digits(text: str) -> int:
-    """Significant digits of a decimal; 0 of anything else."""
+    """The number of significant digits of a decimal; 0 for other texts."""
     if not _DECIMAL.fullmatch(text) or not any(x.isdigit() for x in text):
         return 0
     return len("".join(map(str, Decimal(text).as_tuple().digits)).strip("0"))
 
 
 def proposed(text: str) -> Proposal | None:
-    """The shortest exact form of a decimal, where there is one that its digits speak for.
+    """The shortest exact form of a decimal, if its digits support one.
 
     >>> proposed("0.78867513459481288").exact, proposed("0.3333333333333333").exact
     ('1/2 + sqrt(3)/6', '1/3')
@@ -61,8 +61,8 @@ def proposed(text: str) -> Proposal | None:
     if not FEWEST_DIGITS <= digits <= MAX_DIGITS:
         return None
     value = fmpq(*Decimal(text).as_integer_ratio())
-    found = exact_form(value, digits, text)
-    return None if found is None else _near(text, value, *found)
+    form = exact_form(value, digits, text)
+    return None if form is None else _near(text, value, *form)
 
 
 def exact_form(value: fmpq, digits: int, text: str) -> tuple[str, arb | fmpq] | None:
@@ -70,19 +70,19 @@ def exact_form(value: fmpq, digits: int, text: str) -> tuple[str, arb | fmpq] | 
 
     Args:
         value: of the digits.
-        digits: so many of them are right.
-        text: some of them, to tell the root of a polynomial.
+        digits: the number of correct digits.
+        text: a decimal that identifies the root of a polynomial.
     """
     bits = int(digits * BITS_A_DIGIT)
     with ctx.workprec(bits + 64):
         ball = arb(value).mid()
         fraction = rational(ball, bits)
-        found = None if fraction is not None else minimal_polynomial(ball, bits)
+        minimal = None if fraction is not None else minimal_polynomial(ball, bits)
     if fraction is not None:
         return str(fraction), fraction
-    if found is None or not 1 < found.degree() <= MAX_DEGREE:
+    if minimal is None or not 1 < minimal.degree() <= MAX_DEGREE:
         return None
-    polynomial = Polynomial.from_flint(fmpq_poly(found))
+    polynomial = Polynomial.from_flint(fmpq_poly(minimal))
     roots = [root for root, _ in real_roots(polynomial)]
     if not roots:
         return None
@@ -91,11 +91,11 @@ def exact_form(value: fmpq, digits: int, text: str) -> tuple[str, arb | fmpq] | 
     return root_text(root) or f"root_of({plain}, {text})", root.ball(PRECISION)
 
 
-def _near(text: str, value: fmpq, exact: str, found: arb | fmpq) -> Proposal | None:
-    """The proposal, where the digits are those of the number."""
+def _near(text: str, value: fmpq, exact: str, number: arb | fmpq) -> Proposal | None:
+    """The proposal, if the digits agree with the number."""
     unit = fmpq(10) ** int(Decimal(text).as_tuple().exponent)
     with ctx.workprec(PRECISION):
-        distance = abs(arb(found) - arb(value))
+        distance = abs(arb(number) - arb(value))
         if not distance <= LAST_PLACES * unit:
             return None
         return Proposal(text, exact, decimal(rounded_up(distance)))

@@ -1,9 +1,9 @@
 """Rational functions of unknowns with their gradients, for many points at once.
 
 Points are columns of arrays of floats, or of balls (``flint.arb`` in arrays of objects): the same
-code serves the search and its proofs. Floats are added, multiplied and divided entry by entry and
-in one order, nothing is left to a library that sums as suits the processor: the results are the
-same to the last bit on every machine with IEEE arithmetic.
+code serves the search and its proofs. Floats are added, multiplied and divided entry by entry in a
+fixed order, and no library chooses an order of summation: the results are the same to the last bit
+on every machine with IEEE arithmetic.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ if TYPE_CHECKING:
     Array: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 
 Constant: TypeAlias = Callable[[fmpq], Any]
-"""Makes a float or a ball of a rational number."""
+"""Makes a float or a ball from a rational number."""
 
 
 def as_float(number: fmpq) -> float:
-    """The nearest float; Python divides whole numbers with one rounding."""
+    """The nearest float; Python divides integers with one rounding."""
     return int(number.p) / int(number.q)
 
 
 def as_ball(number: fmpq) -> arb:
-    """A ball with the number in it."""
+    """A ball that contains the number."""
     return arb(number)
 
 
 def in_decimals(ball: arb, count: int) -> int:
-    """The middle of a ball times 10^count as the nearest whole number, half up."""
+    """The middle of a ball times 10^count as the nearest integer, half up."""
     return int((midpoint(ball) * 10**count + fmpq(1, 2)).floor())
 
 
 class Polynomial(Frozen):
-    """Terms: a coefficient and the unknowns that it is multiplied with, as often as it takes."""
+    """Terms: a coefficient, and the unknowns in its monomial, repeated by their exponents."""
 
     terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
 
@@ -70,8 +70,8 @@ class Slope(Frozen):
     """A value and its derivatives.
 
     Attributes:
-        value: at each point, or one number for all of them.
-        derivatives: those by unknowns that are not zero everywhere.
+        value: at each point, or one number if it is constant.
+        derivatives: unknowns with the derivatives in them that are not identically zero.
     """
 
     value: Any
@@ -79,7 +79,7 @@ class Slope(Frozen):
 
 
 class RationalFunction:
-    """P/Q and its gradient.
+    """A rational function P/Q with its gradient.
 
     Args:
         number: a rational number or a rational function.
@@ -98,7 +98,6 @@ class RationalFunction:
                 self.derivatives.append((unknown, (Polynomial.of(of_p), Polynomial.of(of_q))))
 
     def at(self, points: Array, constant: Constant) -> Slope:
-        """The value and the gradient at points, shape (unknowns, points)."""
         value = self.numerator.at(points, constant)
         if self.denominator is None:
             derivatives = [
@@ -117,20 +116,19 @@ class RationalFunction:
 def polynomial_functions(
     polynomials: Iterable[fmpq_mpoly], ring: Parameters
 ) -> list[RationalFunction]:
-    """Polynomials as functions of the unknowns."""
     one = ring.constant(fmpq(1))
     return [RationalFunction(ring.quotient(p, one), ring) for p in polynomials]
 
 
 def over_box(function: RationalFunction, box: Array) -> arb:
-    """The value over a column of balls; that of a constant is one number, not one a point."""
+    """The value over a column of balls; a constant is one number."""
     value: Any = function.at(box, as_ball).value
     ball: arb = value if isinstance(value, arb) else value[0]
     return ball
 
 
 class System:
-    """Equations: functions that are to be zero."""
+    """Equations f = 0 with rational functions f."""
 
     def __init__(self, functions: list[RationalFunction]) -> None:
         self.functions = functions

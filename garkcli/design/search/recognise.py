@@ -1,6 +1,6 @@
-"""Rational and algebraic numbers told by many of their digits.
+"""Rational and algebraic numbers recognised from many digits.
 
-The result is a guess, which an exact certificate has to confirm: a wrong one does no harm.
+The result is a guess, which an exact certificate must confirm; a wrong guess is harmless.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen
 
 MAX_DEGREE = 8
-"""Largest degree that is tried."""
+"""Largest degree tried."""
 
 
 class Recognised(Frozen):
@@ -26,7 +26,7 @@ class Recognised(Frozen):
     Attributes:
         values: by name.
         modulus: the minimal polynomial of the generator of their field, monic.
-        root: its root that is meant; rational where all values are.
+        root: its real root; 0 if all values are rational.
     """
 
     values: Mapping[str, Number]
@@ -35,11 +35,11 @@ class Recognised(Frozen):
 
 
 def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
-    """The exact numbers of which these are digits, where they are short.
+    """Short exact numbers with the given digits; None if there are none.
 
     Args:
         numbers: balls without radius.
-        bits: so many of each are right.
+        bits: the number of correct bits of each.
     """
     values: dict[str, Number] = {}
     irrational: dict[str, arb] = {}
@@ -51,10 +51,10 @@ def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
             values[name] = value
     if not irrational:
         return Recognised(values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0)))
-    found = _generator(irrational, bits)
-    if found is None:
+    minimal = _generator(irrational, bits)
+    if minimal is None:
         return None
-    polynomial, generator = found
+    polynomial, generator = minimal
     modulus = fmpq_poly(polynomial) / fmpq(polynomial[polynomial.degree()])
     field = NumberField(modulus, ())
     root = _root(modulus, generator)
@@ -69,7 +69,7 @@ def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
 
 
 def rational(number: arb, bits: int) -> fmpq | None:
-    """The rational number of which these are digits, where it has a third of the digits or less.
+    """The rational number with these digits, if it has at most a third as many.
 
     >>> with ctx.workprec(200):
     ...     rational((arb(22) / 7).mid(), 190)
@@ -90,12 +90,12 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
         return -_simplest(-high, -low)
     terms: list[fmpz] = []
     while True:
-        whole = low.floor()
-        if low == whole or whole < high.floor():
-            terms.append(whole if low == whole else whole + 1)
+        integral = low.floor()
+        if low == integral or integral < high.floor():
+            terms.append(integral if low == integral else integral + 1)
             break
-        terms.append(whole)
-        low, high = 1 / (high - whole), 1 / (low - whole)
+        terms.append(integral)
+        low, high = 1 / (high - integral), 1 / (low - integral)
     value = fmpq(terms[-1])
     for term in reversed(terms[:-1]):
         value = term + 1 / value
@@ -115,7 +115,7 @@ def _generator(irrational: Mapping[str, arb], bits: int) -> tuple[fmpz_poly, arb
 
 
 def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
-    """A polynomial of least degree with short coefficients that is zero at a number up to its
+    """A polynomial of least degree with short coefficients that vanishes at a number up to its
     digits.
 
     >>> with ctx.workprec(300):
@@ -135,27 +135,27 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
 
 
 def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
-    """Short whole numbers with Σ m_k x_k = 0 up to the digits, by lattice reduction (A. Lenstra,
-    H. Lenstra, L. Lovász, 1982).
+    """Short integers with Σ m_k x_k = 0 up to the digits, by lattice reduction (A. Lenstra, H.
+    Lenstra, L. Lovász, 1982).
     """
     size = len(numbers)
-    kept = 7 * bits // 8
+    scale_bits = 7 * bits // 8
     with ctx.workprec(bits):
-        scaled = [(x * arb(2) ** kept + arb(0.5)).floor().mid() for x in numbers]
+        scaled = [(x * arb(2) ** scale_bits + arb(0.5)).floor().mid() for x in numbers]
     rows = []
     for k, x in enumerate(scaled):
         row = [fmpz(int(k == j)) for j in range(size)]
         rows.append([*row, midpoint(x).p])
     shortest = fmpz_mat(rows).lll()
     relation = [shortest[0, j] for j in range(size)]
-    # by chance the lattice has vectors of kept/size bits
-    most = kept // (2 * size)
+    # a random lattice has vectors of kept/size bits
+    bound = scale_bits // (2 * size)
     longest = max(int(shortest[0, j]).bit_length() for j in range(size + 1))
-    return relation if longest <= most else None
+    return relation if longest <= bound else None
 
 
 def _coordinates(number: arb, generator: arb, degree: int, bits: int) -> list[fmpq] | None:
-    """A number as a polynomial in the generator."""
+    """The coefficients of a number as a polynomial in the generator."""
     with ctx.workprec(bits):
         powers = [generator**k for k in range(degree)]
     relation = _relation([number, *powers], bits)

@@ -1,8 +1,8 @@
 """The residuals of all trees of a family up to an order, with gradients, for many points at once.
 
 A tree is stem ∘ branch in the tree table, and its stage vector 𝒜^[stem] ⊙ (A 𝒜^[branch]). Values
-and derivatives by every unknown are carried along together. The residual of a tree u of order ρ is
-that of the normalised condition, γ(u)/ρ b·𝒜^[u] − 1/ρ: conditions of one order weigh alike.
+and derivatives in every unknown are computed together. The residual of a tree u of order ρ is
+γ(u)/ρ b·𝒜^[u] − 1/ρ, so all conditions of one order have the same weight.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class Residuals:
     Args:
         tableau: its entries are rational numbers and rational functions.
         ring: the unknowns.
-        order: conditions of all trees up to it are meant.
-        more: further polynomials that are to be zero.
+        order: the conditions are of all trees up to it.
+        more: further polynomials that should vanish.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class Residuals:
 
     @property
     def numbers_a_point(self) -> int:
-        """How many numbers an evaluation holds for each point, about."""
+        """The approximate number of floats that an evaluation holds for each point."""
         stages = max(space.stages for space in self.tableau.spaces)
         lower = self.table.ids(self.table.max_order).start  # trees below the highest order
         vectors = 3 * lower * stages + 2 * (len(self.table) - lower) * stages
@@ -71,7 +71,7 @@ class Residuals:
 
     @cached_property
     def floats(self) -> tuple[Array, Array]:
-        """γ(u) over ρ(u), and what b·𝒜[u] times this is on the exact solution, for each tree."""
+        """For each tree γ(u)/ρ(u), and the value of b·𝒜[u] times this for the exact solution."""
         import numpy as np
 
         table, kinds = self.table, self.table.admissible.kinds
@@ -86,8 +86,8 @@ class Residuals:
 
     @cached_property
     def at_one(self) -> Callable[[Array], tuple[Array, Array]]:
-        """Values, shape (conditions,), and derivatives, (conditions, unknowns), at one point in
-        floats, shape (unknowns,), faster.
+        """Evaluates at one point in floats, shape (unknowns,), faster than ``at``: values, shape
+        (conditions,), and derivatives, (conditions, unknowns).
         """
         from garkcli.design.search.one_point import Recorded
 
@@ -95,18 +95,18 @@ class Residuals:
 
 
 class Generators(rational.System):
-    """Polynomials that generate all order conditions of a family, none of them zero, each once.
+    """Distinct nonzero polynomials that generate all order conditions of a family.
 
-    They are fewer than the trees: what is proved of all of them is proved of all conditions.
+    They are fewer than the trees; a proof for all of them is a proof for all conditions.
 
     Args:
         tableau: as for ``Residuals``.
         ring: the unknowns.
-        order: conditions of all trees up to it are meant.
-        more: further polynomials that are to be zero.
+        order: the conditions are of all trees up to it.
+        more: further polynomials that should vanish.
 
     Attributes:
-        denominators: functions that are not zero at any method of the family.
+        denominators: functions that vanish at no method of the family.
     """
 
     def __init__(
@@ -147,7 +147,7 @@ class _Vectors:
 
 
 class _Evaluation(StageVectors[_Vectors]):
-    """One evaluation."""
+    """One evaluation of all residuals."""
 
     def __init__(self, system: Residuals, points: Array) -> None:
         import numpy as np
@@ -227,7 +227,6 @@ class _Evaluation(StageVectors[_Vectors]):
         return _Vectors(values, derivatives)
 
     def _modular(self, space: PolynomialSpace, u: Array, v: Array) -> Array:
-        """The product of polynomials modulo the node polynomial."""
         s = space.stages
         trees, _, *rest = u.shape
         out = self._zeros(trees, 2 * s - 1, *rest)
@@ -240,7 +239,7 @@ class _Evaluation(StageVectors[_Vectors]):
         return out[:, :s]
 
     def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:
-        """The residuals of trees from their stage vectors."""
+        """Adds the products of weights and stage vectors of trees, and normalises them."""
         values, gradients = self.values[ids], self.gradients[ids]
         for i, slope in enumerate(self.weights[root]):
             x = vectors.values[:, i]
@@ -251,7 +250,7 @@ class _Evaluation(StageVectors[_Vectors]):
         self._normalise(root, ids)
 
     def _normalise(self, root: int, ids: slice) -> None:
-        """From b·𝒜[u] to the residual."""
+        """Turns b·𝒜[u] into residuals."""
         table = self.table
         values, gradients = self.values[ids], self.gradients[ids]
         integrated = table.admissible.kinds[root].integrated(int(table.order[ids.start]))

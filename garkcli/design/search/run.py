@@ -1,5 +1,5 @@
-"""A whole search: starts in batches, what is found proved as it comes, and written as text of
-method files: what reports and files need of it, without exact numbers.
+"""A whole search: starts in batches, proofs as solutions come, and the methods as text of method
+files, without exact numbers, for reports and files.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from garkcli.frozen import Frozen, Mutable, field
 from garkcli.tableau.family import Family
 
 RESIDUAL = f"1e-{floor(log10(2) * small_bits(BITS))}"
-"""What all residuals are below after the last step of Newton's method. The residuals themselves are
-rounding, and no two machines need to agree on them.
+"""A bound on all residuals after the last step of Newton's method. The residuals themselves are
+rounding and may differ between machines.
 """
 TOLERANCE = "1e-30"
-"""What a file with so many decimals is meant up to."""
+"""The tolerance of a file with so many decimals."""
 
 
 class Method(Frozen):
@@ -44,14 +44,13 @@ class Method(Frozen):
 
     Attributes:
         start: the number of the start that led to it, from 1.
-        proof: what is known of it.
-        order: its exact order where that is known; else that of the conditions that were solved.
-        values: of the parameters, exact or decimals.
-        residual: a bound on all residuals up to the order; "0" where they vanish.
-        objective: what was minimised, at the method, as a decimal or ``infinity``; None where
-            nothing was.
-        embedded: the order of the embedded weights: the exact one, or that of the conditions that
-            were solved; None if the file wants none.
+        proof: of the method.
+        order: its exact order if known; otherwise the order of the solved conditions.
+        values: the parameters, exact or as decimals.
+        residual: a bound on all residuals up to the order; "0" if they vanish.
+        objective: the value of the objective, a decimal or ``infinity``; None without an objective.
+        embedded: the order of the embedded weights, exact or of the solved conditions; None if the
+            file wants none.
     """
 
     start: int
@@ -64,7 +63,6 @@ class Method(Frozen):
 
     @property
     def is_exact(self) -> bool:
-        """Whether the values are exact and the order proved."""
         return self.proof == "exact"
 
 
@@ -72,7 +70,7 @@ def _exact(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     try:
         return values_text(values, root)
     except MethodError:
-        # none of them generates the field of all: each by a polynomial of its own
+        # none of them generates the field of all, so each is a root of its own polynomial
         return {name: _alone(value, root) for name, value in values.items()}
 
 
@@ -101,31 +99,29 @@ def decimals(number: arb, count: int = DECIMALS) -> str:
 Start: TypeAlias = list[float]
 Ending: TypeAlias = Literal["interrupt", "time", "worker"]
 FIRST = 64
-"""Starts of the first batch, so that something is found soon; batches grow twofold, for speed."""
+"""Starts of the first batch, small for a quick first find; later batches double, for speed."""
 TOGETHER = 4
 """Starts from which an objective is minimised before the best of all is proved."""
 SAME = 1e-6
-"""Solutions no further apart in any unknown are one solution."""
+"""Solutions that differ by at most this in each unknown are one solution."""
 
 
 class Result(Mutable):
-    """What a search has found so far.
+    """The state of a search.
 
     Attributes:
-        starts: how many have been tried.
-        successes: how many of them solve the conditions in floats.
-        degenerate: how many of the different solutions that were searched are no methods:
-            no solution with more digits is near, or the optimiser, which an objective needs, ends
-            outside the ranges, signs and stability that are wanted.
-        unstable: how many of them are not shown to be as stable as the file wants.
-        methods: each once, in the order of the starts; where an objective is minimised the best
-            first.
+        starts: the number of starts so far.
+        successes: the number of them that solve the conditions in floats.
+        degenerate: the number of distinct solutions that are no methods: no solution with more
+            digits is near, or the optimiser ends outside the wanted ranges, signs and stability.
+        unstable: the number of those whose wanted stability is not proved.
+        methods: distinct ones, in the order of the starts; with an objective the best first.
         seconds: of the processor.
-        ending: what ended the search before its last start; None where nothing did.
-        order: that was wanted.
-        whose: order that is.
+        ending: the reason why the search ended before its last start; None otherwise.
+        order: the wanted order.
+        whose: the order of the method, its conjugate, or its pair.
         seed: of the starts.
-        objective: that is minimised, if one is.
+        objective: to minimise, if any.
     """
 
     starts: int = 0
@@ -142,7 +138,7 @@ class Result(Mutable):
 
     @property
     def is_interrupted(self) -> bool:
-        """Whether there were more starts."""
+        """Whether the search ended before its last start."""
         return self.ending is not None
 
     def __repr__(self) -> str:
@@ -151,25 +147,24 @@ class Result(Mutable):
 
 
 class Timed(Frozen):
-    """The result of some work and the seconds of the processor that it took."""
+    """The result of a task and the processor seconds that it took."""
 
     result: object
     seconds: float
 
 
 class Batch(Frozen):
-    """Work: the solutions that some starts lead to, as ``Search.solve`` has them."""
+    """A task: the solutions from some starts, by ``Search.solve``."""
 
     starts: list[Start]
 
     def result(self, search: Search) -> object:
-        """The outcome of the work."""
         return search.solve(self.starts)
 
 
 class Solution(Frozen):
-    """Work: the method that a solution in floats makes; None where it makes none, False where that
-    is not shown to be as stable as is wanted.
+    """A task: the method of a solution in floats; None if there is none, False if its wanted
+    stability is not proved.
 
     Attributes:
         start: the number of the start that led to it.
@@ -180,12 +175,11 @@ class Solution(Frozen):
     point: Start
 
     def result(self, search: Search) -> object:
-        """The outcome of the work."""
         return _method(search, search.find(self.start, self.point))
 
 
 class Descent(Frozen):
-    """Work: the best method near a solution in floats; None where there is none.
+    """A task: the best method near a solution in floats; None if there is none.
 
     Attributes:
         start: the number of the start that led to it.
@@ -196,12 +190,11 @@ class Descent(Frozen):
     point: Start
 
     def result(self, search: Search) -> object:
-        """The outcome of the work."""
         return search.program.improved(self.point)
 
 
 class Best(Frozen):
-    """Work: the method that an optimum in floats makes; as ``Solution``.
+    """A task: the method of an optimum in floats; None or False as for ``Solution``.
 
     Attributes:
         start: the number of the start that led to it.
@@ -212,14 +205,11 @@ class Best(Frozen):
     optimum: Optimum
 
     def result(self, search: Search) -> object:
-        """The outcome of the work."""
         return _method(search, search.best(self.start, self.optimum))
 
 
 def _method(search: Search, find: Find | None) -> object:
-    """A find as text; None where there is none, False where it is not shown to be as stable as is
-    wanted.
-    """
+    """A find as text; None if there is none, False if its wanted stability is not proved."""
     if find is None or not find.is_stable:
         return None if find is None else False
     if find.found is not None:
@@ -237,19 +227,17 @@ def _method(search: Search, find: Find | None) -> object:
 class Task(Protocol):
     """A piece of a search."""
 
-    def result(self, search: Search) -> object:
-        """The outcome of the work."""
-        ...
+    def result(self, search: Search) -> object: ...
 
 
 def do(search: Search, task: Task) -> Timed:
-    """Do a piece of a search, with the time that it takes."""
+    """Runs a task and measures its time."""
     before = process_time()
     return Timed(task.result(search), process_time() - before)
 
 
 MOST = 5
-"""Methods that are sought where nothing is said."""
+"""Methods to find by default."""
 
 
 def search_methods(
@@ -266,25 +254,26 @@ def search_methods(
     """Search a family for methods of an order, from random starts.
 
     Args:
-        family: of methods.
-        order: that is wanted.
-        starts: how many.
-        seed: of the starts; the same seed has the same finds everywhere.
-        most: the most methods to look for; other successes are counted.
-        whose: order is meant: of the method, its symplectic conjugate or its pair.
-        seconds: after which the search ends with what was found; None for never.
-        objective: that is minimised from each start, a name or a sum of names; None for none.
-        first: values of the unknowns that take the place of the first start.
+        family: the methods.
+        order: the wanted order.
+        starts: the number of random starts.
+        seed: of the starts; one seed gives the same finds on every machine.
+        most: the most methods to find; other successes are counted.
+        whose: the order of the method, its symplectic conjugate or its pair.
+        seconds: the time limit, after which the search ends with its finds; None for none.
+        first: values of the unknowns that replace the first start.
+        objective: to minimise from each start, a name or a sum of names; None for none.
+        first: values of the unknowns that replace the first start.
 
     Raises:
-        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        ZeroWeight: a weight is zero for every value, so there is no conjugate.
     """
     result = Result(order=order, whose=whose, seed=seed)
     try:
         with within(seconds):
             search = Search(family, order, whose, objective)
-            for found in results(search, starts, seed, most, first=first):
-                result = found
+            for state in results(search, starts, seed, most, first=first):
+                result = state
     except NotDecided:
         result.ending = "time"
     return result
@@ -298,19 +287,19 @@ def results(
     workers: Workers[Task, Timed] | None = None,
     first: Start | None = None,
 ) -> Iterator[Result]:
-    """Search from random starts; the same object again and again, with more and more in it.
+    """Searches from random starts; yields one result object again and again as it grows.
 
     Args:
-        search: what is sought.
-        starts: how many.
+        search: the search.
+        starts: the number of random starts.
         seed: of the starts.
-        most: the most methods to look for; other successes are counted.
-        workers: who does the work; what is found does not depend on that.
-        first: values of the unknowns that take the place of the first start.
+        most: the most methods to find; other successes are counted.
+        workers: run the tasks; the finds do not depend on them.
+        first: values of the unknowns that replace the first start.
     """
     workers = workers or Alone(partial(do, search))
     if search.objective is not None:
-        search.program  # noqa: B018 -- an objective without meaning is refused at once
+        search.program  # noqa: B018 -- refuses an objective that is not applicable at once
     coming = search.starts(seed, starts, first)
     run = _Run(search, workers, most, seed)
     size = FIRST
@@ -326,7 +315,7 @@ def results(
 
 
 class _Run:
-    """What is known in the middle of a search."""
+    """The state in the middle of a search."""
 
     def __init__(self, search: Search, workers: Workers[Task, Timed], most: int, seed: int) -> None:
         self.search = search
@@ -342,7 +331,7 @@ class _Run:
         self._known: dict[int, Method | None] = {}
 
     def take(self, group: Sequence[Start], size: int) -> Iterator[Result]:
-        """The solutions of some starts, so many at a time: those that are new are proved."""
+        """Takes the solutions of some starts, ``size`` starts a task, and proves the new ones."""
         parts = range(0, len(group), size)
         batches = [Batch(list(group[k : k + size])) for k in parts]
         first = self.result.starts + 1
@@ -366,10 +355,11 @@ class _Run:
             yield self.result
 
     def _descend(self, new: Sequence[Solution]) -> Iterator[Result]:
-        """The best methods near some solutions; those that are now the best of all are proved.
+        """Finds the best methods near some solutions, and proves those that are now the best of
+        all.
 
-        So many solutions at a time, however many come at once: what is proved does not depend on
-        the number of processes.
+        It takes ``TOGETHER`` solutions at a time, so that the proofs do not depend on the number of
+        processes.
         """
         self._waiting += [Descent(solution.start, solution.point) for solution in new]
         while len(self._waiting) >= TOGETHER:
@@ -377,25 +367,25 @@ class _Run:
             yield self._descended(some)
 
     def rest(self) -> Iterator[Result]:
-        """The best methods near the last solutions."""
+        """Finds the best methods near the last solutions."""
         if self._waiting:
             yield self._descended(self._waiting)
 
     def _descended(self, tasks: Sequence[Descent]) -> Result:
         for task, timed in zip(tasks, self._done(tasks), strict=True):
-            found = timed.result
-            if not isinstance(found, Optimum):
+            optimum = timed.result
+            if not isinstance(optimum, Optimum):
                 self.result.degenerate += 1
-            elif not any(are_same(found.point, x.optimum.point) for x in self._optima):
-                self._optima.append(Best(task.start, found))
+            elif not any(are_same(optimum.point, x.optimum.point) for x in self._optima):
+                self._optima.append(Best(task.start, optimum))
         self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
         self._prove()
         return self.result
 
     def _prove(self) -> None:
-        """Prove the best optima that were not, until as many as are wanted make methods."""
-        while now := [x for x in self._chosen() if x.start not in self._known]:
-            for best, timed in zip(now, self._done(now), strict=True):
+        """Proves the best unproved optima until the wanted number of methods is reached."""
+        while unproved := [x for x in self._chosen() if x.start not in self._known]:
+            for best, timed in zip(unproved, self._done(unproved), strict=True):
                 made = timed.result
                 self._known[best.start] = made if isinstance(made, Method) else None
                 self.result.unstable += made is False
@@ -407,7 +397,7 @@ class _Run:
         )
 
     def _chosen(self) -> list[Best]:
-        """The best optima that make methods, as far as is known, each method once."""
+        """The best optima that give methods, as far as known, without repeated methods."""
         chosen: list[Best] = []
         texts: set[tuple[str, ...]] = set()
         for best in self._optima:
@@ -423,7 +413,7 @@ class _Run:
         return chosen
 
     def _done(self, tasks: Sequence[Task]) -> Iterator[Timed]:
-        """What comes of tasks, in their order."""
+        """The results of tasks, in their order."""
         for timed in in_order(self.workers, tasks):
             self.result.seconds += timed.seconds
             yield timed
@@ -452,5 +442,5 @@ class _Run:
 
 
 def are_same(one: Sequence[float], other: Sequence[float]) -> bool:
-    """Whether two points are one up to rounding."""
+    """Whether two points agree up to rounding."""
     return all(abs(a - b) <= SAME for a, b in zip(one, other, strict=True))

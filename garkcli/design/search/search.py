@@ -1,4 +1,4 @@
-"""Methods of an order by search, each with what is proved of it."""
+"""Methods of an order by search, each with its proof."""
 
 from __future__ import annotations
 
@@ -57,11 +57,11 @@ Answer: TypeAlias = Literal["yes", "open", "no"]
 
 
 class Signs:
-    """What the methods of a family are beside solutions of its equations: ranges and signs.
+    """The ranges and signs of the methods of a family, beside its equations.
 
     Args:
         family: of methods.
-        bits: of the points; statements hold for all numbers within 2^(−bits/2) of one.
+        bits: of the points; answers hold for all numbers within 2^(−bits/2) of one.
     """
 
     def __init__(self, family: Family, bits: int) -> None:
@@ -72,7 +72,7 @@ class Signs:
         self.not_negative = polynomial_functions(not_negative(family), family.ring)
 
     def decided(self, x: Array) -> Answer:
-        """Whether all numbers near a point are so; open where only something that must not be
+        """Whether all numbers near a point have them; ``open`` if only a function that must not be
         negative may be zero.
 
         Args:
@@ -98,13 +98,13 @@ class Signs:
 
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
-"""What is known of a find: its exact order; that there is one; that residuals are small."""
+"""The proof of a find: its exact order; the existence of such a method; or small residuals only."""
 BITS = 1024
-"""Bits to which solutions are polished."""
+"""Precision of polished solutions."""
 MANY_BITS = 4 * BITS
-"""Bits of an optimum whose numbers are not told by fewer."""
+"""Precision of an optimum whose numbers are not recognised at the lower one."""
 ERRORS = ("error", "A")
-"""Objectives that are zero where a method has one order more."""
+"""Objectives that vanish if a method has one order more."""
 SHORT = 12
 """Digits of an objective."""
 FEW_DIGITS = 6
@@ -112,14 +112,14 @@ FEW_DIGITS = 6
 DECIMALS = 40
 """Decimals of numbers that are not known exactly."""
 FEW_BITS = 212
-"""Enough to tell a solution from a point with small residuals."""
+"""Precision that distinguishes a solution from a point with small residuals."""
 USUAL = (0.0, 1.0)
 WIDE = (-2.0, 2.0)
-"""Where unknowns without a range start."""
+"""Start intervals of unknowns without a range."""
 MEMORY = 48 * 2**20
-"""Bytes of the derivatives of one batch, about."""
+"""Approximate bytes for the derivatives of one batch."""
 MOST_STARTS = 1024
-"""Starts of one batch at most."""
+"""Most starts of one batch."""
 
 
 class Find(Frozen):
@@ -127,12 +127,11 @@ class Find(Frozen):
 
     Attributes:
         start: the number of the start that led to it, from 1.
-        proof: what is known of it.
-        order: its exact order where that is known; else the order of the conditions that were
-            solved.
-        found: the exact numbers, where they are known.
-        digits: the values to many digits otherwise, balls without radius.
-        is_stable: whether it is known to be as stable as is wanted.
+        proof: of the method.
+        order: its exact order if known; otherwise the order of the solved conditions.
+        found: the exact numbers, if known.
+        digits: otherwise the values to many digits, balls without radius.
+        is_stable: whether it is known to have the wanted stability.
     """
 
     start: int
@@ -147,10 +146,10 @@ class Search:
     """A search for methods of an order among those of a family.
 
     Args:
-        family: of methods.
-        order: that is wanted.
+        family: the methods.
+        order: the wanted order.
         whose: of the method, its symplectic conjugate or its pair.
-        objective: that is minimised, a name or a sum of names; None for none.
+        objective: to minimise, a name or a sum of names; None for none.
 
     Raises:
         ZeroWeight: there is no conjugate.
@@ -168,20 +167,20 @@ class Search:
 
     @cached_property
     def conditions(self) -> Residuals:
-        """Of all trees, and the relations in the file."""
+        """The conditions of all trees, and the relations in the file."""
         return Residuals(self.tableau, self.family.ring, self.order, self._relations)
 
     @cached_property
     def batch(self) -> int:
-        """How many starts are worked on at a time."""
+        """The number of starts that are worked on at a time."""
         largest = self.conditions.numbers_a_point * 8
         return max(8, min(MOST_STARTS, MEMORY // largest))
 
     def starts(
         self, seed: int, count: int, first: list[float] | None = None
     ) -> Iterator[list[float]]:
-        """Random values of the unknowns: within their ranges; without one between 0 and 1, of
-        every fourth start between −2 and 2. ``first`` takes the place of the first one.
+        """Random values of the unknowns within their ranges; without one between 0 and 1, in every
+        fourth start between −2 and 2. ``first`` replaces the first of them.
         """
         ends = {
             name: (as_float(least), as_float(greatest))
@@ -199,7 +198,7 @@ class Search:
             yield start if number or first is None else first
 
     def solve(self, starts: list[list[float]]) -> list[tuple[int, list[float]]]:
-        """The starts of a batch that succeed, each with its solution in floats."""
+        """The starts of a batch that succeed, by their numbers, with solutions in floats."""
         import numpy as np
 
         columns = np.ascontiguousarray(np.array(starts).transpose())
@@ -211,7 +210,7 @@ class Search:
         ]
 
     def _is_within(self, point: Array) -> bool:
-        """Whether parameters are in their ranges and even roots positive, up to rounding."""
+        """Whether parameters are in their ranges and even roots not negative, up to rounding."""
         values = dict(zip(self.family.ring.names, map(float, point), strict=True))
         for name, (least, greatest) in self.family.ranges.items():
             if least is not None and values[name] < as_float(least) - 1e-9:
@@ -226,13 +225,13 @@ class Search:
         """The minimisation.
 
         Raises:
-            UsageProblem: SciPy is not there, or the objective has no meaning for the methods.
+            UsageProblem: SciPy is not installed, or the objective is not applicable.
         """
         assert self.objective is not None
         return Program(self.family, self.conditions, self.objective)
 
     def best(self, start: int, optimum: Optimum) -> Find | None:
-        """The proof about an optimum, its numbers made short; None where it is no method.
+        """An optimum with short numbers, and its proof; None if it is no method.
 
         Args:
             start: the number of the start that led to it.
@@ -240,7 +239,7 @@ class Search:
         """
         is_error = self.objective is not None and self.objective.key in ERRORS
         if is_error and self.program.is_none(optimum):
-            # the errors are the conditions of one order more
+            # the errors are the conditions of the next order
             higher = Search(self.family, self.order + 1, self.whose).find(
                 start, list(optimum.point)
             )
@@ -264,8 +263,8 @@ class Search:
     def value(self, find: Find) -> str:
         """The objective of a method as a decimal, or ``infinity``.
 
-        A level is that of the exact numbers; where they are not known, or their field is too large,
-        that in floats, to fewer digits and no higher than ``HIGHEST``: the next digits of the
+        A level is computed from the exact numbers; if these are unknown, or their field is too
+        large, from floats, to fewer digits and at most ``HIGHEST``, since further digits of the
         numbers would decide it.
         """
         assert self.objective is not None
@@ -288,7 +287,7 @@ class Search:
         return f"{float(total):.{digits}g}"
 
     def _size(self, one: Single, find: Find, place: int) -> RealRoot | float | None:
-        """One of the objectives, the one at a place, of a method; None for infinity."""
+        """The value of the objective at a place, for a find; None for infinity."""
         import numpy as np
 
         names, ring = self.family.ring.names, self.family.ring
@@ -320,8 +319,8 @@ class Search:
         return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def embedded_order(self, find: Find) -> int | None:
-        """The order of the embedded weights of a find: by the certificate where its numbers are
-        exact; None if no order is wanted of them.
+        """The order of the embedded weights of a find, by the certificate if its numbers are exact;
+        None if no order is wanted of them.
         """
         wanted, embedded = self.family.embedded_order, self.family.further.embedded
         if wanted is None or embedded is None or self.whose != "method" or find.found is None:
@@ -331,17 +330,17 @@ class Search:
         return find_order(member(tableau, self.family.ring, values)).order
 
     def find(self, start: int, point: list[float]) -> Find | None:
-        """What can be proved of a solution in floats; None where it is no solution after all.
+        """A solution in floats with its proof; None if it is no solution after all.
 
         Args:
-            start: its number.
+            start: the number of the start.
             point: values of the unknowns.
         """
         import numpy as np
 
         free = Fixings(self.conditions)
         if polished(free, point, FEW_BITS) is None:
-            # a solution at which the conditions are degenerate
+            # the conditions are degenerate at this solution
             import numpy as np
 
             fixed = fixed_nearby(self.conditions, self._preferences[0], np.array(point)[:, None])
@@ -367,12 +366,12 @@ class Search:
         find = None if x is None else self._inexact(start, system, x)
         if find is not None:
             return find
-        # short numbers may be outside where the point is not
+        # short numbers may violate signs that the point satisfies
         x = polished(free, point, BITS)
         return None if x is None else self._inexact(start, free, x)
 
     def _inexact(self, start: int, system: Fixings, x: Array) -> Find | None:
-        """A find whose numbers are not known exactly."""
+        """A find whose numbers are not known exactly; None if it violates a sign."""
         answer = self._signs.decided(x)
         if answer == "no":
             return None
@@ -398,22 +397,22 @@ class Search:
         return [*relations, *self.family.relations]
 
     def _exact(self, start: int, x: Array, bits: int = BITS) -> Find | None:
-        """The method with the exact numbers of which these are digits, if it has the order."""
+        """The method with the exact numbers of these digits, if it has the order."""
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
         guess = recognised(digits, bits)
         return None if guess is None else self._certified(start, guess)
 
     @cached_property
     def _preferences(self) -> list[list[RationalFunction]]:
-        """The unknowns that are to be short, in two orders: one may lead to rational numbers, the
-        other not.
+        """The unknowns to shorten, in two orders, since only one of them may lead to rational
+        numbers.
         """
         nodes = list(nodes_of(self.tableau, self.family.ring))
         names = unknowns_of(self.family.ring)
         return [nodes + names, nodes + names[::-1]]
 
     def _certified(self, start: int, guess: Recognised) -> Find | None:
-        """The method with these numbers, if the certificate says that it has the order."""
+        """The method with these numbers, if the certificate confirms the order."""
         field = next((x.field for x in guess.values.values() if not isinstance(x, fmpq)), None)
         solution = Solution(guess.modulus, field, dict(guess.values), 1, (guess.root,))
         ring = self.family.ring
@@ -431,7 +430,7 @@ class Search:
         return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, is_meant)
 
     def _has_levels(self, solution: Solution) -> bool:
-        """Whether a method is known to have the levels that are wanted."""
+        """Whether a method is known to reach the wanted levels."""
         wanted = levels_of(self.family)
         if not wanted:
             return True
@@ -447,14 +446,14 @@ def _ball(number: RealRoot | float) -> arb:
 
 
 def _digits_of(solution: Solution) -> Mapping[str, arb]:
-    """The values at the real root that is meant, to many digits."""
+    """The values at the first real root, to many digits."""
     root = solution.real[0]
     return {name: value_at(value, root).ball(BITS) for name, value in solution.values.items()}
 
 
 def _damped(family: Family) -> Family:
-    """The family with R(∞) = 0 among its equations where L-stable methods are wanted: random
-    methods have it nowhere.
+    """The family with R(∞) = 0 among its equations if L-stable methods are wanted, since random
+    methods never have it.
     """
     from garkcli.design.wants import at_infinity
 
@@ -473,5 +472,7 @@ def _damped(family: Family) -> Family:
 
 
 def _worth(find: Find) -> tuple[bool, int]:
-    """Smaller for better finds: stable ones, then by the degree of their field."""
+    """A key that is smaller for better finds: stable ones first, then by the degree of their
+    field.
+    """
     return not find.is_stable, 0 if find.found is None else find.found.solution.degree

@@ -1,8 +1,8 @@
-"""From a point on a set of solutions to one with as many short rational numbers as it allows.
+"""From a point on a set of solutions to one with as many short rational numbers as possible.
 
-Where the solutions are a manifold of dimension d, d independent functions of the unknowns can be
-given values: the nodes first, then the unknowns. Each is given the shortest rational number near
-its present value from which least squares come back to the manifold.
+On a manifold of solutions of dimension d, d independent functions of the unknowns can be given
+values: the nodes first, then the unknowns. Each gets the shortest rational number near its present
+value from which least squares return to the manifold.
 """
 
 from __future__ import annotations
@@ -25,39 +25,39 @@ if TYPE_CHECKING:
     from garkcli.design.search.residuals import Residuals
 
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 30)
-"""What short rational numbers have."""
+"""Denominators of short rational numbers."""
 REACH = 0.12
-"""How far a function is moved at most."""
+"""Largest change of a function."""
 TRIALS = 10
-"""Values that are tried first, the shortest."""
+"""Values tried first, the shortest."""
 STEPS = 120
-"""Steps of least squares that lead to such a value, or it is not taken."""
+"""Most steps of least squares towards such a value."""
 CLOSE = 1e-11
-"""Residuals from which Newton's method goes on."""
+"""Residuals from which Newton's method continues."""
 FINE = (10**3, 10**6, 10**9)
-"""Denominators where none of the short ones leads back."""
+"""Denominators tried if no short one leads back."""
 NEAR = 1e-4
-"""How far least squares may end from a solution at which the conditions are degenerate."""
+"""Largest distance from a degenerate solution to the end of least squares."""
 DEGENERATE = 1e-4
-"""Pivots that vanish where the conditions are degenerate are no larger nearby."""
+"""Largest size of pivots near a degenerate solution that vanish at it."""
 LARGEST = 20.0
-"""No unknown may get larger on the way."""
+"""Bound on the unknowns on the way."""
 
 
 def nodes_of(tableau: Tableau, ring: Parameters) -> Iterator[RationalFunction]:
-    """The nodes that are functions of the unknowns, each once."""
-    known = set()
+    """The distinct nodes that are functions of the unknowns."""
+    yielded = set()
     for colour in tableau.colours:
         if isinstance(tableau.spaces[colour.space], PointSpace):
             nodes: Sequence[object] = colour.c
             for node in nodes:
-                if isinstance(node, Parametric) and node not in known:
-                    known.add(node)
+                if isinstance(node, Parametric) and node not in yielded:
+                    yielded.add(node)
                     yield RationalFunction(node, ring)
 
 
 def unknowns_of(ring: Parameters) -> list[RationalFunction]:
-    """The unknowns as functions of themselves."""
+    """The unknowns as functions."""
     return [RationalFunction(ring.parameter(name), ring) for name in ring.names]
 
 
@@ -68,25 +68,25 @@ def snapped(
 
     Args:
         conditions: of the family.
-        wanted: functions that are to be short, in this order.
+        wanted: functions that should be short, in this order.
         point: a solution in floats, shape (unknowns,).
     """
     fixed: list[Fixed] = []
     x = point[:, None]
     _, jacobians = conditions.at(x)
-    known = rank(jacobians[:, :, 0])
+    independent = rank(jacobians[:, :, 0])
     for function in wanted:
-        if len(known) == len(point):
+        if len(independent) == len(point):
             break
-        if not _is_independent(conditions, fixed, function, x, len(known)):
+        if not _is_independent(conditions, fixed, function, x, len(independent)):
             continue
         for values in values_near(_value(function, x)):
-            moved = _moved(conditions, fixed, function, values, x, len(known))
+            moved = _moved(conditions, fixed, function, values, x, len(independent))
             if moved is not None:
                 value, x = moved
                 fixed.append(Fixed(function, value))
                 _, jacobians = Fixings(conditions, fixed).at(x)
-                known = rank(jacobians[:, :, 0])
+                independent = rank(jacobians[:, :, 0])
                 break
     return Fixings(conditions, fixed), x[:, 0]
 
@@ -94,18 +94,19 @@ def snapped(
 def fixed_nearby(
     conditions: Residuals, wanted: Sequence[RationalFunction], x: Array
 ) -> list[Fixed]:
-    """Functions that are near a short number and independent of the conditions at a point.
+    """Functions close to a short number and independent of the conditions at a point, with that
+    number.
 
     Args:
         conditions: of the family.
-        wanted: functions to look at, in this order.
+        wanted: functions to examine, in this order.
         x: the point, shape (unknowns, 1).
     """
     fixed: list[Fixed] = []
     _, jacobians = conditions.at(x)
-    known = len(rank(jacobians[:, :, 0], DEGENERATE))
+    rank_before = len(rank(jacobians[:, :, 0], DEGENERATE))
     for function in wanted:
-        if known == len(x):
+        if rank_before == len(x):
             break
         present = _value(function, x)
         value = next(
@@ -118,11 +119,11 @@ def fixed_nearby(
         )
         if value is None:
             continue
-        more = [*fixed, Fixed(function, value)]
-        _, jacobians = Fixings(conditions, more).at(x)
-        if len(rank(jacobians[:, :, 0], DEGENERATE)) > known:
-            fixed = more
-            known += 1
+        extended = [*fixed, Fixed(function, value)]
+        _, jacobians = Fixings(conditions, extended).at(x)
+        if len(rank(jacobians[:, :, 0], DEGENERATE)) > rank_before:
+            fixed = extended
+            rank_before += 1
     return fixed
 
 
@@ -141,10 +142,10 @@ def _is_independent(
 
 
 def values_near(present: float) -> Iterator[list[fmpq]]:
-    """Values near the present one: short ones, then one that hardly moves it.
+    """Lists of values near the present one: short ones, then ones that hardly differ from it.
 
-    Zero comes behind the short ones, where it is not the present value: it makes another kind of
-    method, explicit in place of implicit.
+    Zero comes last among the short ones, unless it is the present value: it makes another kind of
+    method, explicit instead of implicit.
     """
     short = []
     for q in DENOMINATORS:
@@ -171,7 +172,9 @@ def _moved(
     x: Array,
     before: int,
 ) -> tuple[fmpq, Array] | None:
-    """The first of some values that a solution with it is found for, and that solution."""
+    """The first of some values that a solution attains, and that solution; None if there is
+    none.
+    """
     import numpy as np
 
     if not values:

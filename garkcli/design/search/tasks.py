@@ -15,20 +15,21 @@ if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
 
 FEASIBLE = 1e-9
-"""Inequalities hold up to this, in floats."""
+"""Inequalities hold up to this in floats."""
 HIGHEST = 1e4
-"""A level is no higher."""
+"""A bound on levels."""
 FIRST_LEVEL = 0.5
-"""The level at which the optimiser starts is no lower: at 0 nothing depends on the unknowns."""
+"""A lower bound on the level at which the optimiser starts: at 0 nothing depends on the unknowns.
+"""
 LEAST_LEVEL = 1e-3
-"""A level below is none."""
+"""Levels below it count as 0."""
 LOW_LEVEL = 0.01
-"""A level that methods have from which the optimiser starts."""
+"""The level of methods from which the optimiser starts."""
 BISECTIONS = 36
 
 
 class Height:
-    """The level of a method: the largest y, up to bisection, up to which inequalities hold.
+    """The level of a method: the largest y, by bisection, up to which inequalities hold.
 
     Args:
         reach: the inequalities.
@@ -62,12 +63,12 @@ class Height:
 
 
 def capped(goal: Goal, bound: float, margin: float = 0.0) -> Callable[[Array], Gradient]:
-    """The inequalities by which a goal is at most a bound, or a level at least the bound.
+    """The inequalities for a goal of at most a bound, or a level of at least the bound.
 
     Args:
         goal: the function.
-        bound: of it.
-        margin: what is left of the inequalities of a level.
+        bound: of the goal.
+        margin: a lower bound on the inequalities of a level.
     """
     unit = abs(bound) or 1.0
 
@@ -91,7 +92,7 @@ class Total:
     """A sum of goals with weights, under inequalities.
 
     Args:
-        terms: the goals; levels have negative weights.
+        terms: weights with goals; levels have negative weights.
         within: the inequalities at a point.
     """
 
@@ -106,7 +107,6 @@ class Total:
         self.within = within
 
     def value(self, x: Array) -> float:
-        """The sum at a point."""
         total = sum(w * goal.at(x)[0] for w, goal in self.smooth)
         total += sum(w * _largest(goal.at(x)[0]) for w, goal in self.bounds)
         return float(total + sum(w * level.of(x) for w, level in self.levels))
@@ -117,12 +117,12 @@ class Total:
 
     def parts(self, x: Array) -> Gradient | None:
         """The squared terms, if all smooth goals are sums of squares."""
-        found = [(w, goal.parts(x)) for w, goal in self.smooth if goal.parts is not None]
-        if not found or len(found) < len(self.smooth):
+        terms = [(w, goal.parts(x)) for w, goal in self.smooth if goal.parts is not None]
+        if not terms or len(terms) < len(self.smooth):
             return None
         return (
-            np.concatenate([w**0.5 * e for w, (e, _) in found]),
-            np.concatenate([w**0.5 * slopes for w, (_, slopes) in found]),
+            np.concatenate([w**0.5 * e for w, (e, _) in terms]),
+            np.concatenate([w**0.5 * slopes for w, (_, slopes) in terms]),
         )
 
 
@@ -131,12 +131,12 @@ def _largest(values: Array) -> float:
 
 
 def missed(signs: Array) -> float:
-    """How far numbers are from not being negative."""
+    """The distance of numbers from being nonnegative."""
     return max(0.0, -float(np.min(signs, initial=0.0)))
 
 
 class Least(Task):
-    """Minimise a sum of goals; each bound and each level has a variable of its own.
+    """Minimises a sum of goals; each bound and each level has its own variable.
 
     Args:
         total: the sum.
@@ -151,39 +151,35 @@ class Least(Task):
             self.enough = -HIGHEST
 
     def value(self, x: Array) -> float:
-        """The sum."""
         return self._total.value(x)
 
     def guess(self, x: Array) -> Array:
-        """The variables at the start."""
         bounds = zip(self._units, self._total.bounds, strict=True)
         sizes = [_largest(goal.at(x)[0]) / unit for unit, (_, goal) in bounds]
         return np.array([*sizes, *(max(y.of(x), FIRST_LEVEL) for _, y in self._total.levels)])
 
     def parts(self, x: Array) -> Gradient | None:
-        """The squared terms."""
         return self._total.parts(x)
 
     def scale(self, x: Array) -> float:
-        """Levels are no small numbers."""
+        """A level needs no scale."""
         is_alone = self.levels and not self._total.smooth and not self._total.bounds
         return 1.0 if is_alone else super().scale(x)
 
     def at(self, z: Array) -> Look:
-        """The task at a point."""
         total, n = self._total, len(z) - self.levels
         x, gradient = z[:n], np.zeros(len(z))
         inequalities = [total.within(x)]
-        value = found = 0.0
+        value = total_of_unknowns = 0.0
         for weight, goal in total.smooth:
             y, slope = goal.at(x)
             value += weight * y
-            found += weight * y
+            total_of_unknowns += weight * y
             gradient[:n] += weight * slope
         for k, (unit, (weight, bound)) in enumerate(zip(self._units, total.bounds, strict=True), n):
             sizes, slopes = bound.at(x)
             value += weight * unit * z[k]
-            found += weight * _largest(sizes)
+            total_of_unknowns += weight * _largest(sizes)
             gradient[k] = weight * unit
             for sign in (-1.0, 1.0):
                 more = np.zeros((len(sizes), len(z)))
@@ -192,7 +188,7 @@ class Least(Task):
         for k, (weight, level) in enumerate(total.levels, n + len(total.bounds)):
             values, slopes = level.at(np.append(x, z[k]))
             value += weight * z[k]
-            found += weight * z[k]
+            total_of_unknowns += weight * z[k]
             gradient[k] = weight
             more = np.zeros((len(values), len(z)))
             more[:, :n], more[:, k] = slopes[:, :-1], slopes[:, -1]
@@ -204,12 +200,12 @@ class Least(Task):
             values for values, _ in (inequalities[0], *inequalities[1 + 2 * len(self._units) :])
         ]
         is_met = missed(np.concatenate(sure)) <= FEASIBLE
-        return Look(value, gradient, signs, of_signs, found if is_met else np.inf)
+        return Look(value, gradient, signs, of_signs, total_of_unknowns if is_met else np.inf)
 
 
 class Missing(Task):
-    """The distance of solutions from all wants: the least y up to which all inequalities hold,
-    those of low levels too.
+    """Minimises the distance from all wants: the least y with which all inequalities hold, for low
+    levels too.
 
     Args:
         total: with the levels and the inequalities.
@@ -222,26 +218,25 @@ class Missing(Task):
         self._total = total
 
     def _signs(self, x: Array) -> Gradient:
-        found = [self._total.within(x)]
+        inequalities = [self._total.within(x)]
         for _, level in self._total.levels:
             values, slopes = level.at(np.append(x, LOW_LEVEL))
-            found.append((values, slopes[:, :-1]))
-        return np.concatenate([x for x, _ in found]), np.concatenate([x for _, x in found])
+            inequalities.append((values, slopes[:, :-1]))
+        return np.concatenate([x for x, _ in inequalities]), np.concatenate(
+            [x for _, x in inequalities]
+        )
 
     def value(self, x: Array) -> float:
-        """The least y."""
         return missed(self._signs(x)[0])
 
     def guess(self, x: Array) -> Array:
-        """The least y."""
         return np.array([self.value(x)])
 
     def scale(self, _x: Array) -> float:
-        """None: y should be 0."""
+        """No scale: y should become 0."""
         return 1.0
 
     def at(self, z: Array) -> Look:
-        """The task at a point."""
         values, slopes = self._signs(z[:-1])
         gradient = np.append(np.zeros(len(z) - 1), 1.0)
         slopes = np.concatenate([slopes, np.ones((len(slopes), 1))], 1)
@@ -249,5 +244,5 @@ class Missing(Task):
 
 
 def padded(slopes: Array, size: int) -> Array:
-    """Derivatives by further unknowns, which are zero."""
+    """Appends zero derivatives in further unknowns."""
     return np.pad(slopes, ((0, 0), (0, size - slopes.shape[1])))
