@@ -1,1 +1,1 @@
-"""Which methods of a family are best, by an objective."""
+"""The best methods of a family, by an objective."""

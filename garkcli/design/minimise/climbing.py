@@ -1,8 +1,8 @@
-"""A good point by trial, where nothing exact is known: compass search with exact values.
+"""A good point by trial, if no exact way is known: compass search with exact values.
 
-From the best points of a grid one goes to the best neighbour as long as that is better, then with
-half the step. Points are rational and values are compared exactly, so that the same point is found
-on every machine, and its value is right. That no other point is better is not proved.
+From the best points of a grid the search moves to the best neighbour as long as it is better, then
+halves the step. Points are rational and comparisons exact, so every machine finds the same point
+with an exact value. Other points may be better.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from garkcli.deadline import check_time, checked
 
 Point: TypeAlias = tuple[fmpq, ...]
 Rank: TypeAlias = Callable[[Point], Any]
-"""A value that is the larger, the better a point is; None where there is no method."""
+"""A value that is larger for better points; None if there is no method."""
 
 GRID = {
     1: ("-1", "0", "1/8", "1/4", "1/3", "1/2", "2/3", "3/4", "1", "2"),
@@ -28,20 +28,22 @@ GRID = {
 }
 """Coordinates of the first points, by their number."""
 BEST = 3
-"""From so many of them it goes on."""
+"""The number of grid points from which the search goes on."""
 DENOMINATORS = range(1, 31)
-"""What short numbers have."""
+"""Denominators of short numbers."""
 NEAR = fmpq(1, 100)
-"""How far they may be."""
+"""The distance up to which a short number may replace a coordinate."""
 HALVINGS = 12
-"""Steps are 1/8, 1/16, …, so many."""
+"""The number of steps 1/8, 1/16, …"""
 MOVES = 64
-"""With one step: a value that is still better then may get better for ever, and it ends there."""
+"""Most moves with one step: a value that still improves after them may grow without bound, and the
+search stops there.
+"""
 
 
 def climbed(rank: Rank, coordinates: int) -> Point | None:
-    """A point that none of its neighbours is better than, or that ``MOVES`` moves led to; None
-    where the grid has no method.
+    """A point without better neighbours, or the last of ``MOVES`` moves; None if the grid has no
+    method.
 
     Args:
         rank: of a point.
@@ -64,7 +66,7 @@ def climbed(rank: Rank, coordinates: int) -> Point | None:
 
 
 def _shortened(known: Rank, point: Point) -> Point:
-    """With short numbers near by in place of others, where that makes it no worse."""
+    """The point with short numbers near by for its coordinates, if it is no worse."""
     for q in DENOMINATORS:
         others = tuple(_near(x, q) for x in point)
         if others != point and _is_as_good(known, others, point):
@@ -79,13 +81,13 @@ def _shortened(known: Rank, point: Point) -> Point:
 
 
 def _is_as_good(known: Rank, other: Point, point: Point) -> bool:
-    """Whether there is a method at another point that is not worse."""
+    """Whether another point has a method that is not worse."""
     rank = known(other)
     return rank is not None and bool(rank >= known(point))
 
 
 def _near(x: fmpq, q: int) -> fmpq:
-    """The nearest number with a denominator, if it is near."""
+    """The nearest number with the denominator, if it is near."""
     near = fmpq((x * q + fmpq(1, 2)).floor(), q)
     return near if abs(near - x) < NEAR else x
 

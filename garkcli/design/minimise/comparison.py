@@ -1,4 +1,4 @@
-"""What methods of a solution set are compared by, and the best of them."""
+"""The comparison of the methods of a solution set, and the best of them."""
 
 from __future__ import annotations
 
@@ -34,19 +34,19 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Comparison(Mutable):
-    """Collects values that are compared.
+    """Collects the values to compare.
 
     Attributes:
-        design: of a family.
-        step: whose methods are compared.
-        extent: among what the best is the best.
+        design: of the family.
+        step: its methods are compared.
+        extent: the methods among which the best one is best.
         candidates: methods with their values.
-        limits: values that are approached.
-        gradients: the numerators of derivatives, by the coordinate.
+        limits: values that are approached but not attained.
+        gradients: coordinates with the numerators of derivatives in them.
         parts: of the solution set.
-        share: the reading of ``time.monotonic`` until which critical points are sought by
-            Gröbner bases; None for no limit.
-        is_open: whether stability is not decided for methods that may be better.
+        share: the reading of ``time.monotonic`` at which the search for critical points by Gröbner
+            bases ends; None for no limit.
+        is_open: whether the stability of methods that may be better is undecided.
     """
 
     design: Design
@@ -61,8 +61,7 @@ class Comparison(Mutable):
     is_open: bool = False
 
     def result(self) -> Minimum:
-        """The best of what was collected."""
-        if not isinstance(self.step, Solutions):  # these are different already
+        if not isinstance(self.step, Solutions):  # these are distinct already
             self.candidates = without_repeats(self.candidates)
         values = [x.value for x in self.candidates]
         values += [x.value for x in self.limits]
@@ -95,10 +94,10 @@ class Comparison(Mutable):
 
     @abstractmethod
     def extent_of(self, best: Size) -> Extent:
-        """Among what the best value is the best."""
+        """The methods among which the best value is the best."""
 
     def shown(self, value: Size) -> Size:
-        """What people mean by a value."""
+        """A value as users read it."""
         return value
 
     @abstractmethod
@@ -107,21 +106,23 @@ class Comparison(Mutable):
 
     @abstractmethod
     def over_line(self, part: Part) -> None:
-        """The candidates of a part with one free coordinate."""
+        """Adds the candidates of a part with one free coordinate."""
 
     @abstractmethod
     def over_variety(self, part: Part) -> None:
-        """The candidates of a part of larger dimension."""
+        """Adds the candidates of a part of larger dimension."""
 
     def _certified(self, candidate: Candidate) -> Candidate:
-        """With its order by the ordinary certificate."""
+        """The candidate with its order by the certificate."""
         solution = candidate.found.solution
-        asked = self.design.family, self.design.whose, solution
-        found = Found(solution, order_of(*asked), (candidate.index,), **further_of(*asked))
-        return replace(candidate, found=found)
+        of_method = self.design.family, self.design.whose, solution
+        certified = Found(
+            solution, order_of(*of_method), (candidate.index,), **further_of(*of_method)
+        )
+        return replace(candidate, found=certified)
 
     def selection(self) -> None:
-        """Finitely many solutions, which have been found already."""
+        """Adds finitely many solutions, which are known already."""
         for found in self.step.found:
             if found.order is None:
                 continue
@@ -129,7 +130,7 @@ class Comparison(Mutable):
                 self.add(found.solution, index)
 
     def by_theorem(self) -> bool:
-        """The method with the least principal error of its pair, where a theorem knows it; whether
+        """Adds the method with the least principal error of its pair if a theorem gives it; whether
         it does.
         """
         step, ideal, criterion = self.step, self.step.ideal, self.design.criterion_of(self.step)
@@ -144,7 +145,7 @@ class Comparison(Mutable):
         return bool(self.candidates)
 
     def over(self, part: Part) -> None:
-        """The candidates of one part."""
+        """Adds the candidates of one part."""
         if part.dimension == 0:
             for point in points_of(part):
                 solution = part.whole(point)
@@ -157,7 +158,9 @@ class Comparison(Mutable):
             self.over_variety(part)
 
     def over_whole(self, part: Part) -> None:
-        """The candidates of one part of the solution set, of which the stable ones are taken."""
+        """Adds the candidates of one part of the solution set, only the stable ones if stability is
+        wanted.
+        """
         family = self.design.family
         parts = [part]
         if family.stable and part.dimension > 0:
@@ -172,7 +175,7 @@ class Comparison(Mutable):
             self.over(one)
 
     def is_settled(self, part: Part) -> bool:
-        """Whether the sets of a part say which of its methods are as stable as is wanted."""
+        """Whether the sets of a part decide the stability of its methods."""
         return bool(part.sets) or not self.design.family.stable
 
     def takes(self, solution: Solution, root: RealRoot, part: Part | None = None) -> bool:
@@ -192,40 +195,41 @@ class Comparison(Mutable):
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
-        """A method with its value."""
+        """Adds a method with its value."""
         method = Found(solution, None, (index,))
         value = self.value_of(solution, index)
         self.candidates.append(Candidate(value, method, index, is_constant, proof))
 
     def subject(self, values: Mapping[str, Any]) -> Subject:
-        """The methods with values of the unknowns, which may be coordinates of a part."""
+        """The methods with values for the unknowns, which may be coordinates of a part."""
         family = self.design.family
         further = further_member(family.further, family.ring, values)
         tableau = member(self.design.tableau, family.ring, values)
         return Subject.of(family, tableau, self.step.order, further)
 
     def tableau(self, part: Part) -> Tableau:
-        """The tableau with the coordinates of a part."""
+        """The tableau in the coordinates of a part."""
         values = cast("Mapping[str, Number]", part.values)
         return member(self.design.tableau, self.design.family.ring, values)
 
     def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[Chart, Point] | None:
-        """A good method of a part, by the free coordinates of a chart, which proves nothing of
-        others; None where none is found.
+        """A good method of a part by trial, with its chart and free coordinates; None if none is
+        found.
 
         Args:
-            part: where there is one.
+            part: of the solution set.
             rank: larger for better values.
 
         Raises:
-            NotDecided: it has more coordinates than are tried, it is curved, or it takes too long.
+            NotDecided: the part has no charts or too many coordinates, or the search takes too
+                long.
         """
         self.extent = "found"
-        every = charts(part)
-        if not every or len(every[0].names) > max(GRID):
+        all_charts = charts(part)
+        if not all_charts or len(all_charts[0].names) > max(GRID):
             raise NotDecided
         best: tuple[Any, Chart, Point] | None = None
-        for chart in every:
+        for chart in all_charts:
 
             def ranked(point: Point, chart: Chart = chart) -> Any:
                 solution = self.at_point(part, chart, point)
@@ -239,14 +243,14 @@ class Comparison(Mutable):
         return None if best is None else best[1:]
 
     def at_point(self, part: Part, chart: Chart, point: Point) -> Solution | None:
-        """A method by its free coordinates; None where there is none that is compared."""
+        """A method by its free coordinates; None if there is none in the comparison."""
         solution = chart.point(part, point)
         if solution is None or not self.takes(solution, solution.real[chart.index], part):
             return None
         return solution
 
     def edges(self, part: Part) -> Iterator[fmpq_mpoly]:
-        """Polynomials in the coordinates that are zero where the methods that are compared end."""
+        """Polynomials in the coordinates that vanish at the boundary of the compared methods."""
         family = self.design.family
         for end in not_negative(family):
             yield fraction(part.expressed(end, family.ring), part.ring)[0]
@@ -256,7 +260,7 @@ class Comparison(Mutable):
                 yield fraction(polynomial(x), part.ring)[0]
 
     def conditions(self, part: Part) -> Conditions:
-        """Which values of the one coordinate are allowed."""
+        """The conditions on the one coordinate of a part."""
         family = self.design.family
 
         def signs(polynomials: Iterable[fmpq_mpoly]) -> list[Polynomial]:
@@ -279,7 +283,7 @@ _STRENGTH = ("exact", "exists", "numerical")
 
 
 def without_repeats(candidates: Sequence[Candidate]) -> list[Candidate]:
-    """Each method once, with the most that is known of it, in the order of their first places."""
+    """The distinct methods with the strongest proof of each, in the order of their first places."""
     by_value: dict[RealRoot | None, list[int]] = {}
     for place, candidate in enumerate(candidates):
         by_value.setdefault(candidate.value, []).append(place)
@@ -295,7 +299,7 @@ def without_repeats(candidates: Sequence[Candidate]) -> list[Candidate]:
             key = tuple(coordinates[name] for name in sorted(coordinates))
             same.setdefault(key, []).append(place)
         for group in same.values():
-            found = [candidates[k] for k in group]
-            best = min(found, key=lambda x: _STRENGTH.index(x.proof))
-            kept[group[0]] = replace(best, is_constant=any(x.is_constant for x in found))
+            repeats = [candidates[k] for k in group]
+            best = min(repeats, key=lambda x: _STRENGTH.index(x.proof))
+            kept[group[0]] = replace(best, is_constant=any(x.is_constant for x in repeats))
     return [kept[place] for place in sorted(kept)]

@@ -1,13 +1,13 @@
-"""The greatest level that a method has, exactly.
+"""The greatest level among methods, exactly.
 
-The level L(t) is the first y > 0 at which signs of polynomials p(y, t) end what holds from 0 on, or
-0, or infinite. Between the t of ``garkcli.exact.projection`` and those where a curve p = 0 has a
-horizontal tangent L is one branch of a curve, and that is monotone. So the greatest value is
-reached at such a t, or it is approached there without being reached: L may jump. At the t
-themselves, whatever their degree, L is that of ``garkcli.exact.fibre``.
+The level L(t) is the first y > 0 at which a condition on the signs of polynomials p(y, t), true
+from 0 on, fails; it may be 0 or infinite. Between the t of ``garkcli.exact.projection`` and those
+where a curve p = 0 has a horizontal tangent L is one branch of a curve, and that is monotone. So
+the greatest value is reached at such a t, or it is approached there without being reached: L may
+jump. At the t themselves, whatever their degree, L is that of ``garkcli.exact.fibre``.
 
-With a greatest value m of small degree that is then decided once more, without this argument:
-L − m has one sign between the t at which p(m, t) = 0 for some p, and one t each decides.
+A greatest value m of small degree is then checked without this argument: L − m has one sign between
+the t at which p(m, t) = 0 for some p, and one t each decides.
 """
 
 from __future__ import annotations
@@ -37,19 +37,19 @@ from garkcli.exact.roots import FIRST_BITS, RealRoot
 from garkcli.frozen import Frozen
 
 TRIALS = 16
-"""Numbers below the greatest level at which a smaller one may be seen."""
+"""Numbers below the greatest level tried to show that another level is smaller."""
 MOST_DEGREE = 6
-"""Greatest levels of a larger degree are not put into polynomials."""
+"""Largest degree of a greatest level that is checked a second time."""
 _Level: TypeAlias = "RealRoot | Root | None"
-"""A level; that on a fibre is known to any number of digits."""
+"""A level; on a fibre it is known to any number of digits."""
 
 
 class HighAt(Frozen):
-    """The greatest level, at an allowed number.
+    """A number at which the greatest level is attained.
 
     Attributes:
         t: the number.
-        is_sample: whether it is one of an interval without critical numbers.
+        is_sample: whether it stands for an interval without critical numbers.
     """
 
     t: RealRoot
@@ -57,13 +57,13 @@ class HighAt(Frozen):
 
 
 class Levels(Frozen):
-    """What the comparison is between.
+    """The greatest level and the places where it is attained or exceeded.
 
     Attributes:
         greatest: the greatest level that is attained; None for infinity.
-        attained: where: at critical numbers and between them, once for each interval; nowhere where
+        attained: the critical numbers, and one number of each interval, with this level; empty if
             no number is allowed.
-        limits: of a larger one that is approached where it is not attained.
+        limits: ends at which a larger level is approached but not attained.
         is_decided: whether the level is known at every critical number.
     """
 
@@ -82,9 +82,9 @@ def on_levels(level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) 
     """The greatest level.
 
     Args:
-        level: of one rational value of the parameter t, by the ordinary engine.
-        signs: what decides it in the plane.
-        allowed: which t.
+        level: of one rational value of the parameter t, by the engine for one method.
+        signs: the condition that defines it in the plane.
+        allowed: the conditions on t.
     """
     line = _Line(level, signs, allowed)
     attained = sorted(line.attained(), key=lambda pair: pair[0].t)
@@ -100,7 +100,7 @@ def on_levels(level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) 
 
 
 class _Line:
-    """The t-axis with what is critical on it."""
+    """The t-axis with its critical points."""
 
     def __init__(self, level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> None:
         self.level = level
@@ -113,8 +113,8 @@ class _Line:
         self.is_decided = True
 
     def attained(self) -> Iterator[tuple[HighAt, _Level]]:
-        """The level at every critical number that is allowed, and at one of each interval; 0 at
-        irrational numbers where it is less than another one, or not decided.
+        """The level at every allowed critical number, and at one number of each interval; 0 at
+        irrational numbers if it is less than another one, or undecided.
         """
         irrational = []
         most: Size = ORIGIN
@@ -134,7 +134,7 @@ class _Line:
             yield HighAt(root), ORIGIN if self._is_less(root, most) else self._at(root)
 
     def _is_less(self, t: RealRoot, most: Size) -> bool:
-        """Whether some y below a level is seen not to be within that at a critical number."""
+        """Whether some y below a level is proved to be outside the level at a critical number."""
         if most is None:
             return True
         top = between(ORIGIN, most) if most > ORIGIN else ZERO
@@ -146,7 +146,6 @@ class _Line:
         return False
 
     def _at(self, t: RealRoot) -> _Level:
-        """The level at a critical number."""
         check_time()
         fibre = Fibre(t, self.curves)
         if self.signs.common and fibre.have_common_zero(self.signs.common):
@@ -156,8 +155,8 @@ class _Line:
         return RealRoot.rational(level) if isinstance(level, fmpq) else level
 
     def may_exceed(self, m: RealRoot) -> bool:
-        """Whether levels between critical numbers may be larger than the greatest that is attained:
-        not where one number of each interval decides it.
+        """Whether levels between critical numbers may exceed the greatest attained one: False if
+        one number of each interval decides it.
         """
         if m.exact is not None:
             crossing = [at_y(p, m.exact) for p in self.curves]
@@ -183,8 +182,9 @@ class _Line:
     def _limit(self, cell: tuple[RealRoot | None, RealRoot | None], is_right: bool) -> Size:
         """The limit of the level at an end of an interval.
 
-        It is a number where curves meet the line at the end, or 0 or infinity, and rational numbers
-        between these tell which: near enough to the end no curve has any of them as its y.
+        It is the y of a point where curves meet the line at the end, or 0 or infinity, and rational
+        numbers between these decide which: near enough to the end no curve has any of them as its
+        y.
         """
         check_time()
         end = cell[1] if is_right else cell[0]
@@ -210,25 +210,27 @@ class _Line:
         return limit.exact if isinstance(limit, Root) else limit
 
     def _meeting(self, end: RealRoot | None) -> tuple[Sequence[RealRoot | Root], list[fmpq]]:
-        """Where curves meet the line at an end, and a number before, between and behind these."""
+        """The points where curves meet the line at an end, and a number before, between and behind
+        these.
+        """
         if end is not None:
             fibre = Fibre(end, self.curves)
             return fibre.roots, fibre.gaps
-        # at infinity the coefficients of the highest powers of t
+        # at infinity the coefficients of the highest powers of t count
         highest = [in_one(coefficient_of(p, p.degrees()[1], variable=1)) for p in self.curves]
         roots = [y for y in roots_of(highest) if y > ORIGIN]
         return roots, [between(a, b) for a, b in pairwise([ORIGIN, *roots, None])]
 
 
 def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[HighAt, ...]]:
-    """The greatest of levels, and where it is: of each run of neighbours one, of intervals the
-    shortest number.
+    """The greatest level, and one number of each run of neighbours with it, the shortest number of
+    an interval.
     """
     exact: list[Size] = []
     most: Size = ORIGIN
     for _, level in attained:
         if isinstance(level, Root):
-            # most are smaller by their first digits
+            # first digits show that most are smaller
             is_less = most is None or level.ball(FIRST_BITS) < most.ball(FIRST_BITS)
             level = ORIGIN if is_less else level.exact
         exact.append(level)
@@ -242,7 +244,7 @@ def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[Hi
 
 
 def _stationary(of_curves: Iterable[fmpq_mpoly]) -> Iterator[Polynomial]:
-    """Where a curve has a horizontal tangent, as polynomials in t."""
+    """Polynomials in t that vanish where a curve has a horizontal tangent."""
     for curve in of_curves:
         by_t = curve.derivative(1)
         if by_t and curve.degrees()[0]:
@@ -257,7 +259,7 @@ def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot |
 
 
 def _length(one: HighAt) -> tuple[bool, int]:
-    """Samples first, short ones first."""
+    """A key that sorts samples first, short ones first."""
     t = one.t.exact
     bits = 0 if t is None else int(t.p).bit_length() + int(t.q).bit_length()
     return not one.is_sample, bits
@@ -295,14 +297,14 @@ class Highest(Comparison):
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
-        """A method with its value; those of number fields that are too large are left out."""
+        """Adds a method with its value, unless its number field is too large."""
         try:
             super().add(solution, index, is_constant, proof)
         except TooLarge:
             self.extent = "found"
 
     def over_line(self, part: Part) -> None:
-        """All candidates of a part with one free coordinate."""
+        """Adds all candidates of a part with one free coordinate."""
         [name] = part.ring.names
         tableau, signs = self.tableau(part), self.objective.signs
         assert signs is not None  # ``exactly`` refuses others
@@ -315,14 +317,14 @@ class Highest(Comparison):
             self.extent = "found"
         for high in levels.attained:
             method = Found(part.whole(at_root(name, high.t)), None, (high.t.number,))
-            # between critical numbers levels are monotone: the greatest is one of a constant
+            # levels are monotone between critical numbers, so a greatest one there is constant
             is_constant = high.is_sample and not levels.limits
             self.candidates.append(Candidate(levels.greatest, method, high.t.number, is_constant))
         for toward in levels.limits:
             self.limits.append(Limit(toward.value, name, toward))
 
     def over_variety(self, part: Part) -> None:
-        """A good method by trial."""
+        """Adds a good method by trial."""
         best = self.tried(part, height)
         if best is not None:
             chart, point = best

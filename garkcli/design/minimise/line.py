@@ -21,7 +21,7 @@ from garkcli.frozen import Frozen
 
 
 class Within(Frozen):
-    """That a rational function N/D of t has values in a set.
+    """The condition that a rational function N/D of t has its value in a set.
 
     Attributes:
         numerator: N.
@@ -34,7 +34,7 @@ class Within(Frozen):
     intervals: tuple[Interval, ...]
 
     def holds(self, t: Point) -> bool:
-        """Whether the value at t is one of the set."""
+        """Whether the value at t is in the set."""
         if sign_of(self.denominator, t) == 0:
             return False
         root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
@@ -42,23 +42,23 @@ class Within(Frozen):
 
     @property
     def polynomials(self) -> list[Polynomial]:
-        """Polynomials in t: between their zeros nothing changes."""
+        """Polynomials in t: between their zeros the condition holds for all t or for none."""
         N, D = self.numerator, self.denominator
-        found = [D]
+        critical = [D]
         for end in ends_of(self.intervals):
             total = Polynomial([])
             for k, a in enumerate(end.coefficients):
                 total += N**k * D ** (end.degree - k) * a
-            found.append(total)
-        return found
+            critical.append(total)
+        return critical
 
 
 class Conditions(Frozen):
-    """Which numbers are allowed.
+    """The conditions for numbers to be allowed.
 
     Attributes:
-        nonzero, positive, not_negative: polynomials with that sign there.
-        sets: functions whose values are in sets of numbers.
+        nonzero, positive, not_negative: polynomials with these signs.
+        sets: functions with their values in sets of numbers.
     """
 
     nonzero: Sequence[Polynomial] = ()
@@ -82,7 +82,7 @@ class Conditions(Frozen):
 
     @property
     def polynomials(self) -> list[Polynomial]:
-        """All of them."""
+        """All polynomials whose signs matter."""
         critical = [*self.nonzero, *self.positive, *self.not_negative]
         for x in self.sets:
             critical += x.polynomials
@@ -100,9 +100,9 @@ class Toward(Frozen):
     """The limit at an end that is not allowed.
 
     Attributes:
-        value: the limit; None where it is infinite.
+        value: the limit; None if it is infinite.
         end: the end; None for infinity.
-        is_right: whether it is the right end of an interval.
+        is_right: whether the end is the right one of an interval.
     """
 
     value: RealRoot | None
@@ -111,12 +111,12 @@ class Toward(Frozen):
 
 
 class OnLine(Frozen):
-    """What the comparison is between.
+    """The candidates for the least value.
 
     Attributes:
         attained: values at critical points and ends.
-        limits: at ends that do not belong to the set.
-        gradient: the numerator of the derivative in lowest terms, primitive; 0 of a constant.
+        limits: limits at ends that do not belong to the set.
+        gradient: the numerator of the derivative in lowest terms, primitive; 0 for a constant.
     """
 
     attained: tuple[At, ...]
@@ -129,8 +129,8 @@ def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Conditions)
 
     Args:
         numerator: N, rational.
-        denominator: D, rational; N/D is bounded below where D is zero.
-        allowed: where.
+        denominator: D, rational; N/D is bounded below near zeros of D.
+        allowed: the conditions on t.
     """
     common = gcd(numerator, denominator)
     N, D = numerator // common, denominator // common
@@ -174,7 +174,7 @@ def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
 def _limit(
     N: Polynomial, D: Polynomial, end: RealRoot | None, value: Callable[[RealRoot], RealRoot]
 ) -> RealRoot | None:
-    """The limit of N/D at an end; None where it is infinite."""
+    """The limit of N/D at an end; None if it is infinite."""
     if end is not None:
         return None if sign_of(D, end) == 0 else value(end)
     if N.degree > D.degree:

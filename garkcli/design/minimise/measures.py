@@ -1,8 +1,8 @@
 """Objectives that only a search minimises: errors of embedded weights, constants of pairs, sizes.
 
-A pair is of orders p and q, its errors of order n are ‖e_n‖ and ‖ê_n‖, the 2-norms over the trees
-of that order. B, C, E: J. Dormand, P. Prince, *A family of embedded Runge–Kutta formulae*, J.
-Comput. Appl. Math. 6 (1980), with q = p − 1; C. Kennedy, M. Carpenter, NASA/TM–2016–219173.
+A pair has orders p and q; its errors of order n are ‖e_n‖ and ‖ê_n‖, the 2-norms over the trees of
+that order. B, C, E: J. Dormand, P. Prince, *A family of embedded Runge–Kutta formulae*, J. Comput.
+Appl. Math. 6 (1980), with q = p − 1; C. Kennedy, M. Carpenter, NASA/TM–2016–219173.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 def coefficients_of(tableau: Tableau) -> Iterator[Any]:
-    """The entries of all blocks and all weights."""
     tableau.demand_fields("the size of coefficients")
     blocks = tableau.blocks.values()
     yield from chain(*chain.from_iterable(blocks), *(colour.b for colour in tableau.colours))
@@ -38,31 +37,31 @@ def numbers_of(subject: Subject) -> Iterator[Any]:
 
 
 def at_infinity(tableau: Tableau, key: str) -> tuple[Any, Any]:
-    """R(∞) of a method of one colour, numerator and denominator, where the latter has the degree
-    that it has for almost all methods.
+    """Numerator and denominator of R(∞) for a method of one colour whose stability function has the
+    degree of almost all methods.
 
     Raises:
-        UsageProblem: there are several colours, or R(∞) is infinite.
+        UsageProblem: the method has several colours, or R(∞) is infinite.
     """
     colour = tableau.colours[0]
     if tableau.size > 1 or not isinstance(tableau.spaces[colour.space], PointSpace):
         message = f"{key}: R(∞) is that of a method of one colour with stages of its own"
         raise UsageProblem(message, "wanted: R-infinity: {2: 0}", code="wanted-without-meaning")
     A: Any = tableau.blocks[colour.space, 0]
-    below = characteristic_coefficients(A)
-    less = [[x - y for x, y in zip(row, colour.b, strict=True)] for row in A]
-    above = characteristic_coefficients(tuple(map(tuple, less)))
-    degree = max(k for k, x in enumerate(below) if x)
-    if not degree or any(above[degree + 1 :]):
+    denominator = characteristic_coefficients(A)
+    reduced = [[x - y for x, y in zip(row, colour.b, strict=True)] for row in A]
+    expanded = characteristic_coefficients(tuple(map(tuple, reduced)))
+    degree = max(k for k, x in enumerate(denominator) if x)
+    if not degree or any(expanded[degree + 1 :]):
         message = f"{key}: R(∞) is infinite"
         cure = "explicit methods have no value there; R-infinity: 0 under design makes it finite"
         raise UsageProblem(message, cure, code="wanted-without-meaning")
-    return above[degree], below[degree]
+    return expanded[degree], denominator[degree]
 
 
 def _rational(number: Any) -> fmpq:
-    found: fmpq = number
-    return found
+    rational: fmpq = number
+    return rational
 
 
 def _error(tableau: Tableau, order: int) -> fmpq:
@@ -81,12 +80,12 @@ def _embedded_error(subject: Subject) -> fmpq:
     return _error(tableau, order + 1)
 
 
-def _quotient(above: fmpq, below: fmpq) -> fmpq:
-    if not below:
+def _quotient(numerator: fmpq, denominator: fmpq) -> fmpq:
+    if not denominator:
         message = "B, C and E divide by the error of the embedded weights, which is 0"
         cure = "a lower embedded-order leaves an estimate"
         raise UsageProblem(message, cure, code="wanted-without-meaning")
-    return above / below
+    return numerator / denominator
 
 
 def _b(subject: Subject) -> fmpq:
@@ -116,8 +115,8 @@ def _largest(numbers: Iterator[Any]) -> fmpq:
 
 
 def _infinity(tableau: Tableau, key: str) -> fmpq:
-    above, below = at_infinity(tableau, key)
-    return _rational((above / below) ** 2)
+    numerator, denominator = at_infinity(tableau, key)
+    return _rational((numerator / denominator) ** 2)
 
 
 MEASURES = (
@@ -153,4 +152,4 @@ MEASURES = (
         lambda x: _infinity(x.embedded[0], "embedded-infinity"),
     ),
 )
-"""Every one of them, in the order of the documentation."""
+"""All measures, in the order of the documentation."""

@@ -1,9 +1,9 @@
-"""Which methods of a solution set have the least value of an objective.
+"""The methods of a solution set with the least value of an objective.
 
-The set is taken apart (``garkcli.design.parts``). Of single points all are compared. On a
-part with one coordinate the objective is a rational function of it, and everything is compared:
-critical points, ends, limits. On a part of larger dimension the critical points are found; what
-happens at infinity is not looked at.
+The set is split into parts (``garkcli.design.parts``). Single points are all compared. On a part
+with one coordinate the objective is a rational function of it: critical points, ends and limits are
+compared. On a part of larger dimension the critical points are compared, but not the behaviour at
+infinity.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from garkcli.errors import NotDecided, UsageProblem
 from garkcli.frozen import replace
 
 SHARE = 0.25
-"""The part of the time in which critical points are sought by Gröbner bases; what is tried
-where that is not enough takes about as long.
+"""The share of the time for critical points by Gröbner bases; the trials that replace them take
+about as long.
 """
 
 
 def step_to_minimise(design: Design) -> Decided:
-    """The step of the highest order that has methods.
+    """The step of the highest order that may have methods.
 
     Raises:
-        UsageProblem: none is decided.
+        UsageProblem: no step is decided.
     """
     for step in reversed(design.steps):
         if isinstance(step, Decided) and step.may_have_methods:
@@ -49,13 +49,13 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
     """The methods of the highest order with the least value of an objective.
 
     Args:
-        design: of a family.
-        objective: the number to make small, or what a file or a command calls it.
-        seconds: after which it is given up; None for never.
+        design: of the family.
+        objective: the number to minimise, or its name.
+        seconds: the time limit; None for none.
 
     Raises:
-        UsageProblem: the objective, or stability that is wanted, has no meaning for the methods, a
-            search alone minimises it, or nothing was decided.
+        UsageProblem: the objective or a wanted stability is not applicable, only a search minimises
+            it, or no step is decided.
         NotDecided: a Gröbner basis or a trial takes too long.
     """
     step = step_to_minimise(design)
@@ -65,15 +65,15 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
         objective = objective.meant(design.tableau)
     objective = exactly(objective)
     comparison: Comparison
-    of_whom, among = design, step
+    compared, among = design, step
     if step.known.of_stable is not None:
-        # all methods of this ideal are as stable as is wanted
-        of_whom = replace(design, family=replace(design.family, stable=()))
+        # all methods of this ideal have the wanted stability
+        compared = replace(design, family=replace(design.family, stable=()))
         among = replace(step, ideal=step.known.of_stable.ideal)
     if isinstance(objective, Level):
-        comparison = Highest(of_whom, among, objective)
+        comparison = Highest(compared, among, objective)
     else:
-        comparison = Smallest(of_whom, among, objective)
+        comparison = Smallest(compared, among, objective)
     with within(seconds):
         left = seconds_left()
         comparison.share = None if left is None else monotonic() + SHARE * left
@@ -81,17 +81,17 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
             comparison.selection()
         elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
             with until(comparison.share):
-                parts = of_whom.parts(among)
+                parts = compared.parts(among)
             _over(comparison, parts)
         return replace(comparison.result(), design=design, step=step)
 
 
 def _over(comparison: Comparison, parts: Sequence[Part]) -> None:
-    """Compare the methods of all parts, each in its share of the time; where a part is too large or
-    curved, the best of the others is the best that was found.
+    """Compares the methods of all parts, each in its share of the time; if a part is too large or
+    curved, the best of the others is only the best found.
 
     Raises:
-        NotDecided: no part has a method that is compared.
+        NotDecided: no part gives a method to compare.
     """
     missed = 0
     for number, part in enumerate(parts):

@@ -1,4 +1,4 @@
-"""What may be minimised: a function of a method, and how it depends on parameters."""
+"""Objectives: functions of a method, and their dependence on parameters."""
 
 from __future__ import annotations
 
@@ -18,26 +18,25 @@ from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
 Formula: TypeAlias = Callable[["Subject", "Parameters | None"], Quotient]
-"""From methods and the parameters in their coefficients (None where these are numbers) to the
-objective, numerator and denominator.
+"""From methods and the parameters in their coefficients (None for numbers) to the numerator and
+denominator of the objective.
 """
 Size: TypeAlias = RealRoot | None
 """A number that is not negative; None for infinity."""
 
 INSIDE = 1e-7
-"""The part by which a search makes levels larger than the least value that is wanted."""
+"""The share by which a search makes levels larger than the wanted bound."""
 ORIGIN = RealRoot.rational(fmpq(0))
-"""0."""
 
 
 class Objective(Frozen):
-    """Something that is made as small as possible, a rational function of the coefficients.
+    """A rational function of the coefficients to minimise.
 
     Attributes:
         key: its name.
-        summary: what it is, in words.
+        summary: the function in words.
         formula: a rational function of the coefficients.
-        bounded: numbers that are bounded wherever it is.
+        bounded: numbers that are bounded if the function is.
     """
 
     key: str
@@ -47,20 +46,19 @@ class Objective(Frozen):
 
 
 def none_is_negative(signs: Sequence[int]) -> bool:
-    """Whether no sign is −1."""
     return min(signs, default=0) >= 0
 
 
 class Signs(Frozen):
-    """What a level is decided by.
+    """The condition on signs that defines a level.
 
     Attributes:
         polynomials: in ``PLANE``, in y and the parameter t.
-        holds: whether y is within the level, by the signs of the polynomials at it, if all smaller
+        holds: whether y is within the level, by the signs of the polynomials at y, if all smaller
             ones are.
-        is_closed: whether what holds for t near some number holds there too.
-        common: what a step is made of; where these have a zero y in common for one t, that is no
-            zero of the step.
+        is_closed: whether a condition that holds for t near some number holds there too.
+        common: the polynomials of a step; a zero y common to all of them for one t cancels in the
+            step.
     """
 
     polynomials: Sequence[fmpq_mpoly]
@@ -70,16 +68,16 @@ class Signs(Frozen):
 
 
 class Level(Frozen):
-    """Something that is made as large as possible: the y up to which something holds from 0 on,
-    which the signs of polynomials decide; 0 or infinity among them.
+    """A number to maximise: the y up to which a condition on the signs of polynomials holds from 0
+    on; it may be 0 or infinite.
 
     Attributes:
         key: its name, which begins with a minus sign.
-        summary: what it is, in words.
-        value: the level y of one method, by the ordinary engine.
-        signs: of a tableau of one parameter: what decides it; None where a search alone does.
-        is_square: whether what people mean is √y.
-        claim: the name by which method files claim it, if they can.
+        summary: the number in words.
+        value: the level y of one method, by its own engine.
+        signs: the condition for a tableau with one parameter; None if only a search maximises it.
+        is_square: whether users read √y.
+        claim: the key of claims about it in method files, if there is one.
     """
 
     key: str
@@ -90,19 +88,21 @@ class Level(Frozen):
     claim: str | None = None
 
     def shown(self, y: Size) -> Size:
-        """What people mean by a level."""
+        """A level as users read it."""
         return square_root(y) if self.is_square and y is not None else y
 
     def measured(self, y: Size) -> Size | float:
-        """What a search prints of a level."""
+        """A level as a search prints it."""
         return self.shown(y)
 
     def inside(self, bound: float) -> float:
-        """A number a little larger than a least value: exact numbers nearby must not have less."""
+        """A bound for a search a little above a wanted one, so that exact numbers near by still
+        reach that.
+        """
         return bound * (1 + INSIDE)
 
     def reaches(self, y: Size, bound: fmpq) -> bool:
-        """Whether what people mean by a level is at least a number."""
+        """Whether a level, as users read it, is at least a number."""
         shown = self.shown(y)
         return shown is None or not shown < RealRoot.rational(bound)
 
@@ -112,10 +112,10 @@ class Subject(Frozen):
 
     Attributes:
         tableau: of the methods.
-        order: of them.
-        further: their embedded weights.
-        embedded_order: the order that the embedded weights are to have; None where none is wanted.
-        dense_order: the order that the dense output is to have; None where none is wanted.
+        order: of the methods.
+        further: their embedded weights and dense output.
+        embedded_order: the wanted order of the embedded weights; None if none is wanted.
+        dense_order: the wanted order of the dense output; None if none is wanted.
     """
 
     tableau: Tableau
@@ -134,7 +134,7 @@ class Subject(Frozen):
         """The methods with the embedded weights in place of b, and their order.
 
         Raises:
-            UsageProblem: they have none, or no order is wanted of them.
+            UsageProblem: they have no embedded weights, or no order of these is wanted.
         """
         if self.further.embedded is None or self.embedded_order is None:
             message = "the objective is about embedded weights with an order: the file wants none"
@@ -148,8 +148,8 @@ class Measure(Frozen):
 
     Attributes:
         key: its name.
-        summary: what it is, in words.
-        squared: its square of one method with rational coefficients.
+        summary: the number in words.
+        squared: the square of the number, for one method with rational coefficients.
     """
 
     key: str
@@ -158,15 +158,15 @@ class Measure(Frozen):
 
 
 Single: TypeAlias = Objective | Level | Measure
-"""The meaning of one name."""
+"""The objective of one name."""
 
 
 class Sum(Frozen):
-    """Several of them, with weights.
+    """A weighted sum of objectives.
 
     Attributes:
-        key: as people write it.
-        terms: each with its weight, which is negative for levels, positive for others.
+        key: the text of the sum.
+        terms: weights with objectives; weights are negative for levels, positive for others.
     """
 
     key: str
@@ -179,11 +179,11 @@ class Sum(Frozen):
 
 
 class Either(Frozen):
-    """A name that means one thing for some methods and another one for others.
+    """A name that means different levels for different methods.
 
     Attributes:
         key: the name.
-        meant: what it means.
+        meant: the level for a method.
     """
 
     key: str

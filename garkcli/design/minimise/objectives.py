@@ -1,4 +1,4 @@
-"""What may be minimised, by its name: an entry each of ``OBJECTIVES``."""
+"""The objectives by their names: one entry of ``OBJECTIVES`` each."""
 
 from __future__ import annotations
 
@@ -44,8 +44,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 def is_linear(tableau: Tableau) -> bool:
-    """Whether the linear test equation has a meaning: every stage sees every colour, and all drive
-    all unknowns.
+    """Whether the linear test equation is applicable: every stage depends on every colour, and all
+    colours drive all unknowns.
     """
     spaces = range(len(tableau.spaces))
     colours = range(tableau.size)
@@ -57,7 +57,7 @@ def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, f
     """R = P/Q on the linear test equation, as polynomials in y for z and t.
 
     Raises:
-        UsageProblem: it has no meaning for the method.
+        UsageProblem: it is not applicable.
     """
     refuse_partitioned(tableau)
     tableau = on_linear_problems(tableau)
@@ -67,10 +67,10 @@ def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, f
 
 
 def refuse_partitioned(tableau: Tableau) -> None:
-    """The linear test equation needs stages that see every vector field.
+    """Raises if the linear test equation is not applicable.
 
     Raises:
-        UsageProblem: some do not.
+        UsageProblem: some stages do not depend on every vector field.
     """
     if not is_linear(tableau):
         raise UsageProblem(
@@ -82,10 +82,10 @@ def refuse_partitioned(tableau: Tableau) -> None:
 
 
 def refuse_one_colour(tableau: Tableau) -> None:
-    """Coupling errors are of several colours.
+    """Raises if there are no coupling errors.
 
     Raises:
-        UsageProblem: there is one.
+        UsageProblem: the method has one colour.
     """
     if on_linear_problems(tableau).size == 1:
         message = "error-coupling: the method has one colour, and no tree has two"
@@ -109,8 +109,8 @@ def _dense_error(subject: Subject, ring: Parameters | None) -> Quotient:
 def _squared_coefficients(subject: Subject, ring: Parameters | None) -> Quotient:
     """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
 
-    At nodes T is the identity; in a polynomial space it makes the sum rational where the nodes are
-    not.
+    On point stages T is the identity; in a polynomial space it makes the sum rational even for
+    irrational nodes.
     """
     tableau = subject.tableau
     tableau.demand_fields("Σ a² + Σ b²")
@@ -131,7 +131,7 @@ def _squared_coefficients(subject: Subject, ring: Parameters | None) -> Quotient
 
 
 def _traces(space: StageSpace) -> Matrix:
-    """T."""
+    """The matrix T of traces."""
     s = space.stages
     if not isinstance(space, PolynomialSpace):
         return identity(s)
@@ -159,11 +159,11 @@ def _product(left: Any, matrix: Matrix, right: Any) -> Any:
 
 def _ssp(tableau: Tableau) -> Size:
     tableau.demand_fields("the SSP coefficient")
-    found = ssp_coefficient(tableau)
-    if found is None:
+    coefficient = ssp_coefficient(tableau)
+    if coefficient is None:
         message = "-ssp: some blocks are missing, or the nodes have no simple radicals"
         raise UsageProblem(message, "spell the tableau out", code="no-radicals")
-    return found.value
+    return coefficient.value
 
 
 def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
@@ -227,7 +227,7 @@ def _oscillator_signs(tableau: Tableau, ring: Parameters) -> Signs:
 
 def _is_bounded(signs: Sequence[int]) -> bool:
     """Whether all powers of the step are bounded: no pole, no eigenvalue outside the unit circle,
-    and no double one ±1 that makes them grow.
+    and no defective double eigenvalue ±1.
     """
     pole, area, right, left, upper, lower = signs
     if not pole or min(area, right, left) < 0:
@@ -307,4 +307,4 @@ OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
         *MEASURES,
     )
 }
-"""Every one of them by its key, in the order of the documentation."""
+"""All objectives by their keys, in the order of the documentation."""

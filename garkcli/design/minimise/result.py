@@ -1,4 +1,4 @@
-"""What a minimisation has found."""
+"""The result of a minimisation."""
 
 from __future__ import annotations
 
@@ -14,15 +14,14 @@ from garkcli.frozen import Frozen
 from garkcli.upward import Shown
 
 Extent: TypeAlias = Literal["all", "nearly", "critical-points", "found"]
-"""Among what a minimum is the least: all methods; all critical points, and no method is less by
-more than 10⁻⁹ of it; all critical points, while what happens at infinity and at values that are
-left out is open; or some methods.
+"""The methods among which a minimum is the least: all; all, up to 10⁻⁹ of its size; all critical
+points, with the behaviour at infinity and at excluded values open; or those found.
 """
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
-"""What is known of a method as a best one: that it is critical, or else compared with all; that a
-critical point is proved to exist beside it; or that it is better than what was tried around it. As
-a method it is exact in any case.
+"""The proof that a method is best: it is a critical point or was compared with all; a critical
+point is proved to exist near it; or it is better than trials around it. The method itself is exact
+in any case.
 """
 
 
@@ -30,11 +29,11 @@ class Candidate(Frozen):
     """A method with its objective.
 
     Attributes:
-        value: of the objective; None where it is infinite.
+        value: of the objective; None if infinite.
         found: the method and its conjugates over ℚ.
-        index: which of the real roots of ``found`` it is.
-        is_constant: whether the objective is the same at all methods near it.
-        proof: what is known of it.
+        index: the number of its real root of ``found``.
+        is_constant: whether the objective is constant near it.
+        proof: the proof that it is best.
     """
 
     value: RealRoot | None
@@ -45,11 +44,11 @@ class Candidate(Frozen):
 
 
 class Limit(Frozen):
-    """What the objective comes near to without reaching it there.
+    """A limit of the objective that is not attained there.
 
     Attributes:
-        value: the limit; None where it is infinite.
-        parameter: which tends to the end.
+        value: the limit; None if infinite.
+        parameter: the parameter that tends to the end.
         toward: the end.
     """
 
@@ -62,19 +61,19 @@ class Minimum(Shown, Frozen):
     """The methods with the least value of an objective.
 
     Attributes:
-        objective: what was minimised.
+        objective: the objective.
         design: of the family.
-        step: whose methods were compared.
-        extent: among what it is the least.
-        value: the least value, or the infimum, of a level the greatest or the supremum; None where
-            no method was found, or where it is infinite.
-        is_infinite: whether it is.
-        minimisers: the methods with it; none where it is not attained.
-        limits: where it is approached, if it is not attained.
-        candidates: how many values were compared.
-        gradient: the numerator of the derivative by the one parameter; None where there are
-            several, or no derivative.
-        parameter: that one.
+        step: its methods were compared.
+        extent: the methods among which it is the least.
+        value: the least value or the infimum, for a level the greatest or the supremum; None if no
+            method was found, or if it is infinite.
+        is_infinite: whether it is infinite.
+        minimisers: the methods with it; empty if it is not attained.
+        limits: the limits that approach it, if it is not attained.
+        candidates: the number of values compared.
+        gradient: the numerator of the derivative in the one parameter; None if there are several,
+            or no derivative.
+        parameter: the one parameter.
     """
 
     objective: Objective | Level

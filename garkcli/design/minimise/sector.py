@@ -1,4 +1,4 @@
-"""The angle α of A(α)-stability, in degrees, as something that a search makes large."""
+"""The angle α of A(α)-stability, in degrees, as a level for searches."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ HALF_TURN = 180
 RIGHT = fmpq(90)
 """A right angle, in degrees."""
 MOST_PARTS = 720
-"""A bound is a multiple of π over at most so many parts, a quarter of a degree."""
+"""Bounds are multiples of π divided by at most so many parts, a quarter of a degree."""
 
 
 class Angle(Level):
-    """A level y = 1 − cos α that people mean as α in degrees."""
+    """A level y = 1 − cos α that users read as α in degrees."""
 
     def reaches(self, y: Size, bound: fmpq) -> bool:
         assert y is not None
@@ -36,10 +36,10 @@ class Angle(Level):
 
 
 def rest_of_cosine(angle: fmpq) -> RealRoot:
-    """1 − cos α of an angle in degrees: cos qα = ±1 where α is a multiple of π/q.
+    """1 − cos α of an angle in degrees: cos qα = ±1 for a multiple α of π/q.
 
     Raises:
-        MethodError: it is more than a right one, or divides a half turn into too many parts.
+        MethodError: it is more than a right angle, or no multiple of a quarter of a degree.
     """
     part = angle / HALF_TURN
     if not 0 < angle <= RIGHT or part.q > MOST_PARTS:
@@ -61,7 +61,7 @@ def angle_of(R: StabilityFunction) -> Size:
     """1 − cos α for the largest sector in which |R| ≤ 1.
 
     Raises:
-        NotDecided: R is too large.
+        NotDecided: the degree of R is too large.
     """
     sector = largest_sector(R)
     if sector is None:

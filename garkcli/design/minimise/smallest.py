@@ -33,14 +33,15 @@ from garkcli.exact.roots import RealRoot
 def critical_equations(
     part: Part, numerator: fmpq_mpoly, denominator: fmpq_mpoly
 ) -> list[fmpq_mpoly]:
-    """Polynomials that are zero at the critical points of N/D on a part.
+    """Polynomials that vanish at the critical points of N/D on a part.
 
-    On the zeros of f_1, …, f_m of codimension c these are the points where the gradients of the
-    function and of the f_i have rank c at most: where all minors of size c + 1 are zero. Points at
-    which the set is not smooth are among them. Of components of a larger codimension not all are.
+    On the zeros of f_1, …, f_m of codimension c these are the points at which the gradients of the
+    function and of the f_i have rank at most c: all minors of size c + 1 vanish. Singular points of
+    the set are among them. On components of a larger codimension some critical points may be
+    missing.
 
     Raises:
-        NotDecided: there are too many of them.
+        NotDecided: there are too many minors.
     """
     size = len(part.ring.names)
     gradient = gradient_of(numerator, denominator, size)
@@ -51,7 +52,7 @@ def critical_equations(
 
 
 def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> list[fmpq_mpoly]:
-    """The numerators of the derivatives of N/D by so many variables."""
+    """The numerators of the derivatives of N/D in the first ``size`` variables."""
     return [
         numerator.derivative(i) * denominator - numerator * denominator.derivative(i)
         for i in range(size)
@@ -72,8 +73,8 @@ def is_convex(p: fmpq_mpoly) -> bool:
 
 
 def is_of_one_dimension(part: Part) -> bool:
-    """Whether no component of a part is known to be able to have a smaller dimension than another:
-    as many equations as the codimension have none (F. S. Macaulay, 1916).
+    """Whether all components of a part are known to have one dimension: as many equations as the
+    codimension imply it (F. S. Macaulay, 1916).
     """
     codimension = len(part.ring.names) - part.dimension
     return part.is_free or len(part.equations) == codimension
@@ -89,11 +90,12 @@ def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:
 
 
 BITS = 256
-"""Of Newton's method and the test, which then encloses the point to half as many."""
+"""Precision of Newton's method and of the test, which then encloses the point to half as many bits.
+"""
 DECIMALS = 20
-"""Of the rational point beside it."""
+"""Decimals of the rational point near it."""
 NEAR = fmpq(1, 100)
-"""How far from the point that is given it may be."""
+"""Largest distance of that point from the given one."""
 
 
 def critical_point_near(
@@ -102,16 +104,16 @@ def critical_point_near(
     nonzero: Sequence[fmpq_mpoly],
     ring: Parameters,
 ) -> tuple[fmpq, ...] | None:
-    """A rational point within 10^−DECIMALS of a common zero of some polynomials; None where none is
-    proved to exist near, by Krawczyk's test.
+    """A rational point within 10^−DECIMALS of a common zero of some polynomials; None if Krawczyk's
+    test proves none near the given point.
 
-    The coordinates of a part are free, so that the rational point is a method as well, of the same
-    order and, but for rounding, the same value.
+    The coordinates of a part are free, so the rational point is a method as well, with the same
+    order and, up to rounding, the same value.
 
     Args:
-        point: near which it is sought.
+        point: the start.
         gradient: the polynomials, as many as unknowns.
-        nonzero: polynomials that are not to vanish there.
+        nonzero: polynomials that must not vanish there.
         ring: of the unknowns.
     """
     system = Fixings(System(polynomial_functions(gradient, ring)))
@@ -131,13 +133,13 @@ def is_nowhere_less(
     place: int = 1,
     lines: Sequence[Interval] | None = None,
 ) -> bool | None:
-    """Whether N/D ≥ m on the plane, or on some lines; None where that would take too long.
+    """Whether N/D ≥ m on the plane, or on some lines; None if that would take too long.
 
     Args:
         numerator: N, in two variables.
         denominator: D.
         m: the bound.
-        place: of the variable that is constant on a line.
+        place: the place of the variable that is constant on a line.
         lines: its values; None for all.
     """
     difference = in_plane(numerator - denominator * m, 1 - place, place)
@@ -148,7 +150,9 @@ def is_nowhere_less(
 
 
 def _lines(part: Part) -> tuple[int, tuple[Interval, ...] | None]:
-    """A coordinate of a part with two of which a set of values is known, and that; None for all."""
+    """A coordinate of a part with two that is restricted to a set of values, and the set; None for
+    no restriction.
+    """
     for place, name in enumerate(part.ring.names):
         values = values_on(part, name)
         if values is not None:
@@ -161,8 +165,8 @@ CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 
 
 def are_bounded(ring: Parameters, numbers: Iterable[object]) -> bool:
-    """Whether all unknowns are bounded where some polynomials in them are: a power of each in turn,
-    times a number, is left of one of these without the terms in those that are bounded already.
+    """Whether bounds on polynomials imply bounds on all unknowns: without the terms in unknowns
+    already bounded, one of them is a multiple of a power of the next unknown.
 
     >>> ring = Parameters(["x", "y"])
     >>> x, y = map(ring.parameter, ring.names)
@@ -183,15 +187,15 @@ def are_bounded(ring: Parameters, numbers: Iterable[object]) -> bool:
 
 
 SLACK = fmpq(1, 10**9)
-"""By how much of it an irrational least value may be missed."""
+"""Relative size by which an irrational least value may be missed."""
 MOST_COORDINATES = 4
-"""Coordinates of which the objective is written out as a function."""
+"""Most coordinates for which the objective is expanded as a function."""
 SHORT = 64
-"""Bits of a rational value up to which it is a bound itself."""
+"""Most bits of a rational value that serves as a bound itself."""
 
 
 def _larger_first(a: Size, b: Size) -> int:
-    """Which of two values comes first in descending order."""
+    """A comparison that sorts values in descending order."""
     assert a is not None
     assert b is not None
     return (a < b) - (b < a)
@@ -203,7 +207,7 @@ def _is_short(best: RealRoot) -> bool:
 
 
 def _bound(best: RealRoot) -> fmpq:
-    """A short value itself, else a short number that is less by ``SLACK`` of it at most."""
+    """A short value itself, else a short number below it by at most ``SLACK`` of it."""
     if best.exact is not None and _is_short(best):
         return best.exact
     about = midpoint(best.ball(SHORT))
@@ -222,7 +226,7 @@ class Smallest(Comparison):
 
     def extent_of(self, best: Size) -> Extent:
         if best == ORIGIN:
-            return "all"  # they are sums of squares
+            return "all"  # objectives are sums of squares
         assert best is not None
         if self.is_open:
             return "found"
@@ -234,8 +238,8 @@ class Smallest(Comparison):
 
     @property
     def _is_coercive(self) -> bool:
-        """Whether all methods with a value below any bound are in a bounded set, which is closed:
-        one of them has the least value, and it is a critical point of its part.
+        """Whether the methods with a value below any bound are in a bounded closed set: then one of
+        them has the least value, and it is a critical point of its part.
         """
         family = self.design.family
         return self._is_closed and are_bounded(
@@ -248,8 +252,8 @@ class Smallest(Comparison):
         return not (self.step.nonzero or family.positive or family.stable or family.radicals)
 
     def _is_convex(self, part: Part) -> bool:
-        """Whether a part is a whole space on which the value is a convex quadratic polynomial: its
-        critical points have the least value.
+        """Whether a part is a whole space on which the value is a convex quadratic polynomial: then
+        its critical points have the least value.
         """
         if not (self._is_closed and part.is_free) or part.nonzero or part.sets:
             return False
@@ -261,9 +265,7 @@ class Smallest(Comparison):
         )
 
     def _is_bounded(self, part: Part, best: RealRoot) -> bool:
-        """Whether no method of a part has a smaller value, of irrational ones by more than
-        rounding.
-        """
+        """Whether no method of a part has a smaller value, up to rounding for irrational ones."""
         if part.dimension == 0 or (part.is_free and part.dimension == 1):
             return self.is_settled(part)
         if self.extent == "critical-points" and self._is_convex(part):
@@ -283,7 +285,7 @@ class Smallest(Comparison):
         return fraction(part.ring.quotient(quotient.numerator, quotient.denominator), part.ring)
 
     def over_line(self, part: Part) -> None:
-        """All candidates of a part with one free coordinate."""
+        """Adds all candidates of a part with one free coordinate."""
         [name] = part.ring.names
         allowed = self.conditions(part)
         numerator, denominator = self._formula(part)
@@ -301,7 +303,7 @@ class Smallest(Comparison):
             self.limits.append(Limit(toward.value, name, toward))
 
     def _over_interval(self, part: Part, name: str, interval: Interval) -> None:
-        """One method for an interval on which the objective is constant."""
+        """Adds one method for an interval on which the objective is constant."""
         if interval.is_point:
             assert interval.start is not None
             root = interval.start
@@ -310,7 +312,7 @@ class Smallest(Comparison):
         self.add(part.whole(at_root(name, root)), root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
-        """The critical points of a part of larger dimension, and those on its edges."""
+        """Adds the critical points of a part of larger dimension, and those on its edges."""
         if not is_of_one_dimension(part):
             self.extent = "found"
         elif self.extent == "all":
@@ -330,7 +332,7 @@ class Smallest(Comparison):
                 self._over_smaller(part, [edge])
 
     def _by_trial(self, part: Part) -> None:
-        """A good method by trial, or a better one next to a critical point near it."""
+        """Adds a good method by trial, or a better one next to a critical point near it."""
         best = self.tried(part, cmp_to_key(_larger_first))
         if best is None:
             return
@@ -363,7 +365,7 @@ class Smallest(Comparison):
         return midpoint(root.ball(BITS))
 
     def _over_smaller(self, part: Part, zeros: list[fmpq_mpoly]) -> None:
-        """The candidates of a subset of a part."""
+        """Adds the candidates of a subset of a part."""
         for smaller in parts_within(part, zeros):
             if smaller.dimension < part.dimension:
                 self.over(smaller)
@@ -371,8 +373,8 @@ class Smallest(Comparison):
             self._over_constant(smaller)
 
     def _over_constant(self, part: Part) -> None:
-        """Some methods of a part without rational coordinates on which the objective is constant,
-        at least near each of them.
+        """Adds some methods of a part without rational coordinates on which the objective is
+        locally constant.
         """
         self.extent = "found"
         names = part.ring.names

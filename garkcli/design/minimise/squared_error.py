@@ -1,15 +1,15 @@
 """Σ e(u)² over all trees of an order, without a list of them.
 
 e(u) = (b·𝒜^[u] − 1/γ(u)) / σ(u). A forest F has the stage vector v and the number w of its trees:
-𝒜 and 1/γ. Both are products over its trees, so that (v, w) is an element of an algebra S, the stage
-space and one factor more. Sums of (v, w) ⊗ (v, w) / σ² over all forests of an order determine
-Σ e(u)². With x_u = (v, w) ⊗ (v, w) / σ(u)² for each tree u on a forest, a tree that occurs m times
-contributes x_u^m / m!², so that all forests together are
+𝒜 and 1/γ. Both are products over its trees, so (v, w) is an element of an algebra S, the stage
+space with one more factor. Sums of (v, w) ⊗ (v, w) / σ² over all forests of an order determine Σ
+e(u)². With x_u = (v, w) ⊗ (v, w) / σ(u)² for each tree u on a forest, a tree that occurs m times
+contributes x_u^m / m!², so all forests together give
 
     Π_u Σ_m x_u^m / m!² = exp Σ_k c_k Σ_u x_u^k,   log Σ_m x^m / m!² = Σ_k c_k x^k.
 
-Σ_u x_u comes from the forests of lower order; the powers k ≥ 2 need the trees of half the order,
-and these are few. The work grows with the order as a polynomial, whatever the number of trees.
+Σ_u x_u comes from the forests of lower order; the powers k ≥ 2 need only the few trees of half the
+order. The work is polynomial in the order.
 """
 
 from __future__ import annotations
@@ -49,14 +49,12 @@ class Tensor(Frozen):
     ww: Entry
 
     def plus(self, other: Tensor) -> Tensor:
-        """The sum."""
         rows = zip(self.vv, other.vv, strict=True)
         return Tensor(
             tuple(_added(a, b) for a, b in rows), _added(self.vw, other.vw), self.ww + other.ww
         )
 
     def times(self, factor: Entry) -> Tensor:
-        """A multiple."""
         return Tensor(
             tuple(scaled(row, factor) for row in self.vv), scaled(self.vw, factor), self.ww * factor
         )
@@ -80,12 +78,10 @@ class TensorAlgebra:
         self.unit = Pair(tuple(one * x for x in space.one), one)
 
     def product(self, u: Row, v: Row) -> Row:
-        """The product of two stage vectors."""
         check_time()
         return self.space.product(u, v)
 
     def multiplied(self, a: Tensor, b: Tensor) -> Tensor:
-        """The product of two tensors."""
         vv = self._squares(a.vv, b.vv)
         vw = self.product(a.vw, b.vw)
         ww = a.ww * b.ww
@@ -94,7 +90,7 @@ class TensorAlgebra:
     def _squares(self, a: Square, b: Square) -> Square:
         if not isinstance(self.space, PolynomialSpace):
             return tuple(map(self.product, a, b))
-        # rows are polynomials in y, the column of rows one in x
+        # rows are polynomials in y, the column of rows is one in x
         s = self.space.stages
         reductions = self.space.reductions(2 * s - 1)
         rows: list[Row] = [(self.zero,) * (2 * s - 1)] * (2 * s - 1)
@@ -136,7 +132,7 @@ class Quotient(Frozen):
 
     Attributes:
         numerator: a polynomial, or a number.
-        denominator: the same, not zero at any method.
+        denominator: a polynomial or a number, zero at no method.
     """
 
     numerator: Entry
@@ -149,10 +145,10 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
     Args:
         tableau: entries are exact numbers, or rational functions of parameters.
         order: of the trees.
-        ring: the parameters; None where all entries are numbers.
+        ring: the parameters; None if all entries are numbers.
 
     Raises:
-        MethodError: vertices of a colour count no order, or stages stand for exact solutions.
+        MethodError: vertices of a colour count no order, or stages are exact solutions.
     """
     is_known = order <= (tableau.exact_to or order)
     if not is_known or not all(colour.kind.weight for colour in tableau.colours):
@@ -181,20 +177,20 @@ def squared_dense_error(
 
 
 def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
-    """The same over the trees of more than one colour."""
+    """Σ e(u)² over the trees of an order with more than one colour."""
     cleared = Cleared.of(tableau, ring)
     total = _Sums(cleared).total(order)
     numerator = total.numerator
     for l in range(tableau.size):
         if tableau.block(l, l) is not None or order == 1:
-            alone = _Sums(cleared.alone(l)).total(order)
-            numerator = numerator - alone.numerator
+            of_colour = _Sums(cleared.alone(l)).total(order)
+            numerator = numerator - of_colour.numerator
     return Quotient(numerator, total.denominator)
 
 
 class Weighted(Frozen):
-    """Weights for each colour, times a common denominator, and whether they should be 1/γ(u) at the
-    trees of an order; else 0.
+    """Weights for each colour, times a common denominator, and whether the exact value at the trees
+    of an order is 1/γ(u) or 0.
     """
 
     weights: Sequence[Row]
@@ -202,10 +198,10 @@ class Weighted(Frozen):
 
 
 class _Branch(Frozen):
-    """One tree as it is on a forest.
+    """One tree as a branch.
 
     Attributes:
-        value: (D A 𝒜, D w / order) of it, with D once for each order.
+        value: (D A 𝒜, D w / order), with one factor D for each order.
         symmetry: σ.
     """
 
@@ -219,14 +215,14 @@ class _Sums(OrderByOrder[Tensor]):
     def __init__(self, cleared: Cleared) -> None:
         self.cleared = cleared
         self._algebras = [TensorAlgebra(x, cleared.one) for x in cleared.tableau.spaces]
-        # of each stage space, by order
+        # for each stage space, by order
         self._trees: list[list[list[_Branch]]] = [[[]] for _ in self._algebras]
         super().__init__(cleared.tableau, (squared(x.unit) for x in self._algebras))
 
     def total(self, order: int) -> Quotient:
         """Σ e(u)² over the trees of an order, over all root colours."""
-        own = Weighted(self.cleared.weights, is_exact=True)
-        return self.of_form(order, [own], [[fmpq(1)]], self.cleared.E)
+        weighted = Weighted(self.cleared.weights, is_exact=True)
+        return self.of_form(order, [weighted], [[fmpq(1)]], self.cleared.E)
 
     def of_form(
         self, order: int, rows: Sequence[Weighted], form: Sequence[Sequence[fmpq]], E: Entry
@@ -235,7 +231,7 @@ class _Sums(OrderByOrder[Tensor]):
 
         Args:
             order: of the trees.
-            rows: the weights that the errors e_j belong to, times E.
+            rows: the weights of the errors e_j, times E.
             form: q.
             E: a common denominator.
         """
@@ -245,7 +241,7 @@ class _Sums(OrderByOrder[Tensor]):
             kind = cleared.tableau.colours[l].kind
             x = self.of_trees(l, order)
             share = E * _share(kind, order)
-            found = cleared.one * 0
+            of_colour = cleared.one * 0
             scales = [share if row.is_exact else share * 0 for row in rows]
             for j, (one, s) in enumerate(zip(rows, scales, strict=True)):
                 b = one.weights[l]
@@ -254,9 +250,9 @@ class _Sums(OrderByOrder[Tensor]):
                     c = other.weights[l]
                     # (b v) (c v) − (b v) (t w) − (c v) (s w) + (s w) (t w)
                     part = dot(c, v) - w * t - dot(c, x.vw) * s + x.ww * s * t
-                    found += part * form[j][k]
-            # its branches have D once for each order
-            total += found * cleared.D ** (2 * (kind.weight - 1))
+                    of_colour += part * form[j][k]
+            # its branches have one factor D for each order
+            total += of_colour * cleared.D ** (2 * (kind.weight - 1))
         power = cleared.D ** (order - 1)
         denominator = E * power
         return Quotient(total, denominator * denominator)
@@ -267,9 +263,9 @@ class _Sums(OrderByOrder[Tensor]):
         scale = self.cleared.D * _share(kind, order)
         columns = [_applied(block, row) for row in trees.vv]
         vv = tuple(_applied(block, row) for row in zip(*columns, strict=True))
-        found = Tensor(vv, scaled(_applied(block, trees.vw), scale), trees.ww * scale * scale)
+        image = Tensor(vv, scaled(_applied(block, trees.vw), scale), trees.ww * scale * scale)
         more = kind.weight - 1
-        return found.times(self.cleared.D ** (2 * more)) if more else found
+        return image.times(self.cleared.D ** (2 * more)) if more else image
 
     def _joined(self, k: int, parts: Iterable[Tensor]) -> Tensor:
         total = self._algebras[k].nothing
@@ -305,7 +301,7 @@ class _Sums(OrderByOrder[Tensor]):
         return total
 
     def _all_branches(self, k: int, order: int) -> list[_Branch]:
-        """Every tree of an order that the stages of space k see."""
+        """Every tree of an order that the stages of space k depend on."""
         known = self._trees[k]
         while len(known) <= order:
             known.append(list(self._new_trees(k, len(known))))
@@ -321,17 +317,17 @@ class _Sums(OrderByOrder[Tensor]):
             if rest < 0:
                 continue
             least, most = _branches(kind, rest)
-            more = D ** (kind.weight - 1)
+            powers_of_D = D ** (kind.weight - 1)
             for forest in self._all_forests(colour.space, rest, rest, least, most):
-                v = scaled(_applied(block, forest.value.v), more)
-                w = forest.value.w * (more * D) * _share(kind, order)
+                v = scaled(_applied(block, forest.value.v), powers_of_D)
+                w = forest.value.w * (powers_of_D * D) * _share(kind, order)
                 yield _Branch(Pair(v, w), forest.symmetry)
 
     def _all_forests(
         self, k: int, order: int, largest: int, least: int, most: int
     ) -> Iterator[_Branch]:
-        """Every forest of an order with at least and at most so many trees: those of the largest
-        order first, and of these each number.
+        """Every forest of an order with at least ``least`` and at most ``most`` trees: first the
+        trees of the largest order, in each possible number.
         """
         algebra = self._algebras[k]
         if order == 0:
@@ -348,7 +344,7 @@ class _Sums(OrderByOrder[Tensor]):
 
 
 def _share(kind: Kind, order: int) -> fmpq:
-    """What the exact solution makes of the number of a forest, in a tree of an order; zero where
+    """The factor of the exact solution for the number of a forest, in a tree of an order; zero if
     the root counts more.
     """
     is_exact = kind.is_exact and order >= kind.weight
@@ -356,14 +352,14 @@ def _share(kind: Kind, order: int) -> fmpq:
 
 
 def _branches(kind: Kind, rest: int) -> tuple[int, int]:
-    """The least and the largest number of branches of a root on which a forest of an order is."""
+    """The least and the largest number of branches of a root for a forest of an order."""
     if rest == 0:
         return 0, 0 if kind.allows(0) else -1
     return 1 if kind.allows(1) else SEVERAL, rest if kind.allows(SEVERAL) else int(kind.allows(1))
 
 
 def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> Iterator[_Branch]:
-    """So many trees out of some, each as often as one likes."""
+    """The multisets of ``count`` trees."""
     if count == 0:
         yield _Branch(algebra.unit, 1)
         return
@@ -378,7 +374,7 @@ def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> 
 
 
 def _joined(algebra: TensorAlgebra, a: _Branch, b: _Branch) -> _Branch:
-    """Two forests without a common tree as one."""
+    """The union of two forests without a common tree."""
     v = algebra.product(a.value.v, b.value.v)
     return _Branch(Pair(v, a.value.w * b.value.w), a.symmetry * b.symmetry)
 

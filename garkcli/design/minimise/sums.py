@@ -1,4 +1,4 @@
-"""The argument of ``--minimise``: a name, or a sum of names with weights, such as 2*A + largest."""
+"""The argument of ``--minimise``: a name, or a weighted sum of names, such as 2*A + largest."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from garkcli.exact.nodes import Chain, Expression, Literal, Name
 from garkcli.exact.parametric import Parameters
 
 Wanted: TypeAlias = Objective | Level | Measure | Either | Sum
-"""What may be minimised."""
+"""Anything that can be minimised."""
 CURE = "write a name, or a sum such as '2*A + largest' or 'A - ssp/10'"
 _KEYS = {key.removeprefix("-"): key for key in OBJECTIVES}
 _HYPHENATED = re.compile("|".join(sorted((x for x in _KEYS if "-" in x), key=len, reverse=True)))
 
 
 def objective_of(text: str) -> Wanted:
-    """The objective that a text means.
+    """The objective of a text.
 
     Raises:
-        UsageProblem: it means none.
+        UsageProblem: it is no name or sum of names.
 
     >>> objective_of("error").key
     'error'
@@ -35,7 +35,7 @@ def objective_of(text: str) -> Wanted:
     """
     if text in OBJECTIVES:
         return OBJECTIVES[text]
-    # in sums a hyphen within a name is no sign
+    # a hyphen within a name is no minus sign
     plain = _HYPHENATED.sub(lambda x: x[0].replace("-", "_"), text)
     try:
         form = {name: a for name, a in _linear(parse(plain)).items() if a}
@@ -49,14 +49,14 @@ def objective_of(text: str) -> Wanted:
 
 
 def refuse(text: str, is_search: bool = False) -> None:
-    """Refuse a text that means no objective, or none that is minimised.
+    """Raises for a text without an objective that can be minimised.
 
     Args:
-        text: as it was given.
+        text: the argument.
         is_search: whether a search minimises it.
 
     Raises:
-        UsageProblem: it does not.
+        UsageProblem: it is no objective, or only a search minimises it.
     """
     objective = objective_of(text)
     if not is_search and not isinstance(objective, Either):
@@ -83,7 +83,7 @@ def _linear(expression: Expression) -> dict[str, fmpq]:
     """The coefficients of a linear form by names, the constant by the empty one.
 
     Raises:
-        UsageProblem: it is none.
+        UsageProblem: the expression is not linear.
     """
     match expression:
         case Literal(value=value):
@@ -140,8 +140,10 @@ def exactly(objective: Objective | Level | Measure | Sum) -> Objective | Level:
         total = Quotient(fmpq(0), fmpq(1))
         for weight, one in formulas:
             part = one(subject, ring)
-            above = total.numerator * part.denominator + part.numerator * total.denominator * weight
-            total = Quotient(above, total.denominator * part.denominator)
+            numerator = (
+                total.numerator * part.denominator + part.numerator * total.denominator * weight
+            )
+            total = Quotient(numerator, total.denominator * part.denominator)
         return total
 
     return Objective(objective.key, objective.summary, formula)
