@@ -1,5 +1,5 @@
-"""Down a family step by step: values for unknowns, and what each of them leaves; one method out of
-those found, its parameters as text of method files.
+"""Down a family step by step: values for unknowns, and the dimension after each; one of the
+accepted methods, its parameters as text of method files.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ class Choice(Frozen):
     """A value for one unknown.
 
     Attributes:
-        name: of the unknown.
-        value: as it was written.
-        order: of the methods that are counted.
-        before, after: the dimension of the methods of that order without the choice and with it;
-            −1 where there are none, not even with complex values.
+        name: the unknown.
+        value: the text as given.
+        order: the order of the methods.
+        before, after: the dimension of the methods of that order without the choice and with it; −1
+            if there are none, not even with complex values.
     """
 
     name: str
@@ -38,29 +38,29 @@ class Choice(Frozen):
 
 
 def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Choice]:
-    """What each of several choices leaves of the methods of the highest order with any.
+    """The dimension after each of several choices, among the methods of the highest order reached.
 
     Args:
-        design: of the family before them.
-        values: of unknowns, as text and as numbers, in the order in which they are chosen.
+        design: of the family without the choices.
+        values: of unknowns, as text and as numbers, in the order of the choices.
 
     Raises:
-        MethodError: no order was decided that methods of the family have.
+        MethodError: no order of methods of the family was decided.
         NotDecided: a Gröbner basis takes too long.
     """
-    decided = [x for x in design.steps if x.ideal is not None and x.may_have_methods]
-    if not decided:
+    reached = [x for x in design.steps if x.ideal is not None and x.may_have_methods]
+    if not reached:
         message = "--choose: no order is known that methods of the file have"
         cure = "choose with --set, which makes the system smaller"
         raise MethodError(message, cure, code="not-found")
-    ideal = decided[-1].ideal
+    ideal = reached[-1].ideal
     assert ideal is not None
     ring = design.family.ring
     choices = []
     for name, (text, value) in values.items():
         unknown = ring.context.gen(ring.names.index(name))
         smaller = ideal.with_zeros([unknown - value])
-        choices.append(Choice(name, text, decided[-1].order, ideal.dimension, smaller.dimension))
+        choices.append(Choice(name, text, reached[-1].order, ideal.dimension, smaller.dimension))
         ideal = smaller
     return choices
 
@@ -68,7 +68,7 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
 MAX_DEGREE = 12
 """Largest degree of root_of in method files."""
 DIGITS = 20
-"""Decimals that tell a root of a polynomial from the others."""
+"""Decimals that identify a root of a polynomial."""
 
 
 class Chosen(Frozen):
@@ -76,9 +76,9 @@ class Chosen(Frozen):
 
     Attributes:
         elements: the free parameters as elements of the field of the solution.
-        root: the real root of its modulus that is meant.
-        order: its exact order, of whatever was requested.
-        embedded: that of its embedded weights; None where there are none.
+        root: the real root of its modulus.
+        order: the exact order of the method, conjugate or pair.
+        embedded: the order of its embedded weights; None if it has none.
     """
 
     elements: dict[str, Number]
@@ -91,25 +91,24 @@ class Chosen(Frozen):
         """The free parameters as text.
 
         Raises:
-            MethodError: they cannot be written in a method file.
+            MethodError: no method file can hold them.
         """
         return values_text(self.elements, self.root)
 
 
 def accepted_methods(design: Design) -> Iterator[Chosen]:
-    """The real solutions that are taken, of the highest order that has any."""
+    """The accepted real solutions of the highest order that has any."""
     names = design.family.parameters
     for step in reversed(design.steps):
-        taken = [(found, index) for found in step.found for index in found.accepted]
-        for found, index in taken:
+        accepted = [(found, index) for found in step.found for index in found.accepted]
+        for found, index in accepted:
             if found.order is not None:
                 yield chosen(found, index, names, found.order.order)
-        if taken:
+        if accepted:
             return
 
 
 def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen:
-    """One of the methods of a solution."""
     solution = found.solution
     values = {name: solution.values[name] for name in names}
     embedded = None if found.embedded is None else found.embedded[0].order
@@ -117,8 +116,8 @@ def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen
 
 
 def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
-    """Elements of ℚ[u]/modulus at a root of the modulus, in radicals where each has simple ones,
-    else in one root of a polynomial.
+    """Elements of ℚ[u]/modulus at a root of the modulus, in radicals if each has simple ones, else
+    as polynomials in one root.
 
     Raises:
         MethodError: no value generates the field, or its degree is beyond method files.
@@ -133,7 +132,7 @@ def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
 
 
 def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
-    """Values as polynomials in one of them that generates their field, written as root_of(p, r).
+    """Values as polynomials in one of them that generates their field, written root_of(p, r).
 
     Raises:
         MethodError: no value does, or its degree is beyond method files.
@@ -159,7 +158,6 @@ def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
 
 
 def _powers(generator: Algebraic, field: NumberField) -> fmpq_mat:
-    """1, g, g², … as columns in the basis of the field."""
     columns = []
     power = fmpq_poly([1])
     for _ in range(field.degree):

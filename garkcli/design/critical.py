@@ -1,5 +1,5 @@
-"""Points of real zeros that are found as critical points: on each closed set one is nearest to a
-given point, and there the gradients of its equations and of the distance are dependent.
+"""Real points of closed sets as critical points: on each closed set one is nearest to a given
+point, and there the gradients of its equations and of the distance are dependent.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
 
 MOST_MINORS = 200
-"""Equations that are written down at most."""
+"""Most minors in one system."""
 MOST_GENERATORS = 200
-"""Most choices of as many basis elements as the codimension."""
+"""Most choices of basis elements, as many as the codimension."""
 MOST_POINTS = 60
-"""Critical points, complex ones included."""
+"""Most critical points, complex ones included."""
 CENTRES = 3
-"""Points to which nearest ones are sought; all but few give finitely many."""
+"""Points to which nearest ones are sought; almost all give finitely many."""
 
 
 def minors(rows: Sequence[Sequence[fmpq_mpoly]], size: int) -> list[fmpq_mpoly]:
-    """All minors of a size that have the first row, and others of the rest.
+    """All minors of a size that contain the first row.
 
     >>> ring = Parameters(["x", "y"])
     >>> x, y = ring.context.gens()
@@ -52,12 +52,12 @@ def minors(rows: Sequence[Sequence[fmpq_mpoly]], size: int) -> list[fmpq_mpoly]:
 
 
 def slopes(polynomials: Sequence[fmpq_mpoly], size: int) -> list[list[fmpq_mpoly]]:
-    """The gradients of polynomials, by their first so many unknowns."""
+    """The gradients of polynomials in the first ``size`` unknowns."""
     return [[p.derivative(i) for i in range(size)] for p in polynomials]
 
 
 def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
-    """By the first row."""
+    """Laplace expansion along the first row."""
     check_time()
     if len(rows) == 1:
         return rows[0][0]
@@ -74,8 +74,8 @@ class Smooth(Frozen):
     """The smooth points of the real zeros of an ideal.
 
     Attributes:
-        points: one on each component of them at least.
-        others: polynomials that are zero at all other zeros.
+        points: at least one on each component.
+        others: polynomials that vanish at all other zeros.
     """
 
     points: tuple[Solution, ...]
@@ -83,15 +83,15 @@ class Smooth(Frozen):
 
 
 def smooth_points(ideal: Ideal) -> Smooth | None:
-    """Some smooth points of the real zeros of an ideal of c generators, its codimension, so that no
-    component has another dimension (F. S. Macaulay, 1916); None of other ideals, or where the
-    critical points are not few.
+    """Smooth points of the real zeros of an ideal whose number of generators c is its codimension,
+    so that no component has another dimension (F. S. Macaulay, 1916); None for other ideals, or if
+    the critical points are not few.
 
     At a smooth point some minor of the gradients of the generators is not zero. With an unknown u
     and u Σ m² = 1 over these minors m the smooth points are a closed set without singularities.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     if ideal.dimension <= 0:
         return None
@@ -100,8 +100,8 @@ def smooth_points(ideal: Ideal) -> Smooth | None:
     if not generators:
         return None
     gradients = slopes(generators, size)
-    others = [m for m in minors(gradients, len(gradients)) if m]
-    area = sum((m * m for m in others), start=ring.constant(fmpq(0)))
+    nonzero_minors = [m for m in minors(gradients, len(gradients)) if m]
+    area = sum((m * m for m in nonzero_minors), start=ring.constant(fmpq(0)))
     larger = Parameters([*ring.names, UNIT])
     *gens, unit = larger.context.gens()
     *equations, last = (p.compose(*gens, ctx=larger.context) for p in (*generators, area))
@@ -111,20 +111,20 @@ def smooth_points(ideal: Ideal) -> Smooth | None:
     for _ in range(CENTRES):
         distance = [x - fmpq(draw.between(1, 20), 20) for x in gens]
         rows = [[*distance, unit], *slopes(equations, size + 1)]
-        found = smooth.with_zeros(minors(rows, len(rows)))
-        if found.is_everything:
-            return Smooth((), tuple(others))
-        if found.dimension == 0 and found.degree <= MOST_POINTS:
-            points = (replace(x, values=_without_unit(x)) for x in solutions(found) if x.real)
-            return Smooth(tuple(points), tuple(others))
+        critical = smooth.with_zeros(minors(rows, len(rows)))
+        if critical.is_everything:
+            return Smooth((), tuple(nonzero_minors))
+        if critical.dimension == 0 and critical.degree <= MOST_POINTS:
+            points = (replace(x, values=_without_unit(x)) for x in solutions(critical) if x.real)
+            return Smooth(tuple(points), tuple(nonzero_minors))
     return None
 
 
 def _generators(closure: Ideal) -> list[fmpq_mpoly] | None:
-    """As many members of its basis as its codimension that generate an ideal; None where none do.
+    """Basis elements that generate an ideal, as many as its codimension; None if no choice does.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     ring = closure.ring
     basis = [rational(p, ring) for p in closure.basis]
@@ -136,5 +136,4 @@ def _generators(closure: Ideal) -> list[fmpq_mpoly] | None:
 
 
 def _without_unit(solution: Solution) -> dict[str, Number]:
-    """The values of the unknowns alone."""
     return {name: x for name, x in solution.values.items() if name != UNIT}

@@ -1,8 +1,9 @@
-"""Wants on dense output: its order for every θ, and that its pieces fit together.
+"""Wants on dense output: its order for every θ, and the continuity of its pieces.
 
 With b_i(θ) = Σ_k B_ik θ^k the order q asks B_kᵀ 𝒜^[u] = 1/γ(u) for k = ρ(u) and 0 for every other
-k, of all trees of at most q vertices (``garkcli.order.dense``): members that span those of all
-trees are enough, as in ``garkcli.design.conditions``, and each condition is linear in the weights.
+k, for all trees of at most q vertices (``garkcli.order.dense``). As in
+``garkcli.design.conditions`` it is enough to ask it of vectors that span those of all trees; each
+condition is linear in the weights.
 """
 
 from __future__ import annotations
@@ -30,10 +31,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 def _dense(asked: Asked, key: str) -> DenseOutput:
-    """The dense output.
+    """The dense output of the method.
 
     Raises:
-        MethodError: there is none, or some colours are meant alone.
+        MethodError: it has none, or the want is on some colours alone.
     """
     dense = asked.further.dense
     if dense is None or len(asked.colours) < asked.tableau.size:
@@ -44,7 +45,7 @@ def _dense(asked: Asked, key: str) -> DenseOutput:
 
 
 def _order(asked: Asked) -> Meaning:
-    """The conditions of all trees, a power of θ after the other."""
+    """The conditions of all trees, for one power of θ after the other."""
     dense = _dense(asked, "dense-order")
     order = cast("int", asked.value)
     claims = (("dense-order", f'">= {order}"'),)
@@ -66,7 +67,7 @@ def _order(asked: Asked) -> Meaning:
 
 
 def _continuity(asked: Asked) -> Meaning:
-    """0: b(1) = b. 1: the slope is f(x_0) at θ = 0 and f(x_1) at θ = 1 too: the weights cancel in
+    """0: b(1) = b. 1: also the slope is f(x_0) at θ = 0 and f(x_1) at θ = 1: the weights cancel in
     each class of stages that are equal to one another, or to these two values.
     """
     dense = _dense(asked, "dense-continuity")
@@ -93,8 +94,8 @@ def _known(tableau: Tableau) -> Tableau:
     """
     entries: Sequence[object] = [*chain.from_iterable(chain.from_iterable(tableau.blocks.values()))]
     weights: Sequence[object] = [*chain.from_iterable(colour.b for colour in tableau.colours)]
-    is_known = not any(isinstance(x, Parametric) for x in (*entries, *weights))
-    if is_known and all(colour.kind == PLAIN for colour in tableau.colours):
+    is_constant = not any(isinstance(x, Parametric) for x in (*entries, *weights))
+    if is_constant and all(colour.kind == PLAIN for colour in tableau.colours):
         return tableau
     message = "design: dense-continuity: 1 needs A and b without unknowns and roots, no linear part"
     cure = "give them values, by --set; dense-order and dense-continuity: 0 take all"
@@ -102,7 +103,7 @@ def _known(tableau: Tableau) -> Tableau:
 
 
 def _timeless(tableau: Tableau) -> Tableau:
-    """The tableau on autonomous problems, which see no nodes."""
+    """The tableau with zero nodes: on autonomous problems these do not matter."""
     spaces = tuple(PointSpace((ZERO,) * space.stages) for space in tableau.spaces)
     return replace(tableau, spaces=spaces)
 

@@ -1,4 +1,4 @@
-"""For which values of its parameters a family of methods has an order: exactly, and all of them."""
+"""The values of the parameters of a family for which it has an order: exactly, and all of them."""
 
 from __future__ import annotations
 
@@ -64,14 +64,14 @@ from garkcli.upward import Shown
 
 
 class Design(Shown, Frozen):
-    """What each order asks of the parameters of a family.
+    """The values of the parameters of a family for each order.
 
     Attributes:
-        family: as it was read.
-        whose: which order is meant.
-        tableau: the tableau of it, its entries rational functions.
-        steps: one an order, from 1 on.
-        criterion: by which the real values were found; None where all conditions were examined.
+        family: as read from the file.
+        whose: the order of the method, its conjugate, or its pair.
+        tableau: of the method, conjugate or pair; its entries are rational functions.
+        steps: one for each order, from 1 on.
+        criterion: the criterion behind the real values; None if all conditions were examined.
     """
 
     family: Family
@@ -86,20 +86,22 @@ class Design(Shown, Frozen):
         return self.steps[-1]
 
     def criterion_of(self, step: Step) -> PairConditions | None:
-        """The criterion by which the values of a step were found; msolve takes all conditions."""
+        """The criterion behind the values of a step; None for a step by msolve, which takes all
+        conditions.
+        """
         return self.criterion if step.is_all else None
 
     def is_of_real_values(self, step: Step) -> bool:
-        """Whether complex values may have the order and not be among those of a step: up to order 2
-        the criterion asks for the same.
+        """Whether complex values outside the set of a step may have the order: up to order 2 the
+        criterion is equivalent for them.
         """
         if self.criterion_of(step) is not None:
             return step.order > 2
         return step.is_all and bool(self.family.real)
 
     def parts(self, step: Step) -> list[Part]:
-        """The solution set of a step in parts, nodes among the coordinates; where stability is
-        wanted, entries of diagonals too.
+        """The solution set of a step in parts, with nodes as coordinates, and entries of diagonals
+        if stability is wanted.
 
         Raises:
             NotDecided: a Gröbner basis takes too long.
@@ -122,41 +124,41 @@ class Design(Shown, Frozen):
         return list(parts_of(ideal, nodes, kept, generators if is_of_trees else None))
 
     def reaches(self, order: int = 1) -> bool | None:
-        """Whether methods of the file have the order; None where that is not decided."""
+        """Whether methods of the file have the order; None if undecided."""
         for step in self.steps:
             if step.order == order:
                 return step.has_methods
         return False if self.last.has_methods is False else None
 
     def __repr__(self) -> str:
-        reached = [step.order for step in self.steps if step.may_have_methods]
-        highest = max(reached, default=0)
+        orders = [step.order for step in self.steps if step.may_have_methods]
+        highest = max(orders, default=0)
         return f"<Design {self.family.name}: order {highest} is reached>"
 
 
 SHARE = 0.25
-"""The part of the time that python-flint has where msolve is there too: what it finds is proved."""
+"""The share of the time for python-flint if msolve is there too: its results are proved."""
 PART = 0.25
-"""The part of the time that is left in which a real method of a family is sought."""
+"""The share of the remaining time for a real method of a family."""
 STABLE = 0.5
-"""That in which the P-stable transfers of a pair are sought."""
+"""The share of it for the P-stable transfers of a pair."""
 CLAIMS: dict[Whose, str] = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
-"""What a file claims of the order found, by whose it is."""
+"""The claim of a file for the order of the method, its conjugate, or its pair."""
 
 
 def find_parameters(
     family: Family, order: int | None = None, whose: Whose = "method", seconds: float | None = None
 ) -> Design:
-    """For which values of its parameters the members of a family have an order.
+    """The values of the parameters for which members of a family have an order.
 
     Args:
-        family: of methods.
-        order: the order wanted; where it is not given, as far as some value reaches.
+        family: the methods with unknowns.
+        order: the order wanted; None for the highest that some value has.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        seconds: after which the rest stays undecided; None for no limit.
+        seconds: after them the rest stays undecided; None for no limit.
 
     Raises:
-        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        ZeroWeight: a weight is zero for every value, so there is no conjugate.
     """
     tableau = TABLEAUS[whose](family.tableau)
     with within(seconds):
@@ -167,7 +169,7 @@ def find_parameters(
 
 
 class _Finding(Frozen):
-    """What orders ask of the parameters of a family."""
+    """Decides one order after the other for the parameters of a family."""
 
     family: Family
     whose: Whose
@@ -177,8 +179,8 @@ class _Finding(Frozen):
     wanted: int | None = None
 
     def steps(self) -> list[Step]:
-        """One an order, from 1 on: up to the one that is wanted, or as far as some value reaches;
-        one alone where what the file wants besides is not worked out.
+        """One for each order from 1 on, up to the wanted one or to the highest with values; a
+        single undecided one if the file has wants that cannot be decided.
         """
         wanted = self.wanted
         if self.family.unsettled:
@@ -207,7 +209,7 @@ class _Finding(Frozen):
         return _with_lower(steps)
 
     def _start(self) -> Ideal:
-        """The ideal of the equations that all parameters satisfy."""
+        """The ideal of the equations for all parameters."""
         ring, count = self.family.ring, len(self.family.parameters)
         roots = Ideal(ring).with_zeros(x.relation for x in self.family.radicals)
         nonzero = [
@@ -218,14 +220,14 @@ class _Finding(Frozen):
         return Ideal(ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
     def _step(self, order: int, lower: Ideal | Pieces | None) -> Step:
-        """What one order more asks of the parameters, and whatever else is wanted.
+        """The parameters with one order more, and with all other wants.
 
         Args:
-            order: that is examined.
-            lower: the ideal of the order below; None where there is none.
+            order: the new order.
+            lower: the ideal of the order below; None if there is none.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         start = self._start()
         criterion = self.criterion
@@ -254,7 +256,7 @@ class _Finding(Frozen):
             )
             new = [large, *coming]
             with suppress(NotDecided):
-                if not self.family.real:  # solved by the criterion already
+                if not self.family.real:  # already solved by the criterion
                     return self._in_pieces(order, [*done, *new], start)
             check_time()
             ideal, taken = ideal.with_zeros_in_turn([x.polynomial for x in new], known)
@@ -262,15 +264,15 @@ class _Finding(Frozen):
         return _reached(order, ideal, start, done[-1].tree if done else None)
 
     def _in_pieces(self, order: int, new: Sequence[Condition], start: Ideal) -> Step:
-        """The zeros of the conditions of an order in parts, all that is linear solved first.
+        """The zeros of the conditions of an order in parts, by solving linear equations first.
 
         Args:
-            order: that is examined.
+            order: the new order.
             new: its conditions.
-            start: the ideal of the equations that all parameters satisfy.
+            start: the ideal of the equations for all parameters.
 
         Raises:
-            NotDecided: it is not done in a number of steps.
+            NotDecided: it takes too many steps.
         """
         known = [*self._relations, *self._conditions_below(order)]
         tableau, ring = self.conditions.tableau, self.family.ring
@@ -278,36 +280,34 @@ class _Finding(Frozen):
         changes = nodes_as_coordinates(tableau, ring)
 
         def pieces(count: int) -> Pieces:
-            """Those of the first conditions."""
             zeros = [*known, *(x.polynomial for x in new[:count])]
             return Pieces.of(zeros, start.nonzero, changes, kept)
 
-        found = pieces(len(new))
-        if not found.is_everything:
-            if found.dimension > 0:
-                return Variety(order, found)
-            return Solutions(order, found.ideal(start))
+        zeros_in_parts = pieces(len(new))
+        if not zeros_in_parts.is_everything:
+            if zeros_in_parts.dimension > 0:
+                return Variety(order, zeros_in_parts)
+            return Solutions(order, zeros_in_parts.ideal(start))
         few = bisect_left(range(len(new)), x=True, key=lambda k: pieces(k).is_everything)
-        return NoValue(order, found, witness=new[few - 1].tree if few else None)
+        return NoValue(order, zeros_in_parts, witness=new[few - 1].tree if few else None)
 
     @property
     def _relations(self) -> list[fmpq_mpoly]:
-        """What parameters satisfy besides the order: roots, and what the file wants."""
+        """Equations besides the order conditions: of roots, and of wants."""
         return [*(x.relation for x in self.family.radicals), *self.family.relations]
 
     def _conditions(self, order: int) -> list[Condition]:
-        """The conditions of an order that are not met by every value."""
+        """The conditions of an order that some value fails."""
         return [x for x in self.conditions.of_order(order) if x.polynomial]
 
     def _conditions_below(self, order: int) -> list[fmpq_mpoly]:
-        """The conditions of all orders below one."""
         return [x.polynomial for k in range(1, order) for x in self._conditions(k)]
 
     def _at_once(self, order: int) -> Step:
-        """All conditions up to an order in one system, by msolve.
+        """Solves all conditions up to an order in one system, by msolve.
 
         Raises:
-            NotDecided: it has no answer in time.
+            NotDecided: msolve has no answer in time.
         """
         polynomials = (*self._relations, *self._conditions_below(order + 1))
         ideal = self._start().with_zeros_unproved(polynomials)
@@ -316,8 +316,8 @@ class _Finding(Frozen):
         return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
     def _looked_into(self, step: Step, is_last: bool) -> Step:
-        """A step with its polynomials, its solutions, and what is known of real ones, unless a
-        higher order tells it; not decided where its solutions take too long.
+        """A step with its polynomials and solutions, and for the last one with the knowledge of
+        real values; undecided if its solutions take too long.
         """
         if not isinstance(step, Decided):
             return step
@@ -337,7 +337,7 @@ class _Finding(Frozen):
         return step
 
     def _known(self, step: Many) -> Known:
-        """Knowledge of the real values of a family, as far as there is time."""
+        """The knowledge of the real values of a family, as far as time allows."""
         ideal, left = step.ideal, seconds_left()
         if isinstance(ideal, Pieces):
             with suppress(NotDecided), within(None if left is None else PART * left):
@@ -352,15 +352,15 @@ class _Finding(Frozen):
         return Known()
 
     def _known_of(self, step: Many, ideal: Ideal, real: Ideal | None = None) -> Known:
-        """Knowledge of the real values of a family with an ideal.
+        """The knowledge of the real values of a family with an ideal.
 
         Args:
             step: the family.
             ideal: of its values.
-            real: an ideal with the same real zeros; None for that one.
+            real: an ideal with the same real zeros; None for ``ideal`` itself.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         if self.criterion is not None and self._has_point(self.criterion, ideal):
             return Known(is_real=True)
@@ -371,17 +371,17 @@ class _Finding(Frozen):
         if real.is_everything and ideal.is_proved:
             return replace(known, is_real=False)
         if real.dimension == 0:
-            found = self._found(real)
-            is_open = any(x.open for x in found)
-            is_real = True if any(x.accepted for x in found) else None if is_open else False
-            return replace(known, found=found, is_real=is_real)
+            finite = self._found(real)
+            is_open = any(x.open for x in finite)
+            is_real = True if any(x.accepted for x in finite) else None if is_open else False
+            return replace(known, found=finite, is_real=is_real)
         if self.family.stable and isinstance(step, Variety):
             return self._with_stable(step, known)
         if len(self.family.parameters) > 1:
             known = replace(known, stable=_sets(self.family, self.whose))
-            have = [x.has_values for x in known.stable]
-            if False in have or have == [True]:
-                return replace(known, is_real=False not in have)
+            verdicts = [x.has_values for x in known.stable]
+            if False in verdicts or verdicts == [True]:
+                return replace(known, is_real=False not in verdicts)
         known = replace(known, is_real=has_methods(self.family, ideal, real, self._is_method))
         if known.is_real is None:
             with suppress(NotDecided), only_small():
@@ -389,11 +389,11 @@ class _Finding(Frozen):
         return known
 
     def _by_smooth_points(self, step: Many, ideal: Ideal, real: Ideal, known: Known) -> Known:
-        """Knowledge by critical points: one of them is a method, or there are none but where the
-        gradients of the equations are dependent.
+        """The knowledge by critical points: one of them is a method, or all methods are singular
+        points, at which the gradients of the equations are dependent.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         smooth = smooth_points(real)
         if smooth is None:
@@ -408,42 +408,42 @@ class _Finding(Frozen):
         return self._known_of(step, ideal, real.with_zeros(smooth.others))
 
     def _known_of_pieces(self, step: Many, pieces: Pieces) -> Known:
-        """Knowledge of the real values of a family in parts.
+        """The knowledge of the real values of a family in parts.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         if self.family.stable:
             return self._with_stable(step, Known())
-        found = (has_point(self.family, part, self._is_method) for part in pieces.parts)
-        return Known(is_real=any(found) or None)
+        verdicts = (has_point(self.family, part, self._is_method) for part in pieces.parts)
+        return Known(is_real=any(verdicts) or None)
 
     def _with_stable(self, step: Many, known: Known) -> Known:
-        """Knowledge of a family with the methods that are as stable as is wanted.
+        """The knowledge of a family together with its methods of the wanted stability.
 
         Raises:
-            NotDecided: the time is not enough, or stability depends on several unknowns.
+            NotDecided: the time limit has passed, or stability depends on several unknowns.
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
-        found = []
+        decided = []
         for part in parts:
             with suppress(NotDecided):
-                found.append(stable_part(self.family, self.whose, part))
-        is_real = has_stable_method(self.family, self.whose, found)
-        is_whole = len(found) == len(parts)
-        stable = joined(self.family, found) if is_whole else ()
-        if is_real is not True and not is_whole:
+                decided.append(stable_part(self.family, self.whose, part))
+        is_real = has_stable_method(self.family, self.whose, decided)
+        is_complete = len(decided) == len(parts)
+        stable = joined(self.family, decided) if is_complete else ()
+        if is_real is not True and not is_complete:
             is_real = None
         if is_real is None and any(not x.found and not x.undecided for x in stable):
             is_real = False
         return replace(known, is_real=is_real, stable=stable)
 
     def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Known:
-        """Knowledge of all transfers of a pair, with the ideal of the P-stable ones.
+        """The knowledge of all transfers of a pair, with the ideal of the P-stable ones.
 
         Raises:
-            NotDecided: it is not known.
+            NotDecided: the criterion does not solve for the unknowns.
         """
         stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, order)))
         solved, is_real = criterion.solved(stable), None
@@ -458,20 +458,20 @@ class _Finding(Frozen):
         return Known(is_real=is_real, of_stable=Zeros(stable, new))
 
     def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
-        """Whether there is a method where the unknowns that are free are 0."""
+        """Whether the values with all free unknowns at 0 give a method."""
         point = criterion.point(ideal)
         if point is None:
             return False
-        found = ((x, root) for x in solutions(point) for root in x.real)
-        return any(self._is_method(x, root) for x, root in found)
+        roots = ((x, root) for x in solutions(point) for root in x.real)
+        return any(self._is_method(x, root) for x, root in roots)
 
     def _found(self, ideal: Ideal) -> tuple[Found, ...]:
-        """Finitely many solutions, each with its order by the ordinary certificate.
+        """The solutions of an ideal of dimension 0, each with its order by the certificate.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
-        found = []
+        finite = []
         for solution in solutions(ideal):
             check_time()
             accepted = [
@@ -479,26 +479,26 @@ class _Finding(Frozen):
                 for index, root in enumerate(solution.real)
                 if is_admissible(self.family, solution, root)
             ]
-            _ = solution.real_values  # reports show them, when the time may be over
+            _ = solution.real_values  # computed now, since reports show them after the time limit
             order = order_of(self.family, self.whose, solution)
             further = further_of(self.family, self.whose, solution)
-            one = Found(solution, order, tuple(accepted), **further)
-            found.append(one if order is None else self._sorted(one))
-        return tuple(found)
+            candidate = Found(solution, order, tuple(accepted), **further)
+            finite.append(candidate if order is None else self._sorted(candidate))
+        return tuple(finite)
 
     def _sorted(self, found: Found) -> Found:
-        """A solution of which those real roots are accepted that are as stable as is wanted."""
-        sorted_: dict[bool | None, list[int]] = {True: [], False: [], None: []}
+        """The solution with its accepted real roots sorted by the wanted stability."""
+        by_verdict: dict[bool | None, list[int]] = {True: [], False: [], None: []}
         for index in found.accepted:
             verdict = is_as_stable(
                 self.family, self.whose, found.solution, found.solution.real[index]
             )
-            sorted_[verdict].append(index)
-        accepted, unstable, left = (tuple(sorted_[key]) for key in (True, False, None))
-        return replace(found, accepted=accepted, unstable=unstable, open=left)
+            by_verdict[verdict].append(index)
+        accepted, unstable, undecided = (tuple(by_verdict[key]) for key in (True, False, None))
+        return replace(found, accepted=accepted, unstable=unstable, open=undecided)
 
     def _is_method(self, solution: Solution, root: RealRoot) -> bool:
-        """Whether a real solution is a method as the file wants it."""
+        """Whether a real solution is a method with all wants of the file."""
         stable = is_admissible(self.family, solution, root) and is_as_stable(
             self.family, self.whose, solution, root
         )
@@ -506,7 +506,7 @@ class _Finding(Frozen):
 
 
 def _reached(order: int, ideal: Ideal, start: Ideal, witness: Tree | None = None) -> Step:
-    """For which values an order is reached; those of ``start`` are all there are."""
+    """The step of an order from its ideal; ``start`` holds all values."""
     if ideal.is_everything:
         return NoValue(order, ideal, witness=witness)
     if ideal.basis == start.basis:
@@ -517,8 +517,8 @@ def _reached(order: int, ideal: Ideal, start: Ideal, witness: Tree | None = None
 def _as_long_as_small(
     ideal: Ideal, conditions: Iterator[Condition]
 ) -> tuple[Ideal, list[Condition], Condition | None]:
-    """The ideal with one condition after the other until it is everything or gets large; those that
-    it has then, and the one with which it gets large.
+    """The ideal with one condition after the other until it is everything or gets large; the
+    conditions in it, and the one that makes it large.
     """
     done: list[Condition] = []
     while not ideal.is_everything:
@@ -536,11 +536,11 @@ def _as_long_as_small(
 
 
 def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
-    """Polynomials and others such that the zeros of the first at which none of the others is zero
+    """Polynomials and others: the common zeros of the first at which none of the others vanishes
     are those of an ideal.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     if isinstance(ideal, Pieces):
         return _each_once(ideal.equations), list(ideal.nonzero)
@@ -556,24 +556,24 @@ def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly]
 
 
 def _each_once(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """Their square-free parts."""
+    """The distinct square-free parts."""
     return list({str(p): p for p in map(without_multiples, polynomials)}.values())
 
 
 def _with_lower(steps: Sequence[Step]) -> list[Step]:
-    """Steps of which lower orders have the methods of the higher ones."""
-    found: list[Step] = []
+    """Steps in which lower orders have the methods of the higher ones."""
+    completed: list[Step] = []
     is_reached = False
     for step in reversed(steps):
         if is_reached and isinstance(step, Many):
             step = replace(step, known=replace(step.known, is_real=True))
         is_reached = is_reached or step.has_methods is True
-        found.insert(0, step)
-    return found
+        completed.insert(0, step)
+    return completed
 
 
 def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
-    """The order of the method with some values, by the certificate; None where there is none."""
+    """The order of the method with some values, by the certificate; None if there is no method."""
     try:
         return find_order(TABLEAUS[whose](member(family.tableau, family.ring, solution.values)))
     except (ZeroDivisionError, ZeroWeight):
@@ -581,28 +581,28 @@ def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
 
 
 def further_of(family: Family, whose: Whose, solution: Solution) -> dict[str, Any]:
-    """``embedded``, ``dense`` and ``predictor`` of ``Found``, where a method has such weights."""
+    """``embedded``, ``dense`` and ``predictor`` of ``Found``, if a method has such weights."""
     is_spelled_out = all(isinstance(x, PointSpace) for x in family.tableau.spaces)
     if whose != "method" or not is_spelled_out:
         return {}
-    found: dict[str, Any] = {}
+    orders: dict[str, Any] = {}
     with suppress(ZeroDivisionError):
         at = family.ring, solution.values
         tableau, further = member(family.tableau, *at), further_member(family.further, *at)
         if further.dense is not None:
-            found["dense"] = dense_order(tableau, further.dense, DEFAULT_LIMIT)
+            orders["dense"] = dense_order(tableau, further.dense, DEFAULT_LIMIT)
         if further.predictor is not None:
-            found["predictor"] = predictor_orders(tableau, further.predictor, DEFAULT_LIMIT)
+            orders["predictor"] = predictor_orders(tableau, further.predictor, DEFAULT_LIMIT)
         if further.embedded is not None:
             embedded = with_weights(tableau, further.embedded)
             order = find_order(embedded)
             error = squared_error(embedded, order.order + 1, None)
-            found["embedded"] = order, error.numerator / error.denominator
-    return found
+            orders["embedded"] = order, error.numerator / error.denominator
+    return orders
 
 
 def estimates_nothing(design: Design, step: Step) -> bool:
-    """Whether the embedded weights are b at all values of a step, by polynomials of its ideal."""
+    """Whether the embedded weights equal b at all values of a step, by its ideal."""
     rows, ring, ideal = design.family.further.embedded, design.family.ring, step.ideal
     if rows is None or ideal is None or not step.is_all:
         return False
@@ -619,8 +619,8 @@ def estimates_nothing(design: Design, step: Step) -> bool:
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """The values of one unknown with each wanted kind of stability, of the highest
-    order that is reached; nothing where solutions are examined one by one.
+    """The values of one unknown with each wanted kind of stability, of the highest order that is
+    reached; empty if solutions are examined one by one.
     """
     family = design.family
     if any(step.known.stable for step in design.steps):
@@ -632,14 +632,14 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
 
 
 def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
-    """For each wanted kind of stability its set; nothing where it is none of one number."""
+    """The set of each wanted kind of stability; empty if one is no set of values of one unknown."""
     wanted = [
         x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind
     ]
     sets = []
     for x in wanted:
         kind = cast("Wanted", x.kind)
-        found = values_of_one(family.tested(x), kind, whose, colour=x.colour)
-        if found is not None:
-            sets.append(replace(found, is_embedded=x.is_embedded))
+        values = values_of_one(family.tested(x), kind, whose, colour=x.colour)
+        if values is not None:
+            sets.append(replace(values, is_embedded=x.is_embedded))
     return tuple(sets) if len(sets) == len(wanted) else ()

@@ -1,8 +1,8 @@
-"""On how few numbers the step of a family depends: linear forms of its parameters.
+"""The fewest linear forms of the parameters on which the step of a family depends.
 
-The step M = N/D on a linear problem stays as it is along a direction v of the parameters exactly
-where D ∂_v N = N ∂_v D. That is linear in v, so that all such directions are found, and as many
-linear forms are left as there are other directions.
+The step M = N/D on a linear problem is constant along a direction v of the parameters if and only
+if D ∂_v N = N ∂_v D. These equations are linear in v: they give all such directions, and the other
+directions give the linear forms.
 """
 
 from __future__ import annotations
@@ -30,18 +30,18 @@ class Form(Frozen):
     """A linear form Σ a_i t_i of parameters; the first of them has the coefficient 1.
 
     Attributes:
-        terms: names with coefficients, none of them 0.
+        terms: names with nonzero coefficients.
     """
 
     terms: tuple[tuple[str, fmpq], ...]
 
     def __str__(self) -> str:
-        """As method files write it, such as ``t1 - 2/3*t2``."""
+        """As in method files, such as ``t1 - 2/3*t2``."""
         (first, _), *others = self.terms
         return first + _sum_text(others)
 
     def solved(self, value: str) -> tuple[str, str]:
-        """The first parameter, and what it is equal to where the form has a value."""
+        """The first parameter, and its formula if the form equals ``value``."""
         (first, _), *others = self.terms
         return first, value + _sum_text([(name, -a) for name, a in others])
 
@@ -55,11 +55,12 @@ def _sum_text(terms: Sequence[tuple[str, fmpq]]) -> str:
 
 
 def fewest(family: Family, tableau: Tableau, fields: Sequence[Matrix]) -> tuple[Family, list[Form]]:
-    """The family of as few parameters as its step has, one at least, and what these are.
+    """The family with the fewest parameters that give all its steps, at least one, and each of them
+    as a form in the old parameters.
 
     Args:
-        family: whose coefficients are polynomials in several parameters.
-        tableau: of it, or made of it: that whose step is meant.
+        family: its coefficients are polynomials in several parameters.
+        tableau: of the family or made of it; its step counts.
         fields: y ↦ L^m y for each colour, rational.
     """
     names = family.parameters
@@ -88,7 +89,9 @@ def fewest(family: Family, tableau: Tableau, fields: Sequence[Matrix]) -> tuple[
 def step_polynomials(
     tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
 ) -> tuple[fmpq_mpoly, list[fmpq_mpoly]]:
-    """D and the entries of N of the step N/D, in z, which comes first, and the parameters."""
+    """D and the entries of N of the step N/D, polynomials in z, which comes first, and the
+    parameters.
+    """
     system = stage_system(tableau, fields)
     d = len(fields[0])
     D = characteristic_coefficients(system.W)
@@ -110,12 +113,12 @@ def step_polynomials(
 def _directions(
     tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
 ) -> tuple[list[int], list[list[fmpq]]]:
-    """A basis of the directions along which the step stays: each has 1 at its pivot, a late
-    parameter, where the others have 0.
+    """Pivots and a basis of the directions along which the step is constant: each has 1 at its
+    pivot, a late parameter, and the others have 0 there.
     """
     denominator, numerators = step_polynomials(tableau, ring, fields)
     number = len(ring.names)
-    equations = []
+    slopes = []
     for numerator in numerators:
         check_time()
         changes = [
@@ -124,11 +127,11 @@ def _directions(
         ]
         tables = [p.to_dict() for p in changes]
         rows = [[fmpq(table.get(e, 0)) for table in tables] for e in dict.fromkeys(chain(*tables))]
-        equations += rows
-    if not equations:
-        equations = [[fmpq(0)] * number]
-    # late parameters are solved for: their columns come first in an echelon form of the kernel
-    matrix = fmpq_mat([row[::-1] for row in equations])
+        slopes += rows
+    if not slopes:
+        slopes = [[fmpq(0)] * number]
+    # late parameters are solved for, so their columns come first in the echelon form of the kernel
+    matrix = fmpq_mat([row[::-1] for row in slopes])
     reduced, _ = matrix.rref()
     leading = leading_columns(reduced)
     free = [k for k in range(number) if k not in leading]

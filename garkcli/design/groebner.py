@@ -1,5 +1,5 @@
-"""Gröbner bases over ℚ by python-flint, small ones at once, large ones within a time; by msolve
-where that time is not enough.
+"""Gröbner bases over ℚ by python-flint, small ones in this process, large ones in another within
+the time limit, or by msolve if that time is not enough.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from garkcli.exact.apart import apart, first_of
 
 Exponents: TypeAlias = tuple[int, ...]
 FEW_TERMS = 300
-"""Of all polynomials together: where there are more, all work is done in a process of its own."""
+"""Most terms of all polynomials together for work in this process."""
 SMALL = (50, 200, 1500)
 """Most polynomials, terms of one, bits of a coefficient, of a basis made in this process."""
 _Way: TypeAlias = Callable[..., tuple[list[fmpz_mpoly], int]]
@@ -33,10 +33,10 @@ def groebner_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -
 
     Args:
         polynomials: generators, not all zero.
-        context: of theirs.
+        context: their ring.
 
     Raises:
-        NotDecided: the time was not enough.
+        NotDecided: the time limit has passed.
     """
     check_time()
     with suppress(_TooLarge):
@@ -50,23 +50,23 @@ def grown_basis(
     new: Sequence[fmpz_mpoly],
     context: fmpz_mpoly_ctx,
 ) -> tuple[list[fmpz_mpoly], int]:
-    """The reduced Gröbner basis of an ideal with further polynomials; where that is everything, of
-    as few of them, the first ones, as make it everything.
+    """The reduced Gröbner basis of an ideal with further polynomials; if there are no zeros, with
+    the fewest first ones that leave none.
 
-    Which way is quick is not known before: from one basis to the next, or all at once, as bases in
-    between may be larger than the last. Where the bases are not small both are tried side by side.
+    Adding one after the other or all at once may be faster, as bases in between may be larger than
+    the last; large bases are tried both ways in parallel.
 
     Args:
         known: a Gröbner basis.
         generators: of the same ideal.
         new: the further polynomials.
-        context: of all.
+        context: their ring.
 
     Returns:
-        the basis, and of how many of the further polynomials it is.
+        the basis, and the number of further polynomials in it.
 
     Raises:
-        NotDecided: the time was not enough.
+        NotDecided: the time limit has passed.
     """
     check_time()
     for way, first in ((_in_turn, known), (_at_once, generators)):
@@ -81,7 +81,6 @@ def grown_basis(
 def _in_turn(
     basis: list[fmpz_mpoly], new: list[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
 ) -> tuple[list[fmpz_mpoly], int]:
-    """One polynomial after the other."""
     for k, p in enumerate(new, start=1):
         if is_bounded and not is_small([*basis, p]):
             raise _TooLarge
@@ -96,7 +95,7 @@ def _in_turn(
 def _at_once(
     generators: list[fmpz_mpoly], new: list[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
 ) -> tuple[list[fmpz_mpoly], int]:
-    """All polynomials at once, and the first ones of them where that is everything."""
+    """All polynomials at once; then the fewest first ones if there are no zeros."""
     basis = _basis([*generators, *new], context, is_bounded)
     k = len(new)
     if _is_everything(basis):
@@ -107,12 +106,12 @@ def _at_once(
 
 
 def _is_everything(basis: Sequence[fmpz_mpoly]) -> bool:
-    """Whether a reduced basis is that of all polynomials."""
+    """Whether a reduced basis generates all polynomials."""
     return bool(basis) and basis[0].is_constant()
 
 
 def remainder(p: fmpz_mpoly, basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    """A multiple of what is left of a polynomial on division by a basis."""
+    """A multiple of the remainder of a polynomial on division by a basis."""
     if not basis or not p:
         return p
     vector = fmpz_mpoly_vec(list(basis), context)
@@ -131,7 +130,7 @@ def _basis(
     """The reduced basis.
 
     Raises:
-        _TooLarge: it is not small, and is to be.
+        _TooLarge: it is not small, and ``is_bounded``.
     """
     if is_bounded and not is_small(polynomials):
         raise _TooLarge
@@ -139,25 +138,25 @@ def _basis(
     if not is_bounded:
         return reduced(list(vector.buchberger_naive()), context)
     vector = fmpz_mpoly_vec(reduced(polynomials, context, is_whole=False), context)
-    found, is_whole = vector.buchberger_naive(limits=SMALL)
+    basis, is_whole = vector.buchberger_naive(limits=SMALL)
     if not is_whole:
         raise _TooLarge
-    return reduced(list(found), context)
+    return reduced(list(basis), context)
 
 
 def reduced(
     polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, is_whole: bool = True
 ) -> list[fmpz_mpoly]:
-    """Generators of the same ideal, each reduced once by those with smaller leading monomials, the
-    smallest first; of a Gröbner basis the reduced one, primitive.
+    """Other generators, each reduced once by those with smaller leading monomials, the smallest
+    first; for a Gröbner basis the primitive reduced one.
 
-    python-flint's ``autoreduction`` takes a hundred times as long where there are many and may
-    not end in lexicographic order.
+    python-flint's ``autoreduction`` takes a hundred times as long for many polynomials and may not
+    end in lexicographic order.
 
     Args:
         polynomials: the generators.
-        context: of theirs.
-        is_whole: whether they are a Gröbner basis in its order.
+        context: their ring.
+        is_whole: whether they are a Gröbner basis.
     """
     done: list[fmpz_mpoly] = []
     known: list[Exponents] = []
@@ -193,17 +192,17 @@ def unproved_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -
     """The Gröbner basis by msolve, verified to be one of an ideal that contains the polynomials.
 
     Raises:
-        NotDecided: there is no msolve, no answer in time, or not one that passes the test.
+        NotDecided: msolve is not installed, has no answer in time, or none that passes the test.
     """
     check_time()
     program = find_msolve()
     if program is None:
         raise NotDecided
-    given = [p for p in polynomials if p]
-    basis = basis_by_msolve(program, given, context)
+    nonzero = [p for p in polynomials if p]
+    basis = basis_by_msolve(program, nonzero, context)
     if basis is None:
         raise NotDecided
-    verified = apart(_verified, basis, given)
+    verified = apart(_verified, basis, nonzero)
     if verified is None:
         raise NotDecided
     return verified
@@ -220,6 +219,8 @@ def _grown_apart(
 
 
 def _verified(basis: list[fmpz_mpoly], given: list[fmpz_mpoly]) -> list[fmpz_mpoly] | None:
-    """The reduced basis; None where polynomials are no basis of an ideal that has those given."""
+    """The reduced basis; None if the polynomials are no basis of an ideal that contains the given
+    ones.
+    """
     context = given[0].context()
     return reduced(basis, context) if is_basis(basis, given, context) else None

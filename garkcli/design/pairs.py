@@ -1,4 +1,4 @@
-"""Pair orders of families whose weights are known: by the criterion of docs/pair-order.md, whose
+"""Pair orders of families with known weights: by the criterion of docs/pair-order.md, whose
 conditions are linear in unknown transfers, and the transfers of least error.
 """
 
@@ -33,10 +33,11 @@ from garkcli.transfer import legendre
 
 
 class PairConditions:
-    """What orders of the symplectic pair ask of a family; over the reals it is all that they ask.
+    """Conditions for orders of the symplectic pair of a family; for real values they are necessary
+    and sufficient.
 
     Args:
-        family: with the hypotheses of the criterion, which :func:`pair_conditions` looks at.
+        family: it satisfies the hypotheses, which :func:`pair_conditions` checks.
     """
 
     def __init__(self, family: Family) -> None:
@@ -44,22 +45,22 @@ class PairConditions:
         self.defects = Defects(family.tableau)
 
     def of_order(self, order: int) -> list[fmpq_mpoly]:
-        """The polynomials that are zero where the conditions hold that an order adds."""
+        """The polynomials of the conditions that an order adds."""
         edges = list(self.family.tableau.edges())
         diagonal = [(l, l) for l in range(self.family.tableau.size)]
-        found = []
+        polynomials = []
         for letter, number in added(order):
-            found += self.on(diagonal if letter == "B" else edges, letter, number)
-        return found
+            polynomials += self.on(diagonal if letter == "B" else edges, letter, number)
+        return polynomials
 
     def on(self, edges: Iterable[Edge], letter: str, number: int) -> list[fmpq_mpoly]:
         """B(k), C(k), D(k) or the even condition on some blocks."""
-        found = (self.defects.of(letter, l, m, number) for l, m in edges)
-        return self.zeros(chain.from_iterable(found))
+        defects = (self.defects.of(letter, l, m, number) for l, m in edges)
+        return self.zeros(chain.from_iterable(defects))
 
     def obstacle(self, order: int) -> str:
-        """The first condition up to an order that numbers without unknowns fail, with where it
-        does; empty where there is none.
+        """The first condition up to an order that known numbers fail, with its colour or block;
+        empty if there is none.
 
         >>> from garkcli.methodfile.family import loads_family
         >>> text = "{methods: [{A: [[1/2]], b: [1]}, {A: [[1/3]], b: [1]}], transfer: '?'}"
@@ -84,7 +85,7 @@ class PairConditions:
         return ""
 
     def zeros(self, defects: Iterable[Number]) -> list[fmpq_mpoly]:
-        """The numerators that are not identically zero."""
+        """The nonzero numerators."""
         ring = self.family.ring
         numerators = (fraction(cast("Mixed", x), ring)[0] for x in defects)
         return [p for p in numerators if p]
@@ -96,12 +97,12 @@ class PairConditions:
 
     @cached_property
     def start(self) -> Ideal:
-        """What radicals satisfy."""
+        """The ideal of the radicals."""
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
     def point(self, ideal: Ideal, draw: Draw | None = None) -> Ideal | None:
-        """The zeros of an ideal at which the unknowns that are functions of no others are 0, or
-        drawn from the multiples of 1/8 up to 1.
+        """The zeros of an ideal with every unknown that is no function of others at 0, or drawn
+        from the multiples of 1/8 up to 1; None if these are not finitely many.
         """
         solved = self.solved(ideal)
         if solved is None:
@@ -109,12 +110,12 @@ class PairConditions:
         leading = {next(i for i, k in enumerate(p.monoms()[0]) if k) for p in solved}
         free = [i for i in range(len(self.family.parameters)) if i not in leading]
         values = {i: fmpq(0 if draw is None else draw.between(-8, 8), 8) for i in free}
-        found = ideal.with_values(values)
-        return found if found.dimension == 0 else None
+        finite = ideal.with_values(values)
+        return finite if finite.dimension == 0 else None
 
     def solved(self, ideal: Ideal) -> list[fmpq_mpoly] | None:
-        """A basis in which unknowns are functions of later ones, those of radicals being the last;
-        None where it is not small.
+        """A basis in which unknowns are functions of later ones, those of radicals last; None if it
+        is not small.
         """
         context = fmpz_mpoly_ctx.get(list(self.family.ring.names), Ordering.lex)
         if any(p.degrees()[len(self.family.ring.names) :] for p in ideal.basis):
@@ -129,9 +130,9 @@ class PairConditions:
 
 
 def pair_conditions(family: Family) -> PairConditions | None:
-    """What pair orders ask of a family; None where a hypothesis of the criterion does not hold for
-    every value: weights that are positive numbers, nodes that are row sums, blocks that see each
-    other, no linear colours.
+    """The conditions for pair orders of a family; None if a hypothesis of the criterion fails for
+    some value: positive numbers as weights, nodes equal to row sums, no empty blocks, no linear
+    colours.
     """
     tableau = family.tableau
     if tableau.is_partitioned or any(colour.is_linear for colour in tableau.colours):
@@ -185,19 +186,19 @@ def _are_positive(family: Family, start: Ideal, numbers: list[Number]) -> bool:
 def least_error(
     conditions: PairConditions, order: int, ideal: Ideal, is_stable: bool = False
 ) -> Ideal | None:
-    """One method with the least principal error of its pair, of all with real transfers whose pair
-    has an order: that of the Legendre transfer.
+    """The method of the Legendre transfer, which has the least principal error of its pair among
+    all real transfers whose pair has an order.
 
     Args:
         conditions: of the family.
         order: of the pair, p.
-        ideal: of the values with this order.
-        is_stable: whether these are the P-stable ones alone. Where the first colour is Gauss s with
-            p = 2s, the block from it is the one that stability asks for.
+        ideal: the values with this order.
+        is_stable: whether they are only the P-stable ones. If the first colour is Gauss s with p =
+            2s, P-stability implies the block from it.
 
     Returns:
-        the ideal of its values; None where the theorem does not say that it is the least, or it is
-        none of the family.
+        the ideal of its values; None if the theorem does not prove it least, or if it is not in the
+            family.
     """
     family = conditions.family
     tableau = family.tableau
@@ -224,14 +225,14 @@ def least_error(
         assert given is not None
         pairs = zip(chain.from_iterable(given), chain.from_iterable(wanted), strict=True)
         zeros += [x - y for x, y in pairs]
-    found = ideal.with_zeros(conditions.zeros(zeros))
-    return None if found.is_everything or found.dimension > 0 else found
+    ideal_of_least = ideal.with_zeros(conditions.zeros(zeros))
+    return None if ideal_of_least.is_everything or ideal_of_least.dimension > 0 else ideal_of_least
 
 
 def _of_even_order(conditions: PairConditions, l: int, order: int) -> Vector:
-    """What is zero where the error of a colour is least with C(k + 1) and D(k + 1) off the
-    diagonal: B(p + 1), and b(c^(k+1) d) = 0 for the diagonal block and its conjugate, where d =
-    A c^k − c^(k+1)/(k + 1). Nothing where the colour has no stages besides.
+    """Expressions that vanish if the error of a colour is least with C(k + 1) and D(k + 1) off the
+    diagonal: B(p + 1), and b(c^(k+1) d) = 0 for the diagonal block and its conjugate, where d = A
+    c^k − c^(k+1)/(k + 1). Empty if the colour has no further stages.
     """
     k = order // 2 - 1
     tableau, defects = conditions.family.tableau, conditions.defects
@@ -245,6 +246,10 @@ def _of_even_order(conditions: PairConditions, l: int, order: int) -> Vector:
         (image,) = block.images([defects.power(l, j)])
         return dot(space.times(b, defects.power(l, i)), image)
 
-    whole = dot(b, defects.power(l, 2 * k + 2)) * fmpq(1, k + 1)
+    common = dot(b, defects.power(l, 2 * k + 2)) * fmpq(1, k + 1)
     product = dot(b, defects.power(l, k + 1)) * dot(b, defects.power(l, k))
-    return (*defects.B(l, order + 1), moment(k + 1, k) - whole, product - moment(k, k + 1) - whole)
+    return (
+        *defects.B(l, order + 1),
+        moment(k + 1, k) - common,
+        product - moment(k, k + 1) - common,
+    )

@@ -1,4 +1,4 @@
-"""A set of solutions in parts, each with rational coordinates as far as there are any.
+"""A solution set in parts, each with rational coordinates as far as possible.
 
 An unknown that is in an equation with degree one, A v + B = 0, is −B/A where A is not zero; where
 it is, the equations A = B = 0 make another part. Products are taken apart in the same way. So each
@@ -34,8 +34,8 @@ class Changes(Frozen):
 
     Attributes:
         old: the ring of the unknowns.
-        ring: that of the new ones, in the same places.
-        instead: by the place of an old unknown what it is, in the new ones.
+        ring: the ring of the new ones, in the same places.
+        instead: replaced old unknowns, by their places, in the new ones.
         nodes: unknowns that are nodes.
     """
 
@@ -45,26 +45,25 @@ class Changes(Frozen):
     nodes: tuple[str, ...] = ()
 
     def polynomial(self, p: fmpq_mpoly) -> fmpq_mpoly:
-        """A polynomial in the new unknowns."""
         if not self.instead:
             return p
         context = self.ring.context
-        given = [self.instead.get(i, context.gen(i)) for i in range(len(self.ring.names))]
-        return p.compose(*given, ctx=context)
+        images = [self.instead.get(i, context.gen(i)) for i in range(len(self.ring.names))]
+        return p.compose(*images, ctx=context)
 
     def values(self) -> dict[str, Mixed]:
         """The old unknowns as functions of the new ones."""
-        found: dict[str, Mixed] = {}
+        values: dict[str, Mixed] = {}
         one = self.ring.constant(fmpq(1))
         for i, name in enumerate(self.old.names):
             polynomial = self.instead.get(i, self.ring.context.gen(i))
-            found[name] = self.ring.quotient(polynomial, one)
-        return found
+            values[name] = self.ring.quotient(polynomial, one)
+        return values
 
 
 def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
-    """Each node that is a sum of several unknowns in place of the first of them that is in no other
-    node.
+    """Replaces unknowns by nodes: each node that is a sum of several unknowns takes the place of
+    the first one that is in no other node.
     """
     nodes = dict(_nodes(tableau))
     names = list(ring.names)
@@ -83,7 +82,7 @@ def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
         moved = new.context.from_dict(dict(node.to_dict()))
         slope = moved.derivative(i).leading_coefficient()
         here = new.context.gen(i)
-        # node = slope x + rest, and its place now has the node itself
+        # node = slope x + rest; the place of x now holds the node itself
         instead[i] = here / slope - (moved - here * slope) / slope
     single = (str(x) for colour in _evaluated(tableau) for x in colour.c)
     known = (*(names[i] for i in chosen), *(x for x in single if x in ring.names))
@@ -91,7 +90,7 @@ def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
 
 
 def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
-    """The nodes that are sums of several unknowns, with names for them."""
+    """The nodes that are sums of several unknowns, by new names."""
     for l, colour in enumerate(_evaluated(tableau), start=1):
         if not isinstance(tableau.spaces[colour.space], PointSpace):
             continue
@@ -105,12 +104,12 @@ def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
 
 
 def _evaluated(tableau: Tableau) -> list[Colour]:
-    """The colours that are evaluated at their nodes; the Jacobian of a Rosenbrock method is not."""
+    """The colours evaluated at their nodes; the Jacobian of a Rosenbrock method is not."""
     return [colour for colour in tableau.colours if colour.kind != ONE_BRANCH]
 
 
 def _places(p: fmpq_mpoly) -> list[int]:
-    """The unknowns that occur."""
+    """The unknowns in a polynomial."""
     return [i for i, degree in enumerate(p.degrees()) if degree]
 
 
@@ -121,12 +120,12 @@ class Part(Frozen):
     """Solutions with common coordinates.
 
     Attributes:
-        ring: the coordinates, unknowns that are left.
+        ring: the coordinates, some of the unknowns.
         values: every unknown as a rational function of them.
-        nonzero: polynomials in the coordinates that are zero at no solution of this part.
-        ideal: of what the coordinates satisfy; trivial where they are free. Some of its zeros may
+        nonzero: polynomials in the coordinates that vanish at no solution of this part.
+        ideal: of the equations for the coordinates; trivial if they are free. Some of its zeros may
             be zeros of ``nonzero``.
-        sets: names of ``values`` with sets of numbers in which these are.
+        sets: names of ``values`` restricted to sets of numbers.
     """
 
     ring: Parameters
@@ -137,17 +136,17 @@ class Part(Frozen):
 
     @property
     def is_free(self) -> bool:
-        """Whether every value of the coordinates is a solution, but for zeros of ``nonzero``."""
+        """Whether all values of the coordinates are solutions, except zeros of ``nonzero``."""
         return self.ideal.is_trivial
 
     @property
     def dimension(self) -> int:
-        """Of its complex points."""
+        """The dimension of its complex points."""
         return self.ideal.dimension
 
     @property
     def equations(self) -> list[fmpq_mpoly]:
-        """What the coordinates satisfy."""
+        """The equations for the coordinates."""
         return [rational(p, self.ring) for p in self.ideal.basis]
 
     def expressed(self, polynomial: fmpq_mpoly, ring: Parameters) -> Mixed:
@@ -156,7 +155,7 @@ class Part(Frozen):
         return cast("Mixed", value_of(polynomial, ring, values))
 
     def whole(self, solution: Solution) -> Solution:
-        """A solution in the coordinates as one in all unknowns."""
+        """A solution in the coordinates, extended to all unknowns."""
         values: dict[str, Number] = {}
         for name, x in self.values.items():
             over, under = fraction(x, self.ring)
@@ -180,14 +179,15 @@ def at_root(name: str, root: RealRoot) -> Solution:
 
 
 MOST_POINTS = 60
-"""Points of a part of dimension 0, complex ones included, so also the degree of their fields."""
+"""Most points of a part of dimension 0, complex ones included, so also the degree of their fields.
+"""
 
 
 def points_of(part: Part) -> Iterator[Solution]:
     """The solutions of a part of dimension 0, in its coordinates.
 
     Raises:
-        NotDecided: they are too many.
+        NotDecided: there are more than ``MOST_POINTS``.
     """
     if not part.ring.names:
         yield Solution(fmpq_poly([0, 1]), None, {}, 1, (RealRoot.rational(fmpq(0)),))
@@ -200,7 +200,7 @@ def points_of(part: Part) -> Iterator[Solution]:
 
 
 def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
-    """What a part asks of one coordinate alone, in that; None where it asks nothing."""
+    """The equation of a part in one coordinate alone; None if there is none."""
     place = part.ring.names.index(name)
     for p in part.equations:
         degrees = p.degrees()
@@ -210,12 +210,10 @@ def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
 
 
 def values_on(part: Part, name: str) -> tuple[Interval, ...] | None:
-    """The values that a part allows of one coordinate by what it asks of that alone; None for all
-    of them.
-    """
+    """The values of a coordinate allowed by the equation in it alone; None if all are."""
     sets = [x for key, x in part.sets if key == name]
-    asked = what_is_asked(part, name)
-    zero = None if asked is None else in_one(asked)
+    equation = what_is_asked(part, name)
+    zero = None if equation is None else in_one(equation)
     if zero is None and not sets:
         return None
     critical = [p for x in sets for p in ends_of(x)]
@@ -229,12 +227,12 @@ def values_on(part: Part, name: str) -> tuple[Interval, ...] | None:
 
 
 class Chart(Frozen):
-    """Points of a part of which all coordinates but one at most are free.
+    """Points of a part with at most one coordinate that is not free.
 
     Attributes:
-        one: the value of that one, exact.
-        index: which of its real roots is meant.
-        names: of the free coordinates.
+        one: the exact value of that one.
+        index: the number of its real root.
+        names: the free coordinates.
     """
 
     one: Solution
@@ -242,7 +240,7 @@ class Chart(Frozen):
     names: tuple[str, ...]
 
     def point(self, part: Part, free: Sequence[fmpq]) -> Solution | None:
-        """All unknowns at one of these; None where there is no method."""
+        """All unknowns at one of the points; None if there is no method."""
         values = {**self.one.values, **dict(zip(self.names, free, strict=True))}
         if not all(value_of(p, part.ring, values) for p in part.nonzero):
             return None
@@ -250,18 +248,18 @@ class Chart(Frozen):
 
 
 def charts(part: Part) -> list[Chart]:
-    """The real points of a part that is free, or that asks something of one coordinate alone; none
-    of any other.
+    """Charts for all real points of a part that is free or has one equation in one coordinate; none
+    for other parts.
     """
     names = part.ring.names
     if part.is_free:
         origin = RealRoot.rational(fmpq(0))
         return [Chart(Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,)), 0, tuple(names))]
-    asked = {name: what_is_asked(part, name) for name in names}
-    found = [(name, p) for name, p in asked.items() if p is not None]
-    if len(found) != 1 or len(part.equations) > 1:
+    equations = {name: what_is_asked(part, name) for name in names}
+    constrained = [(name, p) for name, p in equations.items() if p is not None]
+    if len(constrained) != 1 or len(part.equations) > 1:
         return []
-    [(name, p)] = found
+    [(name, p)] = constrained
     others = tuple(x for x in names if x != name)
     roots = [root for root, _ in real_roots(in_one(p))]
     return [Chart(at_root(name, root), root.number, others) for root in roots]
@@ -269,19 +267,19 @@ def charts(part: Part) -> list[Chart]:
 
 def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
     """Unknowns that are entries of a diagonal: stability depends on them."""
-    found: dict[str, None] = {}
+    unknowns: dict[str, None] = {}
     for block in tableau.blocks.values():
         for i, row in enumerate(block):
             entry = str(row[i]) if i < len(row) else ""
             if entry in ring.names:
-                found[entry] = None
-    return list(found)
+                unknowns[entry] = None
+    return list(unknowns)
 
 
 LARGE = 50
-"""A basis of more terms is taken apart by polynomials that generate it, where they are shorter."""
+"""Bases with more terms are replaced by generators of the ideal if these are shorter."""
 SHORT = 12
-"""Members of it with so many terms at most help."""
+"""Most terms of those basis elements that are kept beside the generators."""
 
 
 def parts_of(
@@ -293,11 +291,11 @@ def parts_of(
     """The zeros of an ideal in parts.
 
     Args:
-        ideal: of what is asked of all unknowns.
+        ideal: of the equations for all unknowns.
         changes: unknowns that are replaced by others.
-        kept: unknowns that are coordinates rather than others.
-        generators: makes polynomials that generate the ideal, but for its UNIT: in conditions of
-            orders weights and many entries are linear, in a large basis they are not.
+        kept: unknowns preferred as coordinates.
+        generators: makes generators of the ideal, without its UNIT: in order conditions weights and
+            many entries are linear, in a large basis they are not.
 
     Raises:
         NotDecided: a Gröbner basis takes too long.
@@ -305,18 +303,18 @@ def parts_of(
     changed = changes or Changes(ideal.ring, ideal.ring, {})
     splitting = _Splitting(changed.ring, tuple(kept))
     nonzero = factors(map(changed.polynomial, ideal.nonzero))
-    given = ideal.cleared
-    if generators is not None and not kept and sum(map(len, given)) > LARGE:
-        asked = list(generators())
-        if 2 * sum(map(len, asked)) < sum(map(len, given)):
-            given = [*asked, *(p for p in given if len(p) <= SHORT)]
+    equations = ideal.cleared
+    if generators is not None and not kept and sum(map(len, equations)) > LARGE:
+        shorter = list(generators())
+        if 2 * sum(map(len, shorter)) < sum(map(len, equations)):
+            equations = [*shorter, *(p for p in equations if len(p) <= SHORT)]
             splitting = replace(splitting, kept=changed.nodes, is_large=True)
-    polynomials = [changed.polynomial(p) for p in given]
+    polynomials = [changed.polynomial(p) for p in equations]
     yield from splitting.parts(polynomials, nonzero, changed.values(), changed.ring.names)
 
 
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
-    """The parts of a part at which further polynomials in its coordinates are zero."""
+    """The common zeros of further polynomials in the coordinates of a part, in parts."""
     for smaller in _Splitting(part.ring).all_parts([*part.equations, *zeros], part.nonzero):
         known = cast("Mapping[str, Number]", smaller.values)
         values: Values = {}
@@ -328,19 +326,19 @@ def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
 
 
 MOST_STEPS = 400
-"""Of taking a set apart that is known by no Gröbner basis."""
+"""Most steps of a splitting without Gröbner bases."""
 
 
 class Pieces(Frozen):
-    """The zeros of polynomials, taken apart before there is an ideal: all that is linear is solved
-    first, and where a divisor may vanish is a part of its own.
+    """The zeros of polynomials in parts, without an ideal: linear equations are solved first, and
+    the zeros of divisors are further parts.
 
     Attributes:
         equations: the polynomials.
         nonzero: polynomials whose zeros do not count.
         changes: unknowns that are replaced by others.
-        kept: unknowns that are coordinates rather than others.
-        parts: of the zeros.
+        kept: unknowns preferred as coordinates.
+        parts: the zeros.
     """
 
     equations: tuple[fmpq_mpoly, ...]
@@ -357,7 +355,7 @@ class Pieces(Frozen):
         changes: Changes,
         kept: Sequence[str] = (),
     ) -> Pieces:
-        """The zeros of some polynomials at which others are not zero.
+        """The zeros of polynomials at which others do not vanish.
 
         Raises:
             NotDecided: it takes too many steps, or a Gröbner basis that is not small.
@@ -366,21 +364,21 @@ class Pieces(Frozen):
         equations, nonzero = tuple({str(p): p for p in monic}.values()), tuple(nonzero)
         kept = (*(kept or changes.nodes),)
         splitting = _Splitting(changes.ring, kept, is_large=True, steps=iter(range(MOST_STEPS)))
-        given = [changes.polynomial(p) for p in equations]
+        zeros = [changes.polynomial(p) for p in equations]
         allowed = factors(map(changes.polynomial, nonzero))
         with only_small():
-            found = splitting.parts(given, allowed, changes.values(), changes.ring.names)
+            parts = splitting.parts(zeros, allowed, changes.values(), changes.ring.names)
             try:
-                return cls(equations, nonzero, changes, kept, tuple(found))
+                return cls(equations, nonzero, changes, kept, tuple(parts))
             except TooManyTerms as error:
                 raise NotDecided from error
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Pieces:
-        """Those at which further polynomials are zero."""
+        """The pieces cut down to the common zeros of further polynomials."""
         return Pieces.of([*self.equations, *polynomials], self.nonzero, self.changes, self.kept)
 
     def ideal(self, start: Ideal) -> Ideal:
-        """The ideal of finitely many zeros: that of the equations, where each is a simple one.
+        """The ideal of the equations, if they have finitely many zeros and all are simple.
 
         Args:
             start: the ideal of ``nonzero``, in the unknowns of the equations.
@@ -401,33 +399,32 @@ class Pieces(Frozen):
             over, under = (p.project_to_context(ring.context) for p in fraction(x, part.ring))
             zeros.append(ring.context.gen(ring.names.index(name)) * under - over)
         with only_small():
-            found = start.with_zeros(zeros)
+            ideal = start.with_zeros(zeros)
             size = range(len(ring.names))
             slopes = [[p.derivative(i) for i in size] for p in self.equations]
-            for solution in solutions(found):
+            for solution in solutions(ideal):
                 rows = [[value_of(p, ring, solution.values) for p in row] for row in slopes]
                 if rank(rows) < len(size):
                     raise NotDecided
-        return found.square_free
+        return ideal.square_free
 
     @property
     def dimension(self) -> int:
-        """Of the complex zeros; −1 where there are none."""
+        """The dimension of the complex zeros; −1 if there are none."""
         return max((part.dimension for part in self.parts), default=-1)
 
     @property
     def is_everything(self) -> bool:
-        """Whether there are no zeros."""
         return not self.parts
 
     @property
     def is_proved(self) -> bool:
-        """Whether these are all: no part is lost."""
+        """Always true: no part is lost."""
         return True
 
 
 def rank(matrix: Iterable[Sequence[Number]]) -> int:
-    """Of a matrix of numbers of one field.
+    """The rank of a matrix of numbers of one field.
 
     >>> rank([[fmpq(1), fmpq(2)], [fmpq(2), fmpq(4)]])
     1
@@ -448,7 +445,7 @@ def rank(matrix: Iterable[Sequence[Number]]) -> int:
 
 
 class _Linear(Frozen):
-    """A v + B, a polynomial in which v has degree one."""
+    """A v + B, a polynomial of degree one in v."""
 
     whole: fmpq_mpoly
     name: str
@@ -461,12 +458,11 @@ class _Splitting(Frozen):
     """Takes solution sets apart; polynomials are in the ring of all unknowns.
 
     Attributes:
-        ring: that.
-        kept: unknowns that are coordinates rather than others.
-        is_large: whether Gröbner bases are made only where they are small, while unknowns are
-            linear in what there is.
-        steps: how many there may be yet; None for any number. Ideals of parts are then without the
-            zeros of ``nonzero``.
+        ring: the unknowns.
+        kept: unknowns preferred as coordinates.
+        is_large: whether only small Gröbner bases are made as long as some unknown is linear.
+        steps: an iterator that ends with the last step allowed, None without a limit; with it the
+            ideals of parts exclude the zeros of ``nonzero``.
     """
 
     ring: Parameters
@@ -477,7 +473,6 @@ class _Splitting(Frozen):
     def all_parts(
         self, polynomials: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly]
     ) -> Iterator[Part]:
-        """The parts of the common zeros at which others are not zero."""
         names = self.ring.names
         unknowns: Values = {}
         for name in names:
@@ -491,13 +486,13 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Iterator[Part]:
-        """The parts of the common zeros at which others are not zero.
+        """The common zeros of polynomials at which others do not vanish, in parts.
 
         Args:
-            polynomials: that are zero.
-            nonzero: irreducible ones that are not.
-            values: of the unknowns, functions of the others.
-            left: the names of these.
+            polynomials: vanish on all parts.
+            nonzero: irreducible polynomials that vanish nowhere on them.
+            values: all unknowns as functions of those in ``left``.
+            left: names of unknowns that are not yet eliminated.
         """
         check_time()
         if self.steps is not None and next(self.steps, None) is None:
@@ -543,7 +538,7 @@ class _Splitting(Frozen):
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
     def _basis(self, polynomials: Sequence[fmpq_mpoly]) -> Sequence[fmpq_mpoly]:
-        """A Gröbner basis; the polynomials where it would be large and need not be made yet."""
+        """A Gröbner basis; the polynomials themselves if it would be large and can wait."""
         try:
             with only_small() if self.is_large else nullcontext():
                 ideal = Ideal(self.ring).with_zeros(polynomials)
@@ -553,7 +548,7 @@ class _Splitting(Frozen):
         return [rational(p, self.ring) for p in ideal.basis]
 
     def _without(self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
-        """Each factor once, but those that are not zero."""
+        """The product of the distinct factors that are not in ``nonzero``."""
         product = self.ring.constant(fmpq(1))
         for factor in factors([p]):
             if factor not in nonzero:
@@ -568,7 +563,7 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Iterator[Part]:
-        """One factor after the other is zero, those before it are not."""
+        """Splits by a product: one factor vanishes, those before it do not."""
         for k, factor in enumerate(alternatives):
             others = [*nonzero, *alternatives[:k]]
             yield from self.parts([*polynomials, factor], others, values, left)
@@ -576,8 +571,8 @@ class _Splitting(Frozen):
     def _linear(
         self, zeros: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly], left: Sequence[str]
     ) -> _Linear | None:
-        """The simplest way to express an unknown by others; None where there is none."""
-        found = []
+        """The simplest expression of an unknown by others; None if none is linear."""
+        candidates = []
         for p in zeros:
             degrees = p.degrees()
             for index in range(len(self.ring.names)):
@@ -591,11 +586,11 @@ class _Splitting(Frozen):
                 is_kept = name in self.kept and len(_places(p)) > 1
                 ease = (len(A), degree, -index)
                 if self.is_large:
-                    # branches with few unknowns first: each of them is a system of its own
+                    # branches with few unknowns first: each of them is another system
                     ease = (len(_places(A)), len(_places(p)), len(A)) if is_new else (0, 0, len(A))
                 cost = (is_kept, is_new, *ease)
-                found.append(_Linear(p, name, A, p - A * v, cost))
-        return min([x for x in found if x.name in left], key=lambda x: x.cost, default=None)
+                candidates.append(_Linear(p, name, A, p - A * v, cost))
+        return min([x for x in candidates if x.name in left], key=lambda x: x.cost, default=None)
 
     def _substituted(
         self,
@@ -621,12 +616,12 @@ class _Splitting(Frozen):
         place = ring.names.index(linear.name)
 
         def numerator_at(p: fmpq_mpoly) -> fmpq_mpoly:
-            """Σ p_k (−B)^k A^(d−k) for p = Σ p_k v^k of degree d in v; zero where p is."""
+            """Σ p_k (−B)^k A^(d−k) for p = Σ p_k v^k of degree d in v; it vanishes with p."""
             degree = p.degrees()[place]
             total = p * 0
             for k in range(degree + 1):
-                alone = {e: a for e, a in p.to_dict().items() if e[place] == k}
-                lowered = {(*e[:place], 0, *e[place + 1 :]): a for e, a in alone.items()}
+                of_power = {e: a for e, a in p.to_dict().items() if e[place] == k}
+                lowered = {(*e[:place], 0, *e[place + 1 :]): a for e, a in of_power.items()}
                 power = (-linear.B) ** k * linear.A ** (degree - k)
                 total += ring.context.from_dict(lowered) * power
             return total
@@ -646,7 +641,7 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Part:
-        """In a ring of the unknowns that are left alone."""
+        """A part whose coordinates are the unknowns in ``left``."""
         ring = Parameters(left)
 
         def moved(p: fmpq_mpoly) -> fmpq_mpoly:

@@ -1,8 +1,8 @@
 """Wants on a predictor: its order for every ratio of step sizes, and for steps of one size.
 
-At one ratio the conditions of order q are those of weights that vanish at all trees of at most q
-vertices of the method that takes two steps (``garkcli.order.predictor``), linear in the weights of
-the predictor; all ratios are as many as the degree of these polynomials asks for.
+At one ratio the conditions of order q say that weights vanish at all trees of at most q vertices of
+the method that takes two steps (``garkcli.order.predictor``). They are linear in the weights of the
+predictor and polynomials in the ratio: as many ratios as their degree asks for decide all.
 """
 
 from __future__ import annotations
@@ -21,7 +21,6 @@ from garkcli.order.predictor import implicit_stages, misses, ratios, two_steps
 
 
 def _order(asked: Asked) -> Meaning:
-    """The conditions at as many ratios as decide every one."""
     predictor = asked.further.predictor
     every = [] if predictor is None else ratios(predictor, cast("int", asked.value))
     return _meaning("predictor-order", asked, every)
@@ -32,10 +31,10 @@ def _order_of_equal_steps(asked: Asked) -> Meaning:
 
 
 def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> Meaning:
-    """The conditions of all trees at some ratios.
+    """The conditions of all trees at given ratios.
 
     Raises:
-        MethodError: there is no predictor.
+        MethodError: the method has no predictor.
     """
     predictor, order = asked.further.predictor, cast("int", asked.value)
     if predictor is None:

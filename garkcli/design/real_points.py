@@ -1,12 +1,11 @@
-"""Whether solutions that are known by their ideal, which sees complex ones, are real methods.
+"""Whether the zeros of an ideal, complex ones included, contain a real method.
 
-No way decides it for all ideals. These are tried:
+No procedure decides it for all ideals. gark tries:
 
-* real zeros of a polynomial that keeps its sign are zeros of its derivatives, so that fewer may be
-  left: none, or finitely many, which are examined one by one;
-* of one unknown, and of a curve in the plane of two, every cell of the line or of the plane;
-* otherwise some unknowns get rational values so that finitely many solutions are left, and these
-  are examined. That finds a method, or proves nothing.
+* real zeros of a polynomial with constant sign are zeros of its derivatives too, so there may be
+none, or finitely many, which are examined one by one; * for one unknown, and for a curve in the
+plane of two, every cell of the line or of the plane; * otherwise rational values of some unknowns
+that leave finitely many solutions, which are examined. That finds a method, or proves nothing.
 """
 
 from __future__ import annotations
@@ -35,22 +34,22 @@ from garkcli.tableau.family import Family
 
 IsMethod: TypeAlias = Callable[[Solution, RealRoot], bool]
 MOST_TERMS = 60
-"""Longer polynomials are not tried whether they keep their sign."""
+"""Most terms of a polynomial that is tested for a constant sign."""
 MOST_POINTS = 60
-"""Solutions, complex ones included, of which those that are methods are picked."""
+"""Most solutions that are examined, complex ones included."""
 SAMPLES = 24
 """Values of unknowns that are tried."""
 MOST_LARGE = 4
-"""Of the steps that need a large Gröbner basis."""
+"""Most steps with a large Gröbner basis."""
 PARTS = 12
-"""Samples are so many parts of a range, or of 1."""
+"""Samples are multiples of a range, or of 1, divided by this."""
 
 
 def without_complex(ideal: Ideal) -> Ideal:
-    """An ideal with the same real zeros, without complex ones of polynomials that keep their sign.
+    """An ideal with the same real zeros, without complex zeros of polynomials with constant sign.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     zeros: list[fmpq_mpoly] = []
     for p in ideal.without_unit:
@@ -63,10 +62,10 @@ def without_complex(ideal: Ideal) -> Ideal:
 
 
 def _real_zeros(p: fmpq_mpoly, ring: Parameters) -> list[fmpq_mpoly]:
-    """Polynomials that are zero at the real zeros of p, where p has factors that keep their sign:
-    their real zeros are those of their derivatives.
+    """Polynomials that vanish at the real zeros of p, if p has factors with constant sign: their
+    real zeros are those of their derivatives.
     """
-    left = []
+    zeros_of_factors = []
     is_new = False
     for factor in factors([p]):
         slopes: list[fmpq_mpoly] = []
@@ -74,29 +73,29 @@ def _real_zeros(p: fmpq_mpoly, ring: Parameters) -> list[fmpq_mpoly]:
             is_new = True
             slopes = [factor.derivative(i) for i in range(len(ring.names))]
         if not Ideal(ring).with_zeros([factor, *slopes]).is_everything:
-            left.append([factor, *slopes])
+            zeros_of_factors.append([factor, *slopes])
     if not is_new:
         return []
-    if len(left) == 1:
-        return left[0]
+    if len(zeros_of_factors) == 1:
+        return zeros_of_factors[0]
     product = ring.constant(fmpq(1))
-    for factor, *_ in left:
+    for factor, *_ in zeros_of_factors:
         product *= factor
     return [product]
 
 
 def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) -> bool | None:
-    """Whether real zeros of an ideal are methods of a family; None where that is not decided.
+    """Whether some real zero of an ideal is a method of a family; None if undecided.
 
     Args:
-        family: whose parameters they are.
-        ideal: of its ring; where it is not proved that it has all of them, nothing else is.
-        real: one with its real zeros, without UNIT.
-        is_method: whether a real zero is a method; where stability is wanted it may be undecided,
-            and is then none.
+        family: of the methods.
+        ideal: in its ring; without a proof that it has all solutions, the answer False is not
+            proved either.
+        real: an ideal with its real zeros, without UNIT.
+        is_method: whether a real zero is a method; False if its stability is undecided.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     search = _Search(family, ideal, real, is_method)
     if search.finds_one():
@@ -106,17 +105,17 @@ def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) 
 
 
 def has_point(family: Family, part: Part, is_method: IsMethod) -> bool:
-    """Whether a method is found on a part, some of its coordinates short rational numbers."""
+    """Whether a method is found on a part, with short rational numbers for some coordinates."""
     there = replace(family, ring=part.ring)
     search = _Search(there, part, part.ideal, lambda x, root: is_method(part.whole(x), root))
     return search.has_method(part.ideal) if part.dimension <= 0 else search.has_sample()
 
 
 class _Search:
-    """Looks at real zeros of an ideal.
+    """A search for methods among the real zeros of an ideal.
 
     Attributes:
-        is_complete: whether there are none besides those that were examined.
+        is_complete: whether all of them were examined.
     """
 
     def __init__(
@@ -130,7 +129,7 @@ class _Search:
         self.is_complete = True
 
     def finds_one(self) -> bool:
-        """Whether one of them is a method."""
+        """Whether one of the zeros is a method."""
         if self.real.dimension <= 0:
             return self.has_method(self.real)
         if self.has_sample():
@@ -146,7 +145,7 @@ class _Search:
         return any(map(self.has_method, self._in_plane()))
 
     def has_sample(self) -> bool:
-        """Whether one with short rational numbers is."""
+        """Whether a method is found at rational values of some unknowns."""
         return any(map(self.has_method, self._slices()))
 
     def has_method(self, ideal: Ideal) -> bool:
@@ -165,8 +164,8 @@ class _Search:
         )
 
     def _slices(self) -> Iterator[Ideal]:
-        """The ideal with rational values for as many unknowns as its dimension, which no polynomial
-        of the ideal relates.
+        """The ideal with rational values for unknowns that are independent in it, as many as its
+        dimension.
         """
         chosen = self.real.independent
         if chosen is None:
@@ -187,7 +186,7 @@ class _Search:
             yield self.real.with_values(values)
 
     def _sample(self, i: int, draw: Draw, number: int) -> fmpq:
-        """A value of an unknown: within its range, without one between 0 and 1, every fourth time
+        """A value of an unknown within its range; without one between 0 and 1, every fourth time
         between −2 and 2.
         """
         least, greatest = self.family.ranges.get(self.ring.names[i], (None, None))
@@ -199,8 +198,8 @@ class _Search:
         return low + (high - low) * fmpq(draw.between(1, PARTS - 1), PARTS)
 
     def _in_plane(self) -> Iterator[Ideal]:
-        """Finitely many points of a curve in the plane, of which one is a method if any of its
-        points is: between the t at which something changes, and at these.
+        """Finitely many points of a curve in the plane, one of which is a method if any point is:
+        between and at the critical t.
         """
         closure = self.real.closure
         if len(self.ring.names) > 2 or len(closure.basis) != 1:
@@ -225,7 +224,6 @@ class _Search:
 
 
 def _at(p: Polynomial, t: fmpq_mpoly) -> fmpq_mpoly:
-    """p(t)."""
     total = t * 0
     for a in reversed(p.coefficients):
         total = total * t + cast("fmpq", a)

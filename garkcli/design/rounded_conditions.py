@@ -1,4 +1,4 @@
-"""Conditions on the unknowns of a family beside rounded numbers."""
+"""Conditions on the unknowns of a family near rounded numbers."""
 
 from __future__ import annotations
 
@@ -44,34 +44,34 @@ class RoundedConditions:
         return self._known[order]
 
     def of_order(self, order: int) -> list[fmpq_mpoly]:
-        """The polynomials that are zero at methods of an order."""
-        own = [x.polynomial for k in range(1, order + 1) for x in self._of(k)]
-        return [*self._relations, *own]
+        residuals = [x.polynomial for k in range(1, order + 1) for x in self._of(k)]
+        return [*self._relations, *residuals]
 
     def of_known_numbers(self, order: int) -> Iterator[Tree]:
-        """The trees up to an order whose conditions are missed and have no unknown in them."""
+        """The trees up to an order whose conditions fail and have no unknowns."""
         for k in range(1, order + 1):
             yield from (x.tree for x in self._of(k) if x.polynomial.is_constant())
 
     def orders(self, values: Mapping[str, Number], grain: fmpq) -> tuple[int, int | None]:
-        """The order of the method with some values, and of its embedded weights; None for none.
+        """The orders of the method with some values and of its embedded weights, None if it has
+        none.
 
         Args:
             values: of all unknowns.
-            grain: what residuals are below that count as zero.
+            grain: residuals below it count as zero.
 
         Raises:
-            VanishingDenominator: there is no such method.
+            VanishingDenominator: no method has these values.
         """
         family, weights = self.family, self.family.further.embedded
-        own = TABLEAUS[self.whose](member(family.tableau, family.ring, values))
+        method = TABLEAUS[self.whose](member(family.tableau, family.ring, values))
         if weights is None or self.whose != "method":
-            return _order_of(own, grain), None
+            return _order_of(method, grain), None
         embedded = member(with_weights(family.tableau, weights), family.ring, values)
-        return _order_of(own, grain), _order_of(embedded, grain)
+        return _order_of(method, grain), _order_of(embedded, grain)
 
     def admits(self, point: Sequence[arb], small: arb) -> bool:
-        """Whether a point has the ranges and signs that are wanted, as far as it is known."""
+        """Whether a point has the wanted ranges and signs, within its radii and ``small``."""
         family = self.family
         values = dict(zip(family.ring.names, point, strict=True))
         for name, (low, high) in family.ranges.items():
@@ -96,11 +96,11 @@ class RoundedConditions:
 
 
 def _order_of(tableau: Tableau, grain: fmpq) -> int:
-    """The order of a method whose residuals below a size are zeros."""
+    """The order of a method if residuals below ``grain`` count as zero."""
     from garkcli.order.rounded import tree_missed  # it imports numpy
 
-    missed = (k for k in range(1, DEFAULT_LIMIT + 1) if tree_missed(tableau, k, 1, grain))
-    return next(missed, DEFAULT_LIMIT + 1) - 1
+    failing = (k for k in range(1, DEFAULT_LIMIT + 1) if tree_missed(tableau, k, 1, grain))
+    return next(failing, DEFAULT_LIMIT + 1) - 1
 
 
 class GenericWeights:
@@ -113,6 +113,6 @@ class GenericWeights:
         self.unknowns = [k for k, name in enumerate(family.ring.names) if name in unknown]
 
     def are_known(self, tree: Tree) -> bool:
-        """Whether the weight of a tree is the same for all values of the unknowns."""
+        """Whether the weight of a tree does not depend on the unknowns."""
         parts = fraction(elementary_weight(self.tableau, tree), self.ring)
         return not any(part.degrees()[k] > 0 for part in parts for k in self.unknowns)

@@ -1,5 +1,5 @@
-"""Polynomials whose coefficients are rounded, or known to many bits: what is smaller than a given
-size counts as zero.
+"""Systems of polynomials with coefficients that are rounded, or known to many bits: numbers below a
+given size count as zero.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from garkcli.frozen import Frozen
 
 MAX_STEPS = 40
 LARGE = 1e6
-"""Unknowns beyond are on the way to infinity."""
+"""Unknowns beyond are taken to diverge."""
 
 
 class Solved(Frozen, eq=False):
-    """Where Newton's method ended.
+    """The end of Newton's method.
 
     Attributes:
         point: balls without radius.
-        left: what the conditions that add nothing to the rank of the others are missed by at most.
-        pivots: the unknowns that the conditions determine, each with its row.
-        rows: the derivatives there, each unknown of ``pivots`` in one of them alone.
+        left: the largest residual of the conditions that are dependent on the others.
+        pivots: rows with the unknowns that they determine.
+        rows: the derivatives in reduced form, each unknown of ``pivots`` in one row only.
     """
 
     point: tuple[arb, ...]
@@ -39,18 +39,18 @@ class Solved(Frozen, eq=False):
         return [k for k in range(len(self.point)) if k not in bound]
 
     def slopes(self, column: int) -> dict[int, arb]:
-        """How a determined unknown depends on those that are free."""
+        """The derivatives of a determined unknown in the free ones."""
         row = next(i for i, k in self.pivots if k == column)
         return {k: -self.rows[row][k] for k in self.free}
 
 
 class RoundedSystem:
-    """Polynomials that are to be zero.
+    """Equations p(x) = 0, with polynomials p.
 
     Args:
-        polynomials: none of them is zero; coefficients that are larger than 1 are made 1.
-        unknowns: how many.
-        bits: of the numbers.
+        polynomials: none of them zero; scaled so that no coefficient exceeds 1.
+        unknowns: their number.
+        bits: the precision.
     """
 
     def __init__(self, polynomials: Sequence[fmpq_mpoly], unknowns: int, bits: int) -> None:
@@ -62,16 +62,16 @@ class RoundedSystem:
 
     @cached_property
     def is_linear(self) -> bool:
-        """Whether all of them are."""
         return all(f.degree <= 1 for f in self._values)
 
     def values(self, x: Sequence[arb]) -> list[arb]:
-        """The polynomials at a point, without large coefficients."""
+        """The scaled polynomials at a point."""
         with ctx.workprec(self.bits):
             return [f.at(x) for f in self._values]
 
     def solve(self, start: Sequence[arb], zero: arb) -> Solved | None:
-        """Newton's method from a point; unknowns that are not determined stay as they are.
+        """Newton's method from a point; undetermined unknowns keep their values. None if it
+        diverges.
 
         Args:
             start: balls.
@@ -106,8 +106,8 @@ class RoundedSystem:
 
 
 def eliminate(rows: list[list[arb]], columns: int, zero: arb) -> list[tuple[int, int]]:
-    """Gauss and Jordan, in place: row and column of each pivot, the largest first; none is smaller
-    than ``zero``.
+    """Gauss–Jordan elimination in place, with complete pivoting: row and column of each pivot above
+    ``zero``.
     """
     pivots: list[tuple[int, int]] = []
     left, open_ = set(range(len(rows))), set(range(columns))
@@ -129,7 +129,7 @@ def eliminate(rows: list[list[arb]], columns: int, zero: arb) -> list[tuple[int,
 
 
 class _Function:
-    """A polynomial at balls."""
+    """A polynomial evaluated at balls."""
 
     def __init__(self, polynomial: fmpq_mpoly, bits: int) -> None:
         with ctx.workprec(bits):

@@ -1,13 +1,13 @@
-"""The solutions of a system of finitely many, as numbers of number fields.
+"""The solutions of a zero-dimensional system, as elements of number fields.
 
 In the algebra ℚ[t]/I a linear form u that separates the solutions has a characteristic polynomial
-with a root for each, as often as its multiplicity. With its square-free part f of degree n every
+with a root for each solution, with its multiplicity. With its square-free part f of degree n every
 unknown is a rational function of u at the solutions (F. Rouillier, *Solving zero-dimensional
 systems through the rational univariate representation*, 1999):
 
     v = g_v(u) / g_1(u),   g_v(T) = Σ_{i<n} Tr(v uⁱ) H_{n−i−1}(T),   H_j(T) = Σ_{k≤j} f_k T^{j−k},
 
-f = Σ f_k T^{n−k}. How many solutions there are is the rank of the form (v, w) ↦ Tr(v w).
+f = Σ f_k T^{n−k}. The number of solutions is the rank of the form (v, w) ↦ Tr(v w).
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from garkcli.frozen import Frozen
 
 
 class Solution(Frozen):
-    """Solutions that are conjugate over ℚ: one irreducible polynomial, and each of its roots.
+    """Solutions that are conjugate over ℚ, one for each root of an irreducible polynomial.
 
     Attributes:
         modulus: the minimal polynomial of u, monic.
-        field: ℚ[u]/modulus; None where the solution is rational.
+        field: ℚ[u]/modulus; None if the solution is rational.
         values: each unknown as an element of it.
-        multiplicity: of each in the ideal.
-        real: the roots that are real, in ascending order; none where no solution is.
+        multiplicity: the multiplicity of each in the ideal.
+        real: the real roots in ascending order.
     """
 
     modulus: fmpq_poly
@@ -45,18 +45,18 @@ class Solution(Frozen):
 
     @property
     def degree(self) -> int:
-        """How many solutions it stands for, complex ones included."""
+        """The number of solutions, complex ones included."""
         return int(self.modulus.degree())
 
     @cached_property
     def real_values(self) -> tuple[dict[str, RealRoot], ...]:
-        """Each unknown as a real number, for each of the real roots."""
+        """The unknowns as real numbers, at each real root."""
         names = self.values.items()
         return tuple({key: value_at(x, root) for key, x in names} for root in self.real)
 
 
 def value_at(value: Number, root: RealRoot) -> RealRoot:
-    """The real number that an element of ℚ[u]/modulus is where u is a real root of the modulus."""
+    """The real value of an element of ℚ[u]/modulus at a real root u of the modulus."""
     if not isinstance(value, Algebraic):
         return RealRoot.rational(value)
     element = Polynomial.from_flint(value.poly)
@@ -69,26 +69,26 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
 
 
 def solutions(ideal: Ideal) -> list[Solution]:
-    """All solutions of an ideal of dimension 0, those with real ones first.
+    """All solutions of an ideal of dimension 0, those with real roots first.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     algebra = _Algebra(ideal.closure)
     distinct = algebra.trace_form.rank()
     for c in count():
-        # all but finitely many of the forms (1, c, c², …) separate the solutions
+        # almost all of the forms (1, c, c², …) separate the solutions
         u = algebra.combined([c**i for i in range(len(ideal.ring.names))])
         characteristic = characteristic_polynomial(u)
         square_free = characteristic // characteristic.gcd(characteristic.derivative())
         if square_free.degree() == distinct:
-            every = algebra.solutions(u, characteristic, square_free)
-            return sorted(every, key=lambda x: (not x.real, x.degree))
+            conjugates = algebra.solutions(u, characteristic, square_free)
+            return sorted(conjugates, key=lambda x: (not x.real, x.degree))
     raise AssertionError("all but finitely many linear forms separate the solutions")
 
 
 class _Algebra:
-    """ℚ[t]/I with the basis of monomials that no leading one divides; columns are elements."""
+    """ℚ[t]/I in the basis of the monomials not divisible by leading ones; elements are columns."""
 
     def __init__(self, ideal: Ideal) -> None:
         self.names = ideal.ring.names
@@ -110,7 +110,7 @@ class _Algebra:
 
     @cached_property
     def _traces(self) -> fmpq_mat:
-        """The row of the traces of multiplication by each monomial."""
+        """The traces of multiplication by each monomial, as a row."""
         diagonal = range(self.size)
         return fmpq_mat([[sum((M[i, i] for i in diagonal), fmpq(0)) for M in self._products]])
 
@@ -127,7 +127,9 @@ class _Algebra:
         return total
 
     def solutions(self, u: fmpq_mat, characteristic: fmpq_poly, f: fmpq_poly) -> Iterator[Solution]:
-        """The solutions, one a factor of f, the square-free part of a characteristic polynomial."""
+        """The solutions, one for each factor of f, the square-free part of the characteristic
+        polynomial.
+        """
         n = f.degree()
         horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
         powers = [self.one]

@@ -21,14 +21,14 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 Coefficients = tuple[Any, ...]
-"""Those of 1, z, z², …, rational functions of the parameters."""
+"""The coefficients of 1, z, z², …, rational functions of the parameters."""
 
 
 class FamilyFunction(Frozen):
     """R = P/Q in lowest terms, with Q(0) = 1.
 
     Attributes:
-        name: which colours are driven: ``all``, or the name of one with the others at 0.
+        name: ``all``, or the name of the one colour with λ ≠ 0.
         numerator: P.
         denominator: Q.
     """
@@ -39,7 +39,7 @@ class FamilyFunction(Frozen):
 
     @property
     def at_infinity(self) -> Any:
-        """R(∞) for almost every value; None where R is unbounded."""
+        """R(∞) for almost every value; None if R is unbounded."""
         P, Q = self.numerator, self.denominator
         if len(P) > len(Q):
             return None
@@ -56,9 +56,9 @@ class FamilyFunction(Frozen):
 
 
 def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction, ...]:
-    """R for all colours together, then for each colour alone where there are several.
+    """R for all colours together, then for each colour alone if there are several.
 
-    Empty where colours drive positions or momenta only, or do not see one another.
+    Empty if colours drive positions or momenta only, or are not coupled.
     """
     return tuple(function_of(tableau, ring, *direction) for direction in directions(tableau))
 
@@ -66,7 +66,7 @@ def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction
 def function_of(
     tableau: Tableau, ring: Parameters, name: str, shares: Sequence[Number]
 ) -> FamilyFunction:
-    """R with shares of λ for the colours."""
+    """R with λ times ``shares`` for the colours."""
     system = stage_system(tableau, [((w,),) for w in shares])
     [weights] = system.B
     damped: list[tuple[Any, ...]] = []
@@ -92,7 +92,7 @@ def _in_lowest_terms(
 
 
 def joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
-    """A polynomial in z, times a common denominator, as one in z and the parameters."""
+    """A polynomial in z times a common denominator, as one in z and the parameters."""
     larger = Parameters(["_z", *ring.names])
     terms = {}
     for k, a in enumerate(coefficients):

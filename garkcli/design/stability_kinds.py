@@ -1,8 +1,9 @@
-"""Kinds of stability of a family of one parameter t: what decides, and what one value has.
+"""Kinds of stability of a family of one parameter t: the curves that decide, and decisions for one
+value.
 
-A-stability depends on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on where the roots of Q are,
-I-stability on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t;
-of P-stability 1 − det M is zero.
+A-stability depends on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on the roots of Q, I-stability
+on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t; of
+P-stability 1 − det M is zero.
 """
 
 from __future__ import annotations
@@ -45,35 +46,37 @@ _RIGHT = "the linear test equation does not apply: some stages do not depend on 
 
 
 MOST_POINTS = 60
-"""Values of all unknowns together, with their conjugates, among which those meant are sought."""
+"""Most values of all unknowns together, with their conjugates."""
 BITS = 512
 """Precision of the balls in which a value of |R| above 1 is proved."""
 MOST_CONSTANT = 16
-"""Roots among the coefficients of a larger degree are not taken."""
+"""Largest degree of roots among the coefficients."""
 
 
 class Members(Frozen):
-    """The methods of a family of one parameter; roots among its coefficients are numbers."""
+    """The methods of a family of one parameter, with numbers for the roots among its
+    coefficients.
+    """
 
     family: Family
     whose: Whose
 
     @property
     def critical(self) -> tuple[Polynomial, ...] | None:
-        """Polynomials between whose roots one value decides on A-stability, if they are known."""
+        """Polynomials between whose roots one value decides A-stability, if known."""
         return None
 
     def known(self, t: Point) -> bool | None:  # noqa: ARG002 -- slices know some
-        """Whether a value is A-stable where that is known without a computation."""
+        """Whether a value is A-stable, if known without a computation."""
         return None
 
     @cached_property
     def constants(self) -> Mapping[str, Number] | None:
-        """The roots among the coefficients; None where no field that is small enough has them."""
+        """The roots among the coefficients; None if their field is too large."""
         return self._numbers({}, MOST_CONSTANT) if self.family.radicals else {}
 
     def at(self, t: Point) -> Tableau | None:
-        """The method for a value; None where a weight or a denominator is zero.
+        """The method at a value; None if a weight or a denominator is zero.
 
         Raises:
             NotDecided: its field is too large.
@@ -94,19 +97,19 @@ class Members(Frozen):
             return None
 
     def _numbers(self, values: Mapping[str, RealRoot], most: int) -> dict[str, Number] | None:
-        """The roots among the coefficients and other values as numbers of one field; None where
-        that is too large.
+        """The roots among the coefficients and other values as numbers of one field; None if it is
+        too large.
         """
         family = self.family
-        meant = dict(values)
+        required = dict(values)
         for radical in family.radicals:
             if radical.meant is not None:
-                meant[radical.name] = radical.meant
+                required[radical.name] = radical.meant
         even = [x.name for x in family.radicals if x.is_even]
         zero = RealRoot.rational(ZERO)
         for solution, root in self._conjugates(values):
             at = {key: value_at(x, root) for key, x in solution.values.items()}
-            if all(at[x] == y for x, y in meant.items()) and not any(at[x] < zero for x in even):
+            if all(at[x] == y for x, y in required.items()) and not any(at[x] < zero for x in even):
                 u = number_of(root, most)
                 if u is None:
                     return None
@@ -115,7 +118,7 @@ class Members(Frozen):
         return None
 
     def _conjugates(self, values: Mapping[str, RealRoot]) -> Iterator[tuple[Solution, RealRoot]]:
-        """The values and roots with all that are conjugate to them."""
+        """The values and roots, and all their conjugates."""
         ring = Parameters([*values, *(x.name for x in self.family.radicals)])
         zeros = [x.relation.project_to_context(ring.context) for x in self.family.radicals]
         for name, t in values.items():
@@ -126,7 +129,7 @@ class Members(Frozen):
             yield from ((x, root) for x in solutions(ideal) for root in x.real)
 
     def line(self, tableau: Tableau) -> Line:
-        """They, or others made of them, along the parameter.
+        """The methods along the parameter, or others made of them.
 
         Raises:
             NotDecided: the field of the roots among the coefficients is too large.
@@ -136,17 +139,17 @@ class Members(Frozen):
         return Line(tableau, self.family.ring, self.constants)
 
     def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
-        """Their step for every value."""
+        """The step of the methods for every value."""
         return step_plane(self.line(tableau), fields)
 
 
 class Slice(Members):
-    """The methods over one value of a parameter of two.
+    """The methods of a family of two parameters at one value of the first.
 
     Attributes:
-        critical: polynomials that are zero where curves meet the line; None where it is a curve.
-        limits: values whose methods are limits of A-stable ones, and so A-stable; of those between
-            curves all that are.
+        critical: polynomials that vanish where curves meet the line; None if a curve contains it.
+        limits: values whose methods are limits of A-stable ones and so A-stable themselves; between
+            curves these are all A-stable values.
     """
 
     critical: tuple[Polynomial, ...] | None
@@ -162,16 +165,16 @@ class Slice(Members):
 
 
 class Kind(ABC):
-    """A kind of stability of a family: for each method a set of x ≥ 0 that is to be everything.
+    """A kind of stability of a family: the set of stable x ≥ 0 of each method, which should be
+    everything.
 
     Attributes:
         members: the methods.
         plane: the step of the family.
-        signs: polynomials in x and t: where one is negative the method is not stable at x.
+        signs: polynomials in x and t: if one is negative the method is not stable at x.
         critical: polynomials between whose roots one t decides.
-        essential: polynomials of which one is zero where the limit of methods that have it may not
-            have it.
-        greatest: the bound on x; None where there is none.
+        essential: polynomials; at their zeros a limit of stable methods may be unstable.
+        greatest: the bound on x; None if there is none.
     """
 
     members: Members
@@ -183,14 +186,14 @@ class Kind(ABC):
 
     @abstractmethod
     def holds(self, tableau: Tableau) -> bool:
-        """Whether a method has it, by the ordinary engine."""
+        """Whether a method has it, by the engine for one method."""
 
     @abstractmethod
     def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
-        """The x ≥ 0 at which a method is stable, by the ordinary engine."""
+        """The x ≥ 0 at which a method is stable, by the engine for one method."""
 
     def decide(self, t: Point) -> bool:
-        """Whether the method for a value has it; not where there is none.
+        """Whether the method at a value has it; False if there is no method.
 
         Raises:
             NotDecided: the field of the method is too large.
@@ -199,26 +202,26 @@ class Kind(ABC):
         return tableau is not None and self.holds(tableau)
 
     def is_refuted(self, t: RealRoot) -> bool:  # noqa: ARG002 -- A-stability sees some
-        """Whether the method for a value is seen not to have it, in balls."""
+        """Whether an enclosure shows that the method at a value does not have it."""
         return False
 
     def witness(self, t: fmpq) -> fmpq | None:
-        """An x at which a condition is violated for a value that has been decided in vain."""
+        """An x at which the method at a value is unstable; None if none is found."""
         tableau = self.members.at(t)
         x = None if tableau is None else first_gap(self.stable(tableau))
         is_beyond = x is not None and self.greatest is not None and x > self.greatest
         return None if is_beyond else x
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        """Polynomials in t: where one is negative the method is not stable at x."""
+        """Polynomials in t: if one is negative the method is not stable at x."""
         return [self.plane.at_y(p, x) for p in self.signs]
 
 
 def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
-    """The linear problem that a kind of stability is about: y ↦ L^m y for each colour.
+    """The linear problem of a kind of stability: y ↦ L^m y for each colour.
 
     Raises:
-        UsageProblem: it has no meaning for the method.
+        UsageProblem: the stability is not applicable.
     """
     if wanted in OSCILLATING:
         problem = Oscillator.default(terms_of(tableau), fmpq(1))
@@ -235,7 +238,7 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
 
 
 class AStability(Kind):
-    """|R(z)| ≤ 1 for Re z ≤ 0, of all colours alike or of one alone."""
+    """|R(z)| ≤ 1 for Re z ≤ 0, with λ for all colours or for one alone."""
 
     def __init__(self, members: Members, tableau: Tableau, colour: int | None = None) -> None:
         self.shares = shares_of(tableau, colour)
@@ -264,7 +267,7 @@ class AStability(Kind):
         return imaginary_set(stability_function(tableau, self.shares))
 
     def is_refuted(self, t: RealRoot) -> bool:
-        """Whether |P| > |Q| for a simple z, Re z ≤ 0."""
+        """Whether |P| > |Q| is proved at one of a few z with Re z ≤ 0."""
         with ctx.workprec(BITS):
             P, Q = (
                 [a.enclosed_at(t.ball(BITS)) for a in self.plane.coefficients(p)]
@@ -273,17 +276,16 @@ class AStability(Kind):
             sizes = [arb(0), *(arb(fmpq(4) ** k) for k in range(-6, 7))]
             points = [acb(-x, z) for x in sizes for z in sizes]
             with suppress(ValueError):  # multiple roots
-                # next to a pole too
+                # points near poles
                 near = acb_poly([x.mid() for x in Q]).roots()
                 points += [z.mid() for z in near if z.real < 0]
             return any(abs(value(P, z)) > abs(value(Q, z)) for z in points)
 
     def is_damped(self, t: Point) -> bool:
-        """Whether R(∞) = 0; common factors of P and Q change both degrees alike."""
+        """Whether R(∞) = 0; a common factor of P and Q lowers both degrees equally."""
         return self._degree_at(self.P, t) < self._degree_at(self.Q, t)
 
     def _degree_at(self, p: fmpq_mpoly, t: Point) -> int:
-        """The degree in y of p(y, t)."""
         coefficients = self.plane.coefficients(p)
         return max((k for k, a in enumerate(coefficients) if sign_of(a, t)), default=-1)
 
@@ -308,11 +310,11 @@ class IStability(Kind):
 
 
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
-    """What decides on the oscillator, in x = z² and t.
+    """The curves that decide on the oscillator, in x = z² and t.
 
     Returns:
-        the conditions on the eigenvalues, not negative where they are bounded; the denominator, the
-        trace, the determinant and the entries off the diagonal, as far as they vanish.
+        conditions on the eigenvalues, not negative if these are bounded; and the denominator, the
+            trace, the determinant and the off-diagonal entries, whose zeros count.
     """
     D = plane.denominator
     (a, b), (c, d) = plane.numerators
@@ -324,7 +326,7 @@ def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpo
 
 
 def first_gap(intervals: Sequence[Interval]) -> fmpq | None:
-    """A rational x ≥ 0 in the first open gap of a set of intervals; None where there is none."""
+    """A rational x ≥ 0 in the first open gap between intervals; None if there is none."""
     end: RealRoot | None = RealRoot.rational(ZERO)
     for interval in intervals:
         assert end is not None
@@ -362,12 +364,12 @@ def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
 
 
 class TwoSprings(Frozen):
-    """Which springs are meant.
+    """A slow and a fast spring.
 
     Attributes:
         slow: (hω_s)² ≥ 0.
         fast: the term of the fast spring, counted from 0.
-        greatest: the bound on x = (hω_f)²; None where there is none.
+        greatest: the bound on x = (hω_f)²; None if there is none.
     """
 
     slow: fmpq
@@ -377,7 +379,7 @@ class TwoSprings(Frozen):
 
 class SpringStability(Kind):
     """All powers of the step matrix on a slow and a fast spring are bounded for all fast
-    frequencies: for one slow frequency the step is a function of x = (hω_f)² and of t.
+    frequencies: at one slow frequency the step is a function of x = (hω_f)² and t.
     """
 
     def __init__(self, members: Members, tableau: Tableau, wanted: TwoSprings) -> None:
@@ -399,11 +401,11 @@ class SpringStability(Kind):
         self.critical = self.plane.projected(deciding, ends)
 
     def holds(self, tableau: Tableau) -> bool:
-        found = self.stable(tableau)
+        stable = self.stable(tableau)
         if self.greatest is None:
-            return first_end(found) is None and found[0].has_start
+            return first_end(stable) is None and stable[0].has_start
         ends = RealRoot.rational(ZERO), RealRoot.rational(self.greatest)
-        return any(contains(x, *ends) for x in found)
+        return any(contains(x, *ends) for x in stable)
 
     def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
         return two_frequencies(tableau, self.split, self.slow).stable

@@ -1,8 +1,8 @@
-"""Which methods of a solution set are as stable as a family wants them, part by part.
+"""The methods of a solution set with the stability that a family wants, part by part.
 
-On a part (``garkcli.design.parts``) on which the step depends on one coordinate x alone the stable
-methods are those with x in a set. That is found on a line on which the other coordinates are
-rational; where the part asks p(x) = 0 of x, the roots of p are decided one by one.
+On a part (``garkcli.design.parts``) whose step depends on one coordinate x alone the stable methods
+are those with x in a set. The set is found on a line with rational values of the other coordinates;
+if the part has an equation p(x) = 0, the roots of p are decided one by one.
 """
 
 from __future__ import annotations
@@ -55,18 +55,18 @@ from garkcli.tableau.tableau import Tableau
 VALUES = [
     fmpq(*x) for x in ((1, 2), (1, 3), (3, 4), (1, 4), (2, 3), (1, 1), (3, 5), (6, 5), (0, 1))
 ]
-"""Of coordinates that may be anything."""
+"""Values tried for free coordinates."""
 MOST_POINTS = 300
-"""Points of a part of which one is to be a method."""
+"""Most points of a part tried for a method."""
 
 
 class StablePart(Frozen):
     """The stable methods of a part.
 
     Attributes:
-        part: with the sets in which its coordinates are.
-        kinds: for each kind of stability the values of the coordinate on which it depends.
-        attained: for each kind the values that this coordinate has in the part.
+        part: the part with the sets of its coordinates.
+        kinds: for each kind of stability its values of the coordinate on which it depends.
+        attained: for each kind all values of this coordinate in the part.
     """
 
     part: Part
@@ -75,7 +75,7 @@ class StablePart(Frozen):
 
     @property
     def parts(self) -> Iterator[Part]:
-        """The part, or where single values of a coordinate alone are stable, these parts of it."""
+        """The part; or if only single values of a coordinate are stable, its parts at these."""
         name, values = self.part.sets[-1]
         place = self.part.ring.names.index(name)
         if not values or what_is_asked(self.part, name) or not all(x.is_point for x in values):
@@ -97,9 +97,9 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
     """The stable methods of a part.
 
     Raises:
-        NotDecided: the step depends on several coordinates, or on one on a curve; or the time is
-            not enough.
-        UsageProblem: a kind of stability has no meaning for the methods.
+        NotDecided: the step depends on several coordinates, or on one that is not free; or the time
+            limit has passed.
+        UsageProblem: a kind of stability is not applicable.
     """
     if family.radicals:
         raise NotDecided
@@ -109,9 +109,9 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
     for wanted in dict.fromkeys(family.stable):
         line = _Line(family.tested(wanted), whose, part, wanted)
         found, undecided = line.values()
-        told, all_of_it = line.told(found, undecided)
-        kinds.append(told)
-        attained.append(all_of_it)
+        shown, attained_by_line = line.told(found, undecided)
+        kinds.append(shown)
+        attained.append(attained_by_line)
         values = {**part.values, line.name: part.ring.parameter(line.name)}
         part = replace(part, values=values, sets=(*part.sets, (line.name, found)))
     return StablePart(part, tuple(kinds), tuple(attained))
@@ -120,22 +120,22 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
 def _stable_points(family: Family, whose: Whose, part: Part) -> StablePart:
     """The stable methods among finitely many, by their values of an unknown on a diagonal."""
     name = next(iter(diagonal_unknowns(family.tableau, family.ring)), family.parameters[0])
-    alone = replace(
+    family_of_one = replace(
         family, ring=Parameters([name]), parameters=(name,), ranges={name: (None, None)}
     )
     methods = [(x, root) for x in map(part.whole, points_of(part)) for root in x.real]
     kinds = []
     for wanted in dict.fromkeys(family.stable):
-        one = replace(family, stable=(wanted,))
+        single_want = replace(family, stable=(wanted,))
         values: dict[bool | None, list[RealRoot]] = {True: [], False: [], None: []}
         for solution, root in methods:
             value = value_at(solution.values[name], root)
-            values[is_as_stable(one, whose, solution, root)].append(value)
+            values[is_as_stable(single_want, whose, solution, root)].append(value)
         kind: Any = wanted.kind
-        found = tuple(map(point_of, sorted(set(values[True]))))
+        stable_values = tuple(map(point_of, sorted(set(values[True]))))
         undecided = tuple(set(values[None]) - set(values[True]))
-        told = StableValues(alone, whose, kind, found, undecided)
-        kinds.append(_told_of(told, wanted))
+        stable = StableValues(family_of_one, whose, kind, stable_values, undecided)
+        kinds.append(_told_of(stable, wanted))
     attained = tuple(map(point_of, sorted({value_at(x.values[name], t) for x, t in methods})))
     return StablePart(part, tuple(kinds), (attained,) * len(kinds))
 
@@ -148,16 +148,16 @@ class _Line:
     """A part along the coordinate on which a step depends.
 
     Attributes:
-        name: of the coordinate.
+        name: the coordinate.
     """
 
     def __init__(self, family: Family, whose: Whose, part: Part, wanted: Stability) -> None:
         self.family, self.whose, self.part, self.wanted = family, whose, part, wanted
         values: Any = part.values
         self.tableau = member(family.tableau, family.ring, values)
-        meant = TABLEAUS[whose](self.tableau)
-        fields = driven(meant, wanted.kind, wanted.colour)
-        denominator, numerators = step_polynomials(meant, part.ring, fields)
+        derived = TABLEAUS[whose](self.tableau)
+        fields = driven(derived, wanted.kind, wanted.colour)
+        denominator, numerators = step_polynomials(derived, part.ring, fields)
         for name in part.ring.names:
             root = what_is_asked(part, name)
             if root is None and not part.is_free:
@@ -170,8 +170,8 @@ class _Line:
     def _is_enough(
         self, name: str, D: fmpq_mpoly, numerators: Sequence[fmpq_mpoly], root: fmpq_mpoly | None
     ) -> bool:
-        """Whether N/D depends on one coordinate alone, where ``root`` is zero if there is any:
-        N(x, y) D(x, y') = N(x, y') D(x, y) for some numbers y' in place of the others.
+        """Whether N/D depends on one coordinate x alone, on the zeros of ``root`` if given: N(x, y)
+        D(x, y') = N(x, y') D(x, y) for some numbers y' in place of the others.
         """
         check_time()
         context = D.context()
@@ -196,18 +196,17 @@ class _Line:
 
     @property
     def members(self) -> PartMembers:
-        """The methods along the coordinate."""
         return PartMembers(self.family, self.whose, self.part, self.name, self.tableau)
 
     def values(self) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-        """The stable values of the coordinate, and those that are undecided."""
+        """The stable values of the coordinate, and the undecided ones."""
         members = self.members
         if self.root is None:
             kind: Any = self.wanted.kind
-            found = stable_values(
+            stable_values_found = stable_values(
                 members.alone, kind, self.whose, colour=self.wanted.colour, members=members
             )
-            return found.found, found.undecided
+            return stable_values_found.found, stable_values_found.undecided
         stable, undecided = [], []
         for t, _ in real_roots(in_one(self.root)):
             if number_of(t, MOST_DEGREE) is None:
@@ -221,7 +220,7 @@ class _Line:
     def told(
         self, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
     ) -> tuple[StableValues, tuple[Interval, ...]]:
-        """The stable values of an unknown a x + b on a diagonal, and all values that it has."""
+        """The stable values of an unknown a x + b on a diagonal, and all its values in the part."""
         is_same = not found or found == (Interval(None, None),)
         name, a, b = self._shown(is_same)
         kind: Any = self.wanted.kind
@@ -242,19 +241,19 @@ class _Line:
             attained = (point_of(RealRoot.rational(b)),)
             shown = attained if found else ()
         open_values = tuple(map(moved, undecided))
-        told = StableValues(family, self.whose, kind, shown, open_values)
-        return _told_of(told, self.wanted), attained
+        shown_values = StableValues(family, self.whose, kind, shown, open_values)
+        return _told_of(shown_values, self.wanted), attained
 
     @property
     def _attained(self) -> tuple[Interval, ...]:
-        """The values of the coordinate that methods of the part have."""
+        """The values of the coordinate at methods of the part."""
         if self.root is not None:
             return tuple(point_of(t) for t, _ in real_roots(in_one(self.root)))
         left_out = [content_in(p, self.part.ring, self.name) for p in self.part.nonzero]
         return where(lambda t: all(sign_of(p, t) for p in left_out), left_out)
 
     def _shown(self, is_same: bool) -> tuple[str, fmpq, fmpq]:
-        """An unknown a x + b with a and b; a may be 0 where all methods are alike."""
+        """An unknown a x + b with a and b; a = 0 is allowed if all methods are equally stable."""
         ring = self.part.ring
         place = ring.names.index(self.name)
         for name in diagonal_unknowns(self.family.tableau, self.family.ring):
@@ -271,18 +270,17 @@ class _Line:
 
 
 def point_of(x: RealRoot) -> Interval:
-    """A single number."""
+    """The interval of a single number."""
     return Interval(x, x, has_start=True, has_end=True)
 
 
 class PartMembers(Members):
-    """The methods of a part on a line along one coordinate, those of other lines where that has
-    none.
+    """The methods of a part on a line along one coordinate, or on another line if that has none.
 
     Attributes:
-        part: whose they are.
-        name: of the coordinate.
-        tableau: in the coordinates of the part.
+        part: the part.
+        name: the coordinate.
+        tableau: of the method, in the coordinates of the part.
     """
 
     part: Part
@@ -290,10 +288,10 @@ class PartMembers(Members):
     tableau: Tableau
 
     def at(self, t: Point) -> Tableau | None:
-        """A method with a value of the coordinate; None where there is none.
+        """A method with a value of the coordinate; None if there is none.
 
         Raises:
-            NotDecided: no tried value is one, or its field is too large.
+            NotDecided: no tried point gives one, or its field is too large.
         """
         value = number_of(t, MOST_DEGREE) if isinstance(t, RealRoot) else t
         if value is None:
@@ -340,24 +338,24 @@ class PartMembers(Members):
 
     @property
     def poles(self) -> tuple[Polynomial, ...]:
-        """A polynomial in the coordinate that is zero where no line has a method."""
+        """A polynomial in the coordinate that vanishes if no line has a method there."""
         common = common_denominator(self.tableau.entries, self.part.ring)
         return (content_in(common, self.part.ring, self.name),)
 
 
 def content_in(p: fmpq_mpoly, ring: Parameters, name: str) -> Polynomial:
-    """The greatest common divisor of the coefficients of a polynomial as one in the others: it is
-    zero at the values of an unknown at which the polynomial is zero whatever the others are.
+    """The greatest common divisor of the coefficients of a polynomial in the other unknowns: at its
+    zeros in one unknown the polynomial vanishes for all values of the others.
     """
     place = ring.names.index(name)
-    alone = Parameters([name])
+    univariate = Parameters([name])
     slices: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
     for e, a in p.to_dict().items():
         others = tuple(int(k) for i, k in enumerate(e) if i != place)
         slices.setdefault(others, {})[(int(e[place]),)] = a
-    content = alone.constant(fmpq(0))
+    content = univariate.constant(fmpq(0))
     for terms in slices.values():
-        content = content.gcd(alone.context.from_dict(dict(terms)))
+        content = content.gcd(univariate.context.from_dict(dict(terms)))
     return in_one(content)
 
 
@@ -367,15 +365,15 @@ def points(size: int) -> Iterator[tuple[fmpq, ...]]:
 
 
 def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solution, RealRoot]]:
-    """Some stable methods of a part, all of whose coordinates but one are short rational numbers:
-    it is free, or asks something of that one alone; of finitely many all.
+    """Stable methods of a part that is free or has one equation in one coordinate, all other
+    coordinates being short rational numbers; all of them if they are finitely many.
     """
     if not part.dimension:
-        for whole in map(part.whole, points_of(part)):
-            for root in whole.real:
-                is_method = is_admissible(family, whole, root)
-                if is_method and is_as_stable(family, whose, whole, root):
-                    yield whole, root
+        for solution_of_all in map(part.whole, points_of(part)):
+            for root in solution_of_all.real:
+                is_method = is_admissible(family, solution_of_all, root)
+                if is_method and is_as_stable(family, whose, solution_of_all, root):
+                    yield solution_of_all, root
         return
     names = part.ring.names
     *_, name = [names[0], *(x for x, _ in part.sets if x in names)]
@@ -400,15 +398,15 @@ def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> boo
 
 
 def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
-    """For each kind of stability the values of one unknown, within its range, that the parts have
-    together; nothing where they depend on different ones, or where of two methods with
-    one value, of which one is a part by itself, one is stable.
+    """The stable values of one unknown, within its range, of all parts together, for each kind;
+    empty if parts depend on different unknowns, or if a single point and another part with the same
+    value differ in stability.
     """
     together = []
     for place, same in enumerate(zip(*(x.kinds for x in parts), strict=True)):
         name = same[0].parameter
-        asked = {key for key, ends in family.ranges.items() if ends != (None, None)} - {name}
-        is_apart = bool(asked or family.positive or family.not_negative)
+        ranged = {key for key, ends in family.ranges.items() if ends != (None, None)} - {name}
+        is_apart = bool(ranged or family.positive or family.not_negative)
         if {x.parameter for x in same} != {name}:
             return ()
         start, end = (
@@ -422,8 +420,8 @@ def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, .
         critical = [p for x in (*sets, admitted) for p in ends_of(x)]
         found = where(partial(_is_in_one, sets, admitted), critical)
         undecided = dict.fromkeys(t for x in same for t in x.undecided)
-        left = tuple(t for t in undecided if has(admitted, t) and not has(found, t))
-        together.append(replace(same[0], found=found, undecided=left, is_apart=is_apart))
+        undecided_left = tuple(t for t in undecided if has(admitted, t) and not has(found, t))
+        together.append(replace(same[0], found=found, undecided=undecided_left, is_apart=is_apart))
     return tuple(together)
 
 
@@ -432,14 +430,12 @@ def _differ(
     attained: Sequence[tuple[Interval, ...]],
     parts: Sequence[Part],
 ) -> bool:
-    """Whether a value of a single point is stable there and unstable in another part, or the other
-    way round.
-    """
-    for found, values, part in zip(stable, attained, parts, strict=True):
+    """Whether a value of a single point is stable there and not in another part, or conversely."""
+    for own, values, part in zip(stable, attained, parts, strict=True):
         for t in (x.start for x in values if not part.dimension):
             assert t is not None
             for others, all_of_them in zip(stable, attained, strict=True):
-                if has(all_of_them, t) and has(others, t) is not has(found, t):
+                if has(all_of_them, t) and has(others, t) is not has(own, t):
                     return True
     return False
 
@@ -451,7 +447,7 @@ def _is_in_one(
 
 
 def has_stable_method(family: Family, whose: Whose, parts: Sequence[StablePart]) -> bool | None:
-    """Whether a part has a stable method; None where none is found that could be."""
+    """Whether a part has a stable method; None if none is found but one may exist."""
     if any(True for x in parts for _ in methods_on(family, whose, x.part)):
         return True
     is_none = all(x.is_decided and not all(y.found for y in x.kinds) for x in parts)

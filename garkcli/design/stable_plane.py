@@ -1,4 +1,4 @@
-"""For which values of two parameters a family is A-stable: cells of the plane.
+"""The values of two parameters for which a family is A-stable: cells of the plane.
 
 What decides are curves in the plane of the parameters (t, y): over each region between them the
 zeros of E(x) = |Q(iy)|² − |P(iy)|² and the poles of R keep their number and order. The curves are
@@ -45,12 +45,13 @@ from garkcli.upward import Shown
 
 
 class Branch(Frozen, eq=False):
-    """A curve p(y, t) = 0 as a function of t: its root in y of a number, from below.
+    """A branch of a curve p(y, t) = 0 as a function of t: one of its roots in y, numbered from
+    below.
 
     Attributes:
         curve: p.
-        number: counted from 0.
-        count: how many roots there are.
+        number: of the root, from 0.
+        count: the number of real roots.
     """
 
     curve: fmpq_mpoly
@@ -67,7 +68,7 @@ class Branch(Frozen, eq=False):
     __hash__ = None  # type: ignore[assignment]
 
     def formula(self) -> tuple[Polynomial, Polynomial] | None:
-        """Numerator and denominator where it is a rational function of t."""
+        """Numerator and denominator if the branch is a rational function of t."""
         if self.curve.degrees()[0] > 1:
             return None
         return -projection.in_t(projection.coefficient_of(self.curve, 0)), projection.in_t(
@@ -75,8 +76,8 @@ class Branch(Frozen, eq=False):
         )
 
     def at(self, t: RealRoot) -> RealRoot | None:
-        """Its value at a number or at an end of the strip, as a limit; None where roots meet or
-        leave there.
+        """The value at a number or at an end of the strip, as a limit; None if roots meet or escape
+        to infinity there.
         """
         degree = self.curve.degrees()[0]
         critical = [
@@ -104,7 +105,7 @@ class Branch(Frozen, eq=False):
 
 
 End: TypeAlias = "Branch | RealRoot | None"
-"""An end of a set of y: a function of t, a number over a single t, or infinity."""
+"""An end of a set of y: a function of t, a number over a single t, or None for infinity."""
 
 
 class Part(Frozen):
@@ -112,7 +113,7 @@ class Part(Frozen):
 
     Attributes:
         start, end: its ends.
-        has_start, has_end: whether they belong to it.
+        has_start, has_end: whether the ends belong to it.
     """
 
     start: End
@@ -121,7 +122,7 @@ class Part(Frozen):
     has_end: bool
 
     def over(self, t: RealRoot) -> Interval | None:
-        """The interval over one t; None where that is not known."""
+        """The interval over one t; None if an end is unknown there."""
         ends: list[RealRoot | None] = []
         for end in (self.start, self.end):
             value = end.at(t) if isinstance(end, Branch) else end
@@ -132,11 +133,11 @@ class Part(Frozen):
 
 
 class Strip(Frozen):
-    """Values of the first parameter, with those of the second.
+    """An interval of the first parameter, and the values of the second over it.
 
     Attributes:
-        base: the values of the first.
-        parts: those of the second, from below.
+        base: the interval of the first.
+        parts: the values of the second, from below.
     """
 
     base: Interval
@@ -147,11 +148,11 @@ class StablePlane(Shown, Frozen):
     """The values of two parameters for which a family is A-stable.
 
     Attributes:
-        family: as it was read.
-        strips: where there are such values, from the left.
-        undecided: values of the first parameter over which not everything is decided; they are in
-            no strip.
-        colour: which colour alone is driven, counted from 0; None for all of them alike.
+        family: as read from the file.
+        strips: all of them, from the left.
+        undecided: values of the first parameter over which something is undecided; they are in no
+            strip.
+        colour: the colour with λ ≠ 0, counted from 0; None for all colours.
     """
 
     family: Family
@@ -161,7 +162,7 @@ class StablePlane(Shown, Frozen):
 
     @property
     def has_values(self) -> bool | None:
-        """Whether there are such values; None where that is not decided."""
+        """Whether there are such values; None if undecided."""
         if self.strips:
             return True
         return None if self.undecided else False
@@ -174,25 +175,25 @@ def stable_set(
     two_springs: TwoSprings | None = None,
     colour: int | None = None,
 ) -> StableValues | StablePlane:
-    """The set of values of the free parameters: of one, of several on which the step depends
-    through one linear form, or of two for A-stability.
+    """The stable values of one parameter, of one linear form if the step depends on no more, or of
+    two parameters for A-stability.
 
     Args:
         family: of methods.
-        wanted: which stability.
+        wanted: the kind of stability.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        two_springs: P- or I-stability is meant on them.
+        two_springs: the springs for P- or I-stability; None for one oscillator.
         colour: A- or L-stability of this colour alone, counted from 0.
 
     Raises:
-        UsageProblem: the stability has no meaning for the method, there are other parameters, or
-            roots among the coefficients.
-        ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        NotDecided: the time is not enough.
+        UsageProblem: the stability is not applicable, there are other parameters, or roots among
+            the coefficients.
+        ZeroWeight: a weight is zero for every value, so there is no conjugate.
+        NotDecided: the time limit has passed.
     """
-    found = values_of_one(family, wanted, whose, two_springs, colour)
-    if found is not None:
-        return found
+    along_one = values_of_one(family, wanted, whose, two_springs, colour)
+    if along_one is not None:
+        return along_one
     if family.radicals:
         raise beside_roots(family, wanted, whose)
     is_plane = len(family.parameters) == 2 and wanted == "a-stable" and whose == "method"
@@ -208,8 +209,8 @@ def values_of_one(
     two_springs: TwoSprings | None = None,
     colour: int | None = None,
 ) -> StableValues | None:
-    """The set of values of one parameter, or of one linear form in several; None where the step
-    depends on more, or there are other wishes, radicals, or denominators.
+    """The stable values of one parameter, or of one linear form in several; None if the step
+    depends on more, or there are other wants, radicals, or denominators.
     """
     if len(family.parameters) == 1:
         return stable_values(family, wanted, whose, two_springs, colour)
@@ -219,31 +220,29 @@ def values_of_one(
     smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
     if len(forms) > 1:
         return None
-    found = stable_values(smaller, wanted, whose, colour=colour)
-    return replace(found, family=family, form=forms[0])
+    along_form = stable_values(smaller, wanted, whose, colour=colour)
+    return replace(along_form, family=family, form=forms[0])
 
 
 def _is_plain(family: Family, tableau: Tableau) -> bool:
-    """Whether parameters have no ranges and nothing else is wanted of them, and coefficients no
-    denominators.
-    """
+    """Whether parameters have neither ranges nor other wants, and coefficients no denominators."""
     is_open = all(x == (None, None) for x in family.ranges.values())
     is_without = common_denominator(tableau.entries, family.ring).is_constant()
     return is_open and is_without and not has_wishes(family)
 
 
 def stable_plane(family: Family, colour: int | None = None) -> StablePlane:
-    """The set for two parameters without ranges, coefficients without denominators.
+    """The A-stable values of two parameters without ranges, for coefficients without denominators.
 
     Raises:
-        UsageProblem: A-stability has no meaning for the method.
-        NotDecided: the time is not enough.
+        UsageProblem: A-stability is not applicable.
+        NotDecided: the time limit has passed.
     """
     return _Plane(family, colour).run()
 
 
 class _Plane:
-    """One decomposition."""
+    """The decomposition of the plane for one family."""
 
     def __init__(self, family: Family, colour: int | None) -> None:
         self.family, self.colour = family, colour
@@ -266,7 +265,9 @@ class _Plane:
         return StablePlane(self.family, tuple(_joined(strips)), tuple(self.undecided), self.colour)
 
     def _stable(self, t: Point, limits: tuple[Interval, ...] | None = None) -> StableValues:
-        """The values of the second parameter for one of the first, by the limits if it has some."""
+        """The stable values of the second parameter at one of the first, with the limits there if
+        known.
+        """
         first, second = self.family.parameters
         rational = t.exact if isinstance(t, RealRoot) else t
         ring = Parameters([second])
@@ -292,21 +293,21 @@ class _Plane:
         return stable_values(line, "a-stable", colour=self.colour, members=members)
 
     def _critical(self, t: Point) -> tuple[Polynomial, ...] | None:
-        """Polynomials that are zero where curves meet the line over t; None where one of them is
-        that line.
+        """Polynomials that vanish where curves meet the line over t; None if a curve contains the
+        line.
         """
         root = projection.of_root(t if isinstance(t, RealRoot) else RealRoot.rational(t))
-        found = [projection.resultant(p, root, "t") for p in self.curves]
-        return tuple(map(in_one, found)) if all(found) else None
+        resultants = [projection.resultant(p, root, "t") for p in self.curves]
+        return tuple(map(in_one, resultants)) if all(resultants) else None
 
     def _parts(self, t: fmpq) -> tuple[Part, ...]:
-        """The set over an open strip, from one t inside.
+        """The stable parts of an open strip, from one t inside.
 
         Raises:
-            NotDecided: it has values that are undecided.
+            NotDecided: some values are undecided.
         """
-        found = self._stable(t)
-        if found.undecided:
+        stable = self._stable(t)
+        if stable.undecided:
             raise NotDecided
         branches: list[tuple[RealRoot, Branch]] = []
         for curve in self.curves:
@@ -317,62 +318,62 @@ class _Plane:
         def end(y: RealRoot | None) -> Branch | None:
             return None if y is None else next(x for root, x in branches if root == y)
 
-        return tuple(Part(end(x.start), end(x.end), x.has_start, x.has_end) for x in found.found)
+        return tuple(Part(end(x.start), end(x.end), x.has_start, x.has_end) for x in stable.found)
 
     def _over(self, t: RealRoot, left: Strip, right: Strip) -> Strip:
-        """The set over a critical t."""
+        """The stable parts over a critical t."""
         base = Interval(t, t, has_start=True, has_end=True)
         sides = [(side, _over(side, t)) for side in (left, right)]
         try:
             is_known = all(parts is not None for _, parts in sides)
             limits = tuple(x for _, parts in sides for x in parts or ())
-            found = self._stable(t, limits if is_known else None)
-        except UsageProblem:  # no field that is small enough has it
-            found = None
-        if found is None or found.undecided:
+            stable = self._stable(t, limits if is_known else None)
+        except UsageProblem:  # no field of an admitted degree has it
+            stable = None
+        if stable is None or stable.undecided:
             self.undecided.append(t)
             return Strip(base, ())
         for side, parts in sides:
-            if parts == list(found.found):
+            if parts == list(stable.found):
                 return Strip(base, side.parts)
-        own = (Part(x.start, x.end, x.has_start, x.has_end) for x in found.found)
-        return Strip(base, tuple(own))
+        parts_here = (Part(x.start, x.end, x.has_start, x.has_end) for x in stable.found)
+        return Strip(base, tuple(parts_here))
 
 
 def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
-    """The irreducible curves in the plane of the parameters that decide."""
+    """The irreducible curves in the plane of the parameters at which stability may change."""
     P, Q, E = (
         joined(x, common_denominator(list(x), ring), ring)
         for x in (R.numerator, R.denominator, R.e_polynomial or (fmpq(0),))
     )
-    found = [*projection.seen_along(factors([E]), [fmpq(0)]), *map(projection.leading, (P, Q))]
+    curves = [*projection.seen_along(factors([E]), [fmpq(0)]), *map(projection.leading, (P, Q))]
     for p, q in ((P, Q), real_and_imaginary(Q)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
-            found.append(projection.resultant(p, q))
-    return factors(projection.in_plane(p, y=2, t=1) for p in found)
+            curves.append(projection.resultant(p, q))
+    return factors(projection.in_plane(p, y=2, t=1) for p in curves)
 
 
 def _over(strip: Strip, t: RealRoot) -> list[Interval] | None:
-    """The set of a strip over an end of it, as limits; None where one is not known."""
+    """The parts of a strip over one of its ends, as limits; None if one is unknown."""
     found = [part.over(t) for part in strip.parts]
     return None if None in found else [x for x in found if x is not None]
 
 
 def _joined(strips: Sequence[Strip]) -> list[Strip]:
-    """Strips beside each other with the same parts as one; without those of none."""
-    found: list[Strip] = []
+    """Strips with adjacent ones of the same parts joined, and empty ones left out."""
+    joined: list[Strip] = []
     for strip in strips:
-        if found and found[-1].parts == strip.parts:
-            last = found[-1].base
+        if joined and joined[-1].parts == strip.parts:
+            last = joined[-1].base
             base = Interval(last.start, strip.base.end, last.has_start, strip.base.has_end)
-            found[-1] = Strip(base, strip.parts)
+            joined[-1] = Strip(base, strip.parts)
         else:
-            found.append(strip)
-    return [strip for strip in found if strip.parts]
+            joined.append(strip)
+    return [strip for strip in joined if strip.parts]
 
 
 def _value(x: Any, at: Sequence[arb]) -> arb:
-    """A polynomial, or a number whose numerator is one over a constant, in balls."""
+    """The value in balls of a polynomial, or of the numerator of a number."""
     if isinstance(x, fmpq):
         return arb(x)
     return arb(evaluated(x if isinstance(x, fmpq_mpoly) else x.numerator, at))

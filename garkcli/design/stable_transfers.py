@@ -1,4 +1,4 @@
-"""Which transfers of a family have a P-stable pair, whatever roots are among its coefficients.
+"""The transfers of a family with a P-stable pair, with roots among the coefficients.
 
 By Theorem F of docs/pair-order.md that depends on the operators S and R made of A^{2,1}: nonzero
 singular values are double, apart from what the step does not see. With a(λ) of half the power sums
@@ -43,18 +43,18 @@ HALF = fmpq(1, 2)
 
 
 def stable_zeros(criterion: PairConditions, ideal: Ideal, order: int) -> list[fmpq_mpoly]:
-    """Polynomials that are zero exactly at the real values whose pair is P-stable: none where all
-    are, a constant where none is.
+    """Polynomials whose common real zeros are the values with a P-stable pair: none if all are
+    P-stable, a constant if none is.
 
     Args:
-        criterion: of a family of which P-stability is wanted; its weights are positive.
-        ideal: of the values with an order of the pair.
-        order: this order.
+        criterion: of a family that is wanted P-stable; its weights are positive.
+        ideal: of the values whose pair has the order.
+        order: of the pair.
 
     Raises:
         NotDecided: other stability is wanted, or the step may not see some of four stages, or the
-            time is not enough.
-        UsageProblem: P-stability has no meaning for the methods.
+            time limit has passed.
+        UsageProblem: P-stability is not applicable.
     """
     family = criterion.family
     solved = criterion.solved(ideal)
@@ -64,7 +64,7 @@ def stable_zeros(criterion: PairConditions, ideal: Ideal, order: int) -> list[fm
     ring, values = _solved(family, solved)
     S = operator_of(member(family.tableau, family.ring, values))
     size = min(len(S.left), len(S.right))
-    is_seen = size <= (order - 1) // 2 + 1  # powers of the nodes span one of the spaces
+    is_seen = size <= (order - 1) // 2 + 1  # powers of the nodes then span one of the spaces
     if is_seen:
         conditions = (*S.doubled(size // 2), *S.across.doubled((size - 1) // 2))
         zeros = [p for p in (fraction(x, ring)[0] for x in conditions) if p]
@@ -83,7 +83,7 @@ class Operator(Frozen):
 
     Attributes:
         matrix: T, shape (s_2, s_1).
-        left, right: the weights of the inner products, of the space it maps to and of its own.
+        left, right: the weights of the inner products of its codomain and its domain.
     """
 
     matrix: Matrix
@@ -101,7 +101,7 @@ class Operator(Frozen):
 
     @property
     def across(self) -> Operator:
-        """(I − 𝟙b_2ᵀ) T (I − 𝟙b_1ᵀ), what is across 𝟙 on both sides."""
+        """(I − 𝟙b_2ᵀ) T (I − 𝟙b_1ᵀ), the part orthogonal to 𝟙 on both sides."""
         ones = (ONE,) * len(self.left)
         T = subtract(self.matrix, outer(ones, apply_left(self.left, self.matrix)))
         T = subtract(T, outer(apply(T, (ONE,) * len(self.right)), self.right))
@@ -113,8 +113,9 @@ class Operator(Frozen):
         return multiply(self.matrix, self.adjoint.matrix)
 
     def doubled(self, degree: int) -> Iterable[Number]:
-        """What is zero exactly where so many numbers at most are nonzero singular values, each of
-        them double: a(T T*) T for the monic a of a degree with half the power sums of T T*.
+        """Numbers that vanish exactly if at most ``degree`` distinct singular values are nonzero,
+        each of them double: the entries of a(T T*) T for the monic a of that degree with half the
+        power sums of T T*.
         """
         T = self if len(self.left) < len(self.right) else self.adjoint
         K, result = T.square, T.matrix
@@ -149,8 +150,8 @@ def operator_of(tableau: Tableau) -> Operator:
 
 
 def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
-    """The same of at most three singular values where the step may not see all of them: zero at
-    those parameters, α and β for which α is double of S, β of R, as far as the step sees them.
+    """Equations for double singular values when the step may not see all of them, at most three:
+    zero for parameters, α and β if α is double for S and β for R, as far as the step sees them.
     """
     larger = Parameters(["_alpha", "_beta", *ring.names])
     alpha, beta, *gens = larger.context.gens()
@@ -173,7 +174,7 @@ def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
             twice = apply(map_.square, image) if root else image
             zeros += [lifted(x) - root * lifted(y) for x, y in zip(twice, image, strict=True)]
         c = [lifted(x) for x in characteristic_coefficients(T.square)]
-        # root is one of them, or 0
+        # root is a root of this polynomial, or 0
         zeros.append(sum((x * root ** (len(c) - k) for k, x in enumerate(c)), zero))
         polynomials.append((c, [one, -root]))
     (of_S, a), (of_R, b) = polynomials
@@ -182,17 +183,17 @@ def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
 
 
 def _product(p: Sequence[fmpq_mpoly], q: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """That of two polynomials, by their coefficients."""
-    found = [p[0] * 0] * (len(p) + len(q) - 1)
+    """The coefficients of the product of two polynomials."""
+    product = [p[0] * 0] * (len(p) + len(q) - 1)
     for i, a in enumerate(p):
         for j, b in enumerate(q):
-            found[i + j] += a * b
-    return found
+            product[i + j] += a * b
+    return product
 
 
 def _eliminated(zeros: Sequence[fmpq_mpoly], family: Family) -> list[fmpq_mpoly]:
-    """Polynomials in the parameters that are zero where others are for some of two unknowns, the
-    first ones, which are bounded.
+    """Polynomials in the parameters that vanish if others do for some values of their first two
+    unknowns, which are bounded.
     """
     names = zeros[0].context().names()
     context = fmpz_mpoly_ctx.get(names, Ordering.lex)
@@ -200,11 +201,11 @@ def _eliminated(zeros: Sequence[fmpq_mpoly], family: Family) -> list[fmpq_mpoly]
         x.relation.compose(*zeros[0].context().gens()[2:], ctx=zeros[0].context())
         for x in family.radicals
     )
-    given = []
+    integral = []
     for p in (*zeros, *raised):
         unit = integral_scale(p)
-        given.append(context.from_dict({e: (a * unit).p for e, a in p.to_dict().items()}))
-    basis = groebner_basis([p for p in given if p], context)
+        integral.append(context.from_dict({e: (a * unit).p for e, a in p.to_dict().items()}))
+    basis = groebner_basis([p for p in integral if p], context)
     return [
         family.ring.context.from_dict({e[2:]: fmpq(a) for e, a in p.to_dict().items()})
         for p in basis
@@ -213,7 +214,7 @@ def _eliminated(zeros: Sequence[fmpq_mpoly], family: Family) -> list[fmpq_mpoly]
 
 
 def _solved(family: Family, solved: Sequence[fmpq_mpoly]) -> tuple[Parameters, dict[str, Any]]:
-    """The unknowns as functions of the free ones, in the ring in which roots are reduced."""
+    """The unknowns as functions of the free ones, in a ring that reduces roots."""
     ring, count = Parameters(family.ring.names), len(family.parameters)
     gens = ring.context.gens()
     leading: dict[int, fmpq_mpoly] = {}
@@ -230,7 +231,7 @@ def _solved(family: Family, solved: Sequence[fmpq_mpoly]) -> tuple[Parameters, d
             rules.append(Rule(place, exponents[place], rest))
     if len(rules) < len(family.radicals) or any(any(x.instead.degrees()[:count]) for x in rules):
         raise NotDecided  # parameters are under a root
-    # that of a root may have later roots in it
+    # the rule of a root may contain later roots
     ring.rules = tuple(sorted(rules, key=lambda x: -x.index))
     one = ring.constant(fmpq(1))
     values = {

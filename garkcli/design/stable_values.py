@@ -1,19 +1,19 @@
-"""For which values of its parameter a family is P-, I-, A- or L-stable: the exact set.
+"""The exact set of values of a parameter for which a family is P-, I-, A- or L-stable.
 
-What decides are signs of polynomials in the parameter t and in x, the square of hω or of the
-imaginary part y. Between the critical t of ``garkcli.exact.projection`` nothing changes, so that
-one rational t decides by the ordinary engine. A critical t is decided by itself:
+Signs of polynomials decide, in the parameter t and in x, the square of hω or of the imaginary part
+y. Between the critical t of ``garkcli.exact.projection`` nothing changes, so one rational t
+decides, by the engine for one method. A critical t is decided on its own:
 
-* where some x is known for which a condition is violated at t, by the sign of a polynomial in t;
-* A-stability at the end of an interval of it: |P| ≤ |Q| on the imaginary axis and poles that are
+* by the sign of a polynomial in t, if an x is known at which a condition is violated at t; *
+A-stability at the end of an A-stable interval: |P| ≤ |Q| on the imaginary axis and poles that are
   not in the left half plane are kept in the limit, and a pole that moves onto the axis would
   contradict the first unless it cancels;
-* I-stability at the end of an interval of it where the zeros of D and of the three conditions on
-  the eigenvalues stay as they are: no pole and no double eigenvalue appears;
-* otherwise by the ordinary engine over ℚ(t), with the roots among the coefficients.
+* I-stability at the end of an I-stable interval if the zeros of D and of the three conditions on
+the eigenvalues do not change: no pole and no double eigenvalue appears; * otherwise by the engine
+for one method over ℚ(t), with the roots among the coefficients.
 
-Of the I-stable values those are P-stable for which the coefficients of 1 − det M in x are zero.
-Both often hold at isolated points, which no sampling finds.
+An I-stable value is P-stable if all coefficients of 1 − det M in x vanish. Both often hold at
+isolated points, which no sampling finds.
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ class StableValues(Shown, Frozen):
     """The values of a parameter for which a family has a kind of stability.
 
     Attributes:
-        family: as it was read.
-        whose: which method is meant.
-        wanted: which stability.
+        family: as read from the file.
+        whose: the method, its conjugate, or its pair.
+        wanted: the kind of stability.
         found: the set, in ascending order, without the values of ``undecided``.
         undecided: single values that are undecided.
-        two_springs: what P- or I-stability is meant on; None for the oscillator.
-        colour: which colour alone is driven, counted from 0; None for all of them alike.
-        form: the one number, linear in several parameters, that the step depends on, and whose
-            values are meant; None for a parameter itself.
-        is_apart: whether some of its methods may lack what else the file wants, such as signs.
-        is_embedded: whether the stability is that with the embedded weights.
+        two_springs: the springs for P- or I-stability; None for the oscillator.
+        colour: the colour with λ ≠ 0, counted from 0; None for all colours.
+        form: the linear form of several parameters on which the step depends, if the values are of
+            it; None for values of the parameter.
+        is_apart: whether some of its methods may fail other wants of the file, such as signs.
+        is_embedded: whether the stability is of the embedded weights.
     """
 
     family: Family
@@ -74,29 +74,29 @@ class StableValues(Shown, Frozen):
 
     @property
     def stability(self) -> Stability:
-        """The kind of stability, of which weights and vector fields."""
+        """The kind of stability, with its weights and colours."""
         return Stability(self.wanted, self.colour, self.is_embedded)
 
     @property
     def parameter(self) -> str:
-        """The name of the parameter, or the number in its place."""
+        """The name of the parameter, or the linear form in its place."""
         return self.family.parameters[0] if self.form is None else str(self.form)
 
     @property
     def has_wishes(self) -> bool:
-        """Whether the file asks for more than stability, which every value of the set has."""
+        """Whether the file has other wants, which every value of the set satisfies."""
         return has_wishes(self.family)
 
     @property
     def has_values(self) -> bool | None:
-        """Whether there are such values; None where that is not decided."""
+        """Whether there are such values; None if undecided."""
         if self.found:
             return True
         return None if self.undecided else False
 
     @property
     def is_everything(self) -> bool:
-        """Whether every real number belongs to it."""
+        """Whether every real number is in the set."""
         if len(self.found) != 1:
             return False
         return self.found[0].start is None and self.found[0].end is None
@@ -107,7 +107,7 @@ class StableValues(Shown, Frozen):
 
 
 def has_wishes(family: Family) -> bool:
-    """Whether a file asks for more of the parameters than stability."""
+    """Whether a file has wants of the parameters besides stability."""
     wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
     return any(p.total_degree() != 0 for p in wanted)
 
@@ -120,22 +120,22 @@ def stable_values(
     colour: int | None = None,
     members: Members | None = None,
 ) -> StableValues:
-    """The set of values of the one free parameter, restricted to what the file wants.
+    """The set of stable values of the one free parameter that satisfy the other wants of the file.
 
     Args:
         family: of methods, with one free parameter and numbers otherwise.
-        wanted: P-stability or I-stability on the oscillator that is split as usual, A-stability or
-            L-stability with all vector fields equal.
+        wanted: P- or I-stability on the oscillator with the usual splitting, A- or L-stability with
+            all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        two_springs: P- or I-stability is meant on them.
+        two_springs: the springs for P- or I-stability; None for the oscillator.
         colour: A- or L-stability of this colour alone, counted from 0.
-        members: its methods, where there are more than those of the family.
+        members: its methods; None for those of the family.
 
     Raises:
-        UsageProblem: the stability has no meaning for the method, there are several parameters, or
-            roots of a parameter among the coefficients.
-        ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        NotDecided: the time is not enough.
+        UsageProblem: the stability is not applicable, there are several parameters, or roots of a
+            parameter among the coefficients.
+        ZeroWeight: a weight is zero for every value, so there is no conjugate.
+        NotDecided: the time limit has passed.
     """
     members = members or Members(family, whose)
     if len(family.parameters) > 1:
@@ -169,7 +169,7 @@ def stable_values(
 def decided(
     kind: Kind, ends: tuple[fmpq | None, fmpq | None]
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-    """The set between two ends, and the values that are undecided."""
+    """The set between two ends, and the undecided values."""
     decision = _Decision(kind, ends)
     found = decision.run()
     undecided = tuple(decision.undecided)
@@ -179,7 +179,7 @@ def decided(
 def _conservative(
     kind: IStability | SpringStability, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-    """The values of a set for which a step has the determinant 1, and the undecided ones."""
+    """The values of a set with det M = 1 for all x, and the undecided ones."""
     damping = kind.plane.coefficients(kind.signs[0])  # of 1 − det M, times D²
 
     def is_conservative(t: Point) -> bool:
@@ -191,7 +191,7 @@ def _conservative(
 
 
 def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[Interval, ...]:
-    """A set without values that are not decided."""
+    """A set without the undecided values."""
     if not undecided:
         return tuple(found)
     critical = [*ends_of(found), *(Polynomial.from_flint(t.polynomial) for t in undecided)]
@@ -204,29 +204,29 @@ def _wanted(
     found: tuple[Interval, ...],
     undecided: tuple[RealRoot, ...],
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-    """The values of a set that the file wants, and the undecided ones among them."""
-    asked: list[tuple[Polynomial, frozenset[int]]] = []
+    """The values of a set that satisfy the other wants, and the undecided ones among them."""
+    constraints: list[tuple[Polynomial, frozenset[int]]] = []
     for polynomials, signs in (
         (family.relations, {0}),
         (family.nonzero, {-1, 1}),
         (family.positive, {1}),
         (family.not_negative, {0, 1}),
     ):
-        asked += [(along(p), frozenset(signs)) for p in polynomials]
-    if not asked:
+        constraints += [(along(p), frozenset(signs)) for p in polynomials]
+    if not constraints:
         return found, undecided
 
     def is_wanted(t: Point) -> bool:
-        return all(sign_of(p, t) in signs for p, signs in asked)
+        return all(sign_of(p, t) in signs for p, signs in constraints)
 
-    critical = [*ends_of(found), *(p for p, _ in asked)]
+    critical = [*ends_of(found), *(p for p, _ in constraints)]
     kept = where(lambda t: is_wanted(t) and has(found, t), critical)
     still_open = tuple(t for t in undecided if is_wanted(t))
     return _without(kept, still_open), still_open
 
 
 def too_many(family: Family) -> UsageProblem:
-    """That only the set of one parameter is found."""
+    """The error that the set is found for one parameter only."""
     *_, last = family.parameters
     return UsageProblem(
         f"there are {len(family.parameters)} free parameters, and the set of one is found",
@@ -236,7 +236,7 @@ def too_many(family: Family) -> UsageProblem:
 
 
 def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
-    """That there are roots among the coefficients that the set is not found with."""
+    """The error that the set is not found with roots among the coefficients."""
     message = f"there are roots among the coefficients, beside {family.parameters[0]}"
     cure = "write the method as a family by name, whose nodes are not needed"
     if wanted in OSCILLATING and whose == "pair":
@@ -245,7 +245,9 @@ def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
 
 
 def _refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings | None) -> None:
-    """Refuse a family with roots of its parameter among its coefficients, or of large degrees."""
+    """Raises for a family with roots of its parameter among its coefficients, or of large
+    degrees.
+    """
     family = members.family
     is_number = not any(x.relation.degrees()[0] for x in family.radicals)
     is_on_springs = bool(family.radicals) and two_springs is not None
@@ -254,7 +256,7 @@ def _refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings |
 
 
 class _Decision:
-    """One decomposition of the line of a parameter."""
+    """The decomposition of the line of a parameter for one kind of stability."""
 
     def __init__(self, kind: Kind, ends: tuple[fmpq | None, fmpq | None]) -> None:
         self.least, self.greatest = ends
@@ -265,7 +267,7 @@ class _Decision:
         self._interior: tuple[Interval, ...] = ()
 
     def run(self) -> tuple[Interval, ...]:
-        """The set; open intervals first, as they tell about their ends."""
+        """The set of stable values; open intervals first, since they help to decide their ends."""
         at_ends = [Polynomial([-end, 1]) for end in (self.least, self.greatest) if end is not None]
         poles = [p for p in self.kind.plane.poles if p.degree > 0]
         critical = [p.square_free() for p in self.kind.critical if p.degree > 0]

@@ -1,4 +1,4 @@
-"""Five answers to the question for which values of its parameters a family has an order."""
+"""Five answers for one order of a family: every value, finitely many, a family, none, undecided."""
 
 from __future__ import annotations
 
@@ -21,20 +21,19 @@ Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecid
 
 
 class Found(Frozen):
-    """A solution with what the ordinary certificate says of it.
+    """A solution with its orders by the certificate.
 
     Attributes:
         solution: the values of the parameters, with their conjugates over ℚ.
-        order: the exact order of the method that they make; None where a weight or a denominator is
-            zero, and then there is no such method.
-        accepted: which of the real roots of the solution are within the ranges of the file, and as
-            stable as is wanted.
-        unstable: which of them would be, but are not stable.
-        open: which of them are not decided to be stable, as their field is too large.
+        order: the exact order of its method; None if a weight or denominator is zero, so that there
+            is no method.
+        accepted: indices of real roots within the ranges of the file and with the wanted stability.
+        unstable: indices of those that lack only the stability.
+        open: indices of those whose stability is undecided, as their field is too large.
         embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
-            None where there are none.
-        dense: the order of the dense output; None where there is none.
-        predictor: the orders of the predictor; None likewise.
+            None if it has none.
+        dense: the order of the dense output; None if it has none.
+        predictor: the orders of the predictor; None if it has none.
     """
 
     solution: Solution
@@ -48,11 +47,11 @@ class Found(Frozen):
 
 
 class Zeros(Frozen):
-    """Those of an ideal.
+    """The zeros of an ideal.
 
     Attributes:
         ideal: the ideal.
-        polynomials: that are zero there and nowhere else, or as many of them as are not known.
+        polynomials: vanish there; together with those that the report has already, nowhere else.
     """
 
     ideal: Ideal
@@ -63,13 +62,12 @@ class Known(Frozen):
     """Knowledge of the real values of a family.
 
     Attributes:
-        is_real: whether a real value is a method of the file; None where that is not decided.
-        within: where real values satisfy more: the zeros among which they are.
-        found: the real ones, where they are finitely many.
-        stable: where stability is wanted and depends on one unknown: the values of that, for each
-            kind.
-        of_stable: where P-stability is wanted of all transfers of a pair and decided: the zeros
-            whose real ones are the stable methods, by polynomials that others do not satisfy.
+        is_real: whether a real value is a method of the file; None if undecided.
+        within: zeros that contain all real values, if those satisfy further equations.
+        found: the real ones, if finitely many.
+        stable: for each wanted kind of stability the values of the one unknown on which it depends.
+        of_stable: if P-stability of all transfers of a pair is decided, zeros whose real ones are
+            the stable methods, by the equations that these satisfy besides.
     """
 
     is_real: bool | None = None
@@ -80,14 +78,14 @@ class Known(Frozen):
 
 
 class Step(Frozen):
-    """An answer to the question for which values an order is reached.
+    """The answer for one order: the values that reach it.
 
     Attributes:
         order: the order.
-        ideal: the ideal of its conditions and of all lower ones, or its zeros in parts where its
-            basis is large; None where neither was found. Where it is not proved it is msolve's:
-            each zero has the order, that there are no others is not proved.
-        kind: for which values the order is reached.
+        ideal: the ideal of its conditions and of all lower ones, or its zeros in parts if its basis
+            is large; None if neither was found. An unproved one is by msolve: each zero has the
+            order, but there may be others.
+        kind: the kind of the answer.
     """
 
     order: int
@@ -96,28 +94,28 @@ class Step(Frozen):
 
     @property
     def has_methods(self) -> bool | None:
-        """Whether methods of the file have the order; None where that is not decided."""
+        """Whether methods of the file have the order; None if undecided."""
         return None
 
     @property
     def may_have_methods(self) -> bool:
-        """Whether there may be values to go on with."""
+        """Whether a higher order may be examined for these values."""
         return self.kind != "undecided" and self.has_methods is not False
 
     @property
     def found(self) -> tuple[Found, ...]:
-        """The solutions, where there are finitely many; of a family the real ones."""
+        """The solutions if there are finitely many; the known real ones of a family."""
         return ()
 
     @property
     def known(self) -> Known:
-        """Knowledge of the real values of a family; none of other answers."""
+        """Knowledge of the real values of a family; empty for other answers."""
         return Known()
 
     @property
     def is_all(self) -> bool:
-        """Whether there are no other values, not even complex ones unless a criterion for real
-        ones was taken: that is proved.
+        """Whether it is proved that no other values have the order, complex ones included unless a
+        criterion for real ones was used.
         """
         return self.ideal is not None and self.ideal.is_proved
 
@@ -126,10 +124,10 @@ class Step(Frozen):
 
 
 class Undecided(Step):
-    """It was not worked out.
+    """The order is undecided.
 
     Attributes:
-        is_late: whether that ended with its time.
+        is_late: whether the time limit had passed.
     """
 
     kind = "undecided"
@@ -140,9 +138,8 @@ class Decided(Step):
     """The zeros of an ideal have the order.
 
     Attributes:
-        polynomials: that are zero at these values and, but for zeros of ``nonzero``, nowhere else.
-        nonzero: polynomials of which none is zero at a method, as far as ``polynomials`` do not say
-            it already.
+        polynomials: vanish at these values and, except at zeros of ``nonzero``, nowhere else.
+        nonzero: polynomials that vanish at no method, except where ``polynomials`` imply it.
     """
 
     ideal: Ideal | Pieces
@@ -154,8 +151,8 @@ class NoValue(Decided):
     """No value has the order.
 
     Attributes:
-        witness: the first tree whose condition no value meets together with those before it; None
-            where what is wanted besides the order cannot be met.
+        witness: the first tree whose condition contradicts those before it; None if the other wants
+            already have no solution.
     """
 
     kind = "none"
@@ -187,7 +184,7 @@ class Many(Decided):
     """Infinitely many values have the order, complex ones included: all, or a family.
 
     Attributes:
-        known: knowledge of the real ones.
+        known: knowledge of the real values.
     """
 
     known: Known = Known()

@@ -1,4 +1,4 @@
-"""What is wanted of the methods of a family: equations, and signs at solutions."""
+"""Wants of the methods of a family: equations, and signs at solutions."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Kind: TypeAlias = Literal["flag", "count", "number", "smoothness"]
-"""How its value is written: true, a whole number, a coefficient, 0 or 1."""
+"""The form of its value: true, an integer, a coefficient, 0 or 1."""
 
 
 class Asked(Frozen):
-    """A family and what is asked of it.
+    """A family and a want of it.
 
     Attributes:
         tableau: entries are rational numbers and rational functions of the parameters.
         ring: the parameters.
         value: a count, a smoothness, or a number, which may have parameters; True for a flag.
-        colours: of which colours it is wanted, counted from 0.
-        further: its embedded weights and its dense output.
+        colours: the colours with the want, counted from 0.
+        further: the embedded weights, dense output and predictor.
         radicals: the roots among the coefficients, the last unknowns of ``ring``.
     """
 
@@ -43,20 +43,20 @@ class Asked(Frozen):
         """A^{l,m}.
 
         Raises:
-            MethodError: there is no such block.
+            MethodError: the block is empty.
         """
-        found = self.tableau.block(l, m)
-        if found is None:
+        block = self.tableau.block(l, m)
+        if block is None:
             message = f"design: {key} is for tableaus without empty blocks"
             cure = f"name the colour: {key}: {{2: …}}"
             raise MethodError(message, cure, code="wanted-without-meaning")
-        return found
+        return block
 
     def diagonal(self, colour: int, key: str) -> tuple[Matrix, Vector]:
         """A^{l,l} and b^l of a colour.
 
         Raises:
-            MethodError: there is no such block, or it is not spelled out stage by stage.
+            MethodError: the block is empty, or not given stage by stage.
         """
         own = self.tableau.colours[colour]
         block = self.tableau.blocks.get((own.space, colour))
@@ -69,19 +69,19 @@ class Asked(Frozen):
 
 
 class Meaning(Frozen):
-    """What a want means for the parameters.
+    """The conditions of a want on the parameters.
 
     Attributes:
-        zeros: rational functions that are zero.
-        nonzero: polynomials that are not.
-        positive: rational functions that are positive at the solutions that are taken.
-        not_negative: those that are at least 0.
+        zeros: rational functions that vanish.
+        nonzero: polynomials that do not vanish.
+        positive: rational functions that are positive at accepted solutions.
+        not_negative: rational functions that are at least 0 there.
         stable: the kinds of stability of the accepted solutions.
-        claims: what files may claim of the methods, and its value.
-        unsettled: keys of wishes whose meaning was not worked out in time.
-        real: keys of wishes of which ``zeros`` have what real values satisfy, not complex ones.
-        impossible: what is wanted and no value makes true, with the reason.
-        levels: objectives to be made large, by their keys, with the least value of each.
+        claims: keys of claims that the methods satisfy, with their values.
+        unsettled: keys of wants whose conditions were not known in time.
+        real: keys of wants whose ``zeros`` hold for real values only.
+        impossible: reasons why no value satisfies the want.
+        levels: keys of objectives to maximise, with their lower bounds.
     """
 
     zeros: tuple[object, ...] = ()
@@ -97,13 +97,13 @@ class Meaning(Frozen):
 
 
 class Want(Frozen):
-    """Something that may be wanted.
+    """A property that files may want.
 
     Attributes:
         key: in method files.
-        kind: of its value.
-        summary: what it says.
-        meaning: what it asks of the parameters; it raises ``NotDecided`` where the time is over.
+        kind: the form of its value.
+        summary: the property in words.
+        meaning: makes the conditions; raises ``NotDecided`` if the time limit has passed.
     """
 
     key: str
@@ -122,16 +122,16 @@ def stability(kind: str, asked: Asked, is_embedded: bool = False) -> Meaning:
 
 
 def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:
-    """Polynomials that are zero where rational functions are; without those that always are."""
-    found = []
+    """The nonzero numerators of rational functions."""
+    nonzero = []
     for x in functions:
         numerator, _ = fraction(x, ring)
         if numerator:
-            found.append(numerator)
-    return found
+            nonzero.append(numerator)
+    return nonzero
 
 
 def sign_polynomial(function: object, ring: Parameters) -> fmpq_mpoly:
-    """A polynomial with the sign of a rational function, wherever that has no pole."""
+    """A polynomial with the sign of a rational function, except at its poles."""
     numerator, denominator = fraction(function, ring)
     return numerator * denominator

@@ -1,4 +1,4 @@
-"""What may be wanted of a method besides its order."""
+"""Wants of a method besides its order: their conditions."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ LEVELS = {
     "sector": "α in degrees with |R| ≤ 1 where |arg(−z)| ≤ α",
     "oscillator-interval": "z with bounded powers of the oscillator's step for hω ≤ z",
 }
-"""Levels that may be wanted, in words."""
+"""Bounds on objectives that files may want, in words."""
 MOST_PRODUCTS = 200
-"""Most products of blocks that weak stage order asks about."""
+"""Most products of blocks in the conditions of weak stage order."""
 
 
 def order_meaning(tableau: Tableau, asked: Asked) -> Meaning:
-    """The conditions of a tableau up to the order that is requested."""
+    """The conditions of a tableau up to the wanted order."""
     conditions = FamilyConditions(tableau, asked.ring)
     one = asked.ring.constant(fmpq(1))
     zeros: list[object] = []
@@ -51,7 +51,7 @@ def order_meaning(tableau: Tableau, asked: Asked) -> Meaning:
 
 
 def _pair_order(asked: Asked) -> Meaning:
-    """The conditions of the pair, by the criterion of docs/pair-order.md where it holds."""
+    """The conditions of the pair, by the criterion of docs/pair-order.md if it applies."""
     parameters = asked.ring.names[: len(asked.ring.names) - len(asked.radicals)]
     criterion = pair_conditions(
         Family(
@@ -80,7 +80,7 @@ def as_embedded(asked: Asked, key: str) -> Tableau:
     """The method with b̂ in place of b.
 
     Raises:
-        MethodError: it has none, or some colours are meant alone.
+        MethodError: it has none, or the want is on some colours alone.
     """
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:
@@ -124,27 +124,27 @@ def _stiffly_accurate(asked: Asked) -> Meaning:
 
 
 def at_infinity(asked: Asked) -> Meaning:
-    """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA); the denominator keeps the degree that it has for
-    almost all methods of the family. E. Hairer, G. Wanner, *Solving Ordinary Differential
-    Equations II*, sections IV.3 and IV.6.
+    """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA); the denominator has the degree of almost all
+    methods of the family. E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
+    sections IV.3 and IV.6.
     """
     zeros: list[Any] = []
     nonzero = []
     for l in asked.colours:
         A, b = asked.diagonal(l, "R-infinity")
-        below = characteristic_coefficients(A)
-        above = characteristic_coefficients(
+        denominator = characteristic_coefficients(A)
+        expanded = characteristic_coefficients(
             tuple(tuple(x - y for x, y in zip(row, b, strict=True)) for row in A)
         )
-        degree = max(k for k, x in enumerate(below) if x)
+        degree = max(k for k, x in enumerate(denominator) if x)
         if not degree:
             message = "design: R-infinity: R(z) is a polynomial for every value"
             cure = "leave it out: explicit methods have no value at infinity"
             raise MethodError(message, cure, code="wanted-without-meaning")
         value: Any = asked.value
-        zeros.append(above[degree] - value * below[degree])
-        zeros += above[degree + 1 :]
-        numerator, _ = fraction(below[degree], asked.ring)
+        zeros.append(expanded[degree] - value * denominator[degree])
+        zeros += expanded[degree + 1 :]
+        numerator, _ = fraction(denominator[degree], asked.ring)
         if not numerator.is_constant():
             nonzero.append(numerator)
     return Meaning(tuple(zeros), tuple(nonzero))
@@ -173,7 +173,7 @@ def _stability_order(asked: Asked) -> Meaning:
 
 
 def _level(key: str, asked: Asked) -> Meaning:
-    """A level of the whole method that is at least a number."""
+    """A lower bound on an objective of the whole method."""
     if len(asked.colours) < asked.tableau.size or not isinstance(asked.value, fmpq):
         message = f"design: {key} is a rational number, and of the whole method"
         raise MethodError(message, f"write {key}: 3/2", code="wanted-without-meaning")
@@ -186,10 +186,10 @@ def _stage_order(asked: Asked) -> Meaning:
     """Σ_i b_i^l (c_i^l)^{k−1} = 1/k, Σ_j a_ij^{l,m} (c_j^m)^{k−1} = (c_i^l)^k / k for k = 1, …, q.
 
     With s stages C(s + 1) is C(q) for every q > s. Let M have the d ≤ s nodes of a colour as its
-    simple zeros: by C(d + 1) of the colour's own block ∫_0^x M vanishes at each node, as M does.
-    Double zeros are too many for the degree d + 1, but d = 1 and the node 0; then those of all
-    colours are, and C(k) reads 0 = 0 for k > 1. B(2s + 1) has no solution: Hilbert's matrix has an
-    inverse, and its entries would be sums of s powers.
+    simple zeros: by C(d + 1) of the colour's own block ∫_0^x M vanishes at each node, as M does. So
+    many double zeros exceed the degree d + 1, unless d = 1 and the node is 0; then the nodes of all
+    colours are 0, and C(k) reads 0 = 0 for k > 1. B(2s + 1) has no solution: Hilbert's matrix is
+    invertible, but its entries would be sums of s powers.
     """
     tableau = asked.tableau
     stages = max(len(tableau.colours[l].c) for l in asked.colours)
@@ -212,10 +212,9 @@ def _weak_stage_order(asked: Asked) -> Meaning:
     """b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^{k−1} − (c^{p})^k / k) = 0 for k = 1, …, q and all
     products of blocks between the colours.
 
-    Products of as many blocks as there are stages are enough: those of at most n blocks span, for
-    growing n, spaces of functionals; once one does not grow, none does. By the node
-    powers c^k and k c^k a product that vanishes for k ≤ 2s + 1 and stages s of two colours does so
-    for every k.
+    Products of as many blocks as there are stages suffice: the functionals from at most n blocks
+    span a space that, once it does not grow with n, never grows again. By the node powers c^k and k
+    c^k a product that vanishes for k ≤ 2s + 1 and stages s of two colours does so for every k.
     """
     tableau = asked.tableau
     defects = Defects(tableau)
@@ -285,7 +284,6 @@ def _largest_coefficient(asked: Asked) -> Meaning:
 
 
 def _oscillating(kind: str, asked: Asked) -> Meaning:
-    """Decided at each solution, in its number field."""
     if len(asked.colours) < asked.tableau.size:
         message = f"design: {kind} is meant of the whole method"
         raise MethodError(message, f"write {kind}: true", code="wanted-without-meaning")
@@ -375,4 +373,4 @@ WANTS = {
         *PREDICTOR,
     )
 }
-"""Every one of them by its key, in the order of the documentation."""
+"""All wants by their keys, in the order of the documentation."""

@@ -1,10 +1,10 @@
-"""Values of unknowns beside rounded numbers: those of one method within the rounding.
+"""Values of unknowns next to rounded numbers: of one method within the rounding.
 
 The conditions of a family whose numbers are rounded contradict each other in their last digits. So
-values are sought that meet them up to the rounding; from these one method is recovered, with its
-numbers within the tolerance and its unknowns near the values (``order.recovering``); and at its
-numbers, known to many bits, the conditions are solved again: what is left of them and of their
-rank is zero or is none.
+gark first seeks values that meet them up to the rounding. From these it recovers one method, its
+numbers within the tolerance and its unknowns near the values (``order.recovering``). At its
+numbers, known to many bits, it solves the conditions again: then residuals and pivots are clearly
+zero or not.
 """
 
 from __future__ import annotations
@@ -42,64 +42,65 @@ if TYPE_CHECKING:
     from garkcli.order.rounded import RoundedTableau
 
 BITS = 300
-"""Of numbers as they are printed, at least."""
+"""Least precision for printed numbers."""
 STARTS = 100
-"""Random starts where conditions are not linear."""
+"""Random starts for nonlinear conditions."""
 TRIES = 20
-"""Choices of unknowns that are free, for one with the ranges and signs that are wanted."""
+"""Choices of free unknowns tried for the wanted ranges and signs."""
 MOST = 5
-"""Solutions that are sought where conditions are not linear."""
+"""Most solutions of nonlinear conditions."""
 WIDTHS = (30, 300, 3000, 30_000)
-"""By how many tolerances values of unknowns may move."""
+"""Tolerances within which values of unknowns may move."""
 WIDEST = fmpq(1, 100)
 LOOSE = 10_000
-"""So many tolerances may be left of conditions before a method is recovered."""
+"""Largest residual, in tolerances, before a method is recovered."""
 GRAINS = 1024
-"""Residuals of so many grains are zeros, where values are solved for."""
+"""Residuals of at most so many grains are zeros when values are solved for."""
 SAME = 1e-6
-"""Solutions no further apart in any unknown are one."""
+"""Solutions that differ by at most this in each unknown are one."""
 
 
 class Rounding(Protocol):
-    """A family whose numbers are rounded."""
+    """A family with rounded numbers."""
 
     @property
     def family(self) -> Family:
-        """As it is printed."""
+        """The family as printed."""
 
     @property
     def tolerance(self) -> fmpq:
         """The rounding."""
 
     def at(self, shifts: Sequence[fmpq], bits: int) -> Family:
-        """With numbers that are off by these shares of the tolerance, nothing for none."""
+        """The family with its numbers shifted by shares of the tolerance; no shifts for none."""
 
     def generic(self) -> Family:
-        """With indeterminates in place of known numbers: what holds there holds for all of these.
+        """The family with indeterminates in place of known numbers: statements about it hold for
+        all of these.
 
         Raises:
             MethodFileError: it is too large.
         """
 
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Any:
-        """With values for the unknowns that may move by a width: ``rounded``, the method, and
-        ``shifts``, by how much its own numbers are off in the end.
+        """The family with values for the unknowns that may move by ``width``: ``rounded``, the
+        method, and ``shifts``, the changes of its own numbers.
         """
 
 
 class ValuesWithin(Frozen, eq=False):
-    """Values of the unknowns, of one method within the tolerance.
+    """Values of the unknowns in one method within the tolerance.
 
     Attributes:
         values: each to many digits.
-        directions: of each unknown that depends on free ones to first order, by how much; of linear
-            conditions that is all.
+        directions: derivatives of the other unknowns in the free ones, which determine them if the
+            conditions are linear.
         free: the unknowns that are free around it.
-        distance: by how much a number of the file is off at most, in units of the tolerance.
-        is_admitted: whether it is in the ranges and has the signs that are wanted.
+        distance: the largest change of a number of the file, in units of the tolerance.
+        is_admitted: whether it has the wanted ranges and signs.
         digits: decimal places in which the conditions are 0 at the method.
-        order: the largest order that the method is found to have.
-        embedded: the order of the embedded weights; None where there are none.
+        order: the highest order found for the method.
+        embedded: the order of the embedded weights; None if it has none.
     """
 
     values: Mapping[str, fmpq]
@@ -112,18 +113,18 @@ class ValuesWithin(Frozen, eq=False):
     embedded: int | None = None
 
     def text(self, name: str, digits: int) -> str:
-        """The value of an unknown with so many decimals."""
+        """The value of an unknown, rounded to so many decimals."""
         return in_decimals(self.values[name], digits)
 
     @property
     def dimension(self) -> int:
-        """Of the solutions around it."""
+        """The dimension of the solutions around it."""
         return len(self.free)
 
 
 def with_more(found: list[ValuesWithin], values: ValuesWithin) -> list[ValuesWithin]:
-    """Values that were found with one more, where it is new: those that are admitted are kept in
-    place of others, and a family in place of single solutions.
+    """The solutions with one more, if it is new: admitted ones replace others, and a family
+    replaces single solutions.
     """
     if values.is_admitted:
         found = [x for x in found if x.is_admitted]
@@ -144,13 +145,13 @@ class StepWithin(Frozen, eq=False):
 
     Attributes:
         order: the order.
-        found: methods that have it.
+        found: methods with the order.
         is_linear: whether the conditions are linear in the unknowns.
-        printed: the dimension of what the digits as printed leave, -1 where they contradict each
-            other; None where that is not known, as conditions are not linear.
-        left: what is left of the conditions as printed, where nothing was found.
-        witness: a tree whose condition concerns known numbers alone, and which no method within
-            the tolerance meets: that is proved.
+        printed: the dimension of the solutions for the printed digits, -1 if they contradict each
+            other; None if unknown, as the conditions are not linear.
+        left: the residual of the conditions as printed, if nothing was found.
+        witness: a tree whose condition has known numbers only, and is proved to fail for all
+            methods within the tolerance.
     """
 
     order: int
@@ -162,7 +163,7 @@ class StepWithin(Frozen, eq=False):
 
     @property
     def has_methods(self) -> bool | None:
-        """Whether methods have the order; None where it is not decided."""
+        """Whether methods have the order; None if undecided."""
         if any(x.is_admitted for x in self.found):
             return True
         return None if self.witness is None else False
@@ -172,10 +173,10 @@ class DesignWithin(Shown, Frozen, eq=False):
     """Values of unknowns within a tolerance.
 
     Attributes:
-        family: as it is printed.
-        whose: which order is meant.
+        family: as printed.
+        whose: the order of the method, its conjugate, or its pair.
         tolerance: the rounding of its numbers.
-        steps: the highest order that was found, if any, and the one that was not.
+        steps: the highest order with methods, if any, and the lowest without.
     """
 
     family: Family
@@ -185,7 +186,7 @@ class DesignWithin(Shown, Frozen, eq=False):
 
     @property
     def digits(self) -> int:
-        """Decimals of values that the tolerance leaves, and two more."""
+        """Decimals that the tolerance determines, and two more."""
         return len(str(int((1 / self.tolerance).floor()))) + 1
 
     @property
@@ -194,7 +195,7 @@ class DesignWithin(Shown, Frozen, eq=False):
         return next((x for x in reversed(self.steps) if x.has_methods), None)
 
     def reaches(self, order: int = 1) -> bool | None:
-        """Whether methods of the file have the order; None where that is not decided."""
+        """Whether methods of the file have the order; None if undecided."""
         if self.best is not None and self.best.order >= order:
             return True
         last = self.steps[-1]
@@ -211,16 +212,16 @@ def find_within(
     whose: Whose = "method",
     seconds: float | None = None,
 ) -> DesignWithin:
-    """Values of the unknowns with which methods within the tolerance have an order.
+    """Values of the unknowns for which methods within the tolerance have an order.
 
     Args:
         rounding: a family with rounded numbers.
-        order: the order wanted; where it is not given, as far as values are found.
+        order: the order wanted; None for the highest with values.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        seconds: after which the rest stays undecided; None for no limit.
+        seconds: after them the rest stays undecided; None for no limit.
 
     Raises:
-        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        ZeroWeight: a weight is zero for every value, so there is no conjugate.
     """
     with within(seconds):
         return _Finding(rounding, whose).design(order or rounding.family.order)
@@ -231,7 +232,7 @@ class _Finding:
 
     Args:
         rounding: a family with rounded numbers.
-        whose: which order is meant.
+        whose: the order of the method, its conjugate, or its pair.
     """
 
     def __init__(self, rounding: Rounding, whose: Whose) -> None:
@@ -244,7 +245,7 @@ class _Finding:
         self.printed = RoundedConditions(rounding.at((), self.bits), whose)
 
     def design(self, wanted: int | None) -> DesignWithin:
-        """The steps up to the order that is wanted, or as far as values are found."""
+        """The steps up to the wanted order, or to the highest with values."""
         steps: list[StepWithin] = []
         if wanted is not None:
             steps = [self._step(wanted)]
@@ -254,7 +255,7 @@ class _Finding:
         return DesignWithin(self.family, self.whose, self.tolerance, tuple(steps))
 
     def _lower(self, most: int) -> list[StepWithin]:
-        """The highest order with methods up to one, and the next."""
+        """The highest order with methods, at most ``most``, and the next order."""
         steps: list[StepWithin] = []
         for order in range(1, most + 1):
             steps = [*steps[-1:], self._step(order)]
@@ -272,7 +273,7 @@ class _Finding:
         """Results for one order.
 
         Raises:
-            NotDecided: the time is not enough.
+            NotDecided: the time limit has passed.
         """
         import numpy as np
 
@@ -313,11 +314,11 @@ class _Finding:
 
     @property
     def unknowns(self) -> int:
-        """The parameters, and roots of them."""
+        """The number of parameters and roots of them."""
         return len(self.printed.family.ring.names)
 
     def _start(self) -> list[fmpq]:
-        """0 for each unknown, or the middle of its range where 0 is not in it."""
+        """0 for each unknown, or the middle of its range if that excludes 0."""
         start = []
         for name in self.printed.family.ring.names:
             low, high = self.family.ranges.get(name, (None, None))
@@ -331,7 +332,7 @@ class _Finding:
     def _solutions(
         self, system: RoundedSystem, order: int, start: Sequence[arb]
     ) -> Iterator[Solved]:
-        """Points that meet the conditions, as printed, as far as their rounding lets them."""
+        """Solutions of the printed conditions up to the rounding."""
         noise = arb(to_float(self.tolerance) ** (2 / 3))
         first = system.solve(start, noise)
         if first is not None:
@@ -359,46 +360,46 @@ class _Finding:
     # one method
 
     def _recovered(self, near: Solved, order: int) -> ValuesWithin | None:
-        """The values of a method within the tolerance that has the order, near others; None where
-        none is found.
+        """The values of a method within the tolerance that has the order, near others; None if none
+        is found.
         """
         names = self.printed.family.ring.names
         values = dict(zip(names, map(midpoint, near.point), strict=True))
-        own = {name: values[name] for name in self.family.parameters}
+        parameters = {name: values[name] for name in self.family.parameters}
         widths = (width * self.tolerance for width in WIDTHS)
         for width in (x for x in widths if x <= WIDEST):
             check_time()
             try:
-                filled = self.rounding.filled(own, self.digits, width)
+                filled = self.rounding.filled(parameters, self.digits, width)
                 rounded = self._meant(filled)
             except (MethodFileError, MethodError, ZeroWeight):
                 return None
             if rounded.search.order_of(rounded.name, order)[0] < order:
                 continue
-            found = self._at(filled, rounded, values, order)
-            if found is not None:
-                return found
+            recovered = self._at(filled, rounded, values, order)
+            if recovered is not None:
+                return recovered
         return None
 
     def _meant(self, filled: Any) -> RoundedTableau:
-        """The tableau whose order is meant.
+        """The tableau of the method, its conjugate or its pair.
 
         Raises:
             ZeroWeight: there is no conjugate.
         """
         rounded: RoundedTableau = filled.rounded
-        found = derived(rounded, self.whose)
-        assert not isinstance(found, Tableau)
-        return found
+        derived_tableau = derived(rounded, self.whose)
+        assert not isinstance(derived_tableau, Tableau)
+        return derived_tableau
 
     def _at(
         self, filled: Any, rounded: RoundedTableau, values: Mapping[str, fmpq], order: int
     ) -> ValuesWithin | None:
-        """The conditions at the numbers of one method, solved; None where they contradict each
-        other there.
+        """The solution of the conditions at the numbers of one method; None if they contradict each
+        other.
         """
         search = rounded.search
-        search.settled  # noqa: B018 -- it moves to a method with all that is asked
+        search.settled  # noqa: B018 -- it moves to a method with all wants
         shifts = filled.shifts()
         conditions = RoundedConditions(self.rounding.at(shifts, search.bits), self.whose)
         system = RoundedSystem(conditions.of_order(order), self.unknowns, search.bits)
@@ -415,7 +416,7 @@ class _Finding:
         points = {names[k]: midpoint(x) for k, x in enumerate(solved.point)}
         grain = search.grain * GRAINS
         try:
-            own, embedded = conditions.orders(points, grain)
+            method_order, embedded = conditions.orders(points, grain)
         except VanishingDenominator:
             return None
         return ValuesWithin(
@@ -425,24 +426,24 @@ class _Finding:
             distance=max((abs(to_float(x)) for x in shifts), default=0.0),
             is_admitted=conditions.admits(solved.point, search.small),
             digits=len(str(int((1 / search.grain).floor()))) - 1,
-            order=own,
+            order=method_order,
             embedded=embedded,
         )
 
     def _witness(self, order: int) -> Tree | None:
-        """A tree in whose condition there is no unknown, whatever the known numbers are, and which
-        no rounding explains.
+        """A tree whose condition has no unknowns, whatever the known numbers are, and that no
+        rounding explains.
         """
         trees = list(self.printed.of_known_numbers(order))
         if not trees:
             return None
         [start] = Search(self.printed.family, 1, self.whose).starts(0, 1)
         values = [fmpq(int(x * 1000) + 1, 1009) for x in start]
-        own = dict(zip(self.family.parameters, values, strict=False))
+        parameters = dict(zip(self.family.parameters, values, strict=False))
         try:
             weights = GenericWeights(self.rounding.generic(), self.whose)
-            rounded = self._meant(self.rounding.filled(own, self.digits, self.tolerance))
-            found = (x for x in trees if weights.are_known(x) and not rounded.explains(x))
-            return next(found, None)
+            rounded = self._meant(self.rounding.filled(parameters, self.digits, self.tolerance))
+            unexplained = (x for x in trees if weights.are_known(x) and not rounded.explains(x))
+            return next(unexplained, None)
         except (MethodFileError, MethodError, ZeroWeight):
             return None
