@@ -1,4 +1,6 @@
-"""Tables of a source tree held against what they declare: orders, nodes, weights, flags."""
+"""The audit of the tables of a source tree: orders, nodes, weights and flags compared with the
+declared ones.
+"""
 
 from __future__ import annotations
 
@@ -31,31 +33,31 @@ from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
 ONE = at_least(1)
-"""The order of every method whose weights have the sum 1."""
+"""The claim of order 1, at least: the weights sum to 1."""
 ROW_SUMS = {"stage-order": at_least(1)}
 """The claim of a method file whose nodes are row sums."""
 LINKED, ENOUGH = 12, 10
-"""So many bits that link matrix and weights speak against another reading of the same numbers; or
-where that has order 1 alone, and none is declared.
+"""Bits of evidence that link matrix and weights, from which another reading of the same numbers is
+wrong; the second number if it only has order 1 and no order is declared.
 """
 SURE = 60
-"""And so many whatever its order is where none is declared."""
+"""Bits of evidence from which a reading counts with any order if none is declared."""
 FEWEST_ROWS = 3
-"""So many rows of several entries have their nodes for sums where one other is wrong."""
+"""Most rows of several entries that do not show one wrong node among the others."""
 MAX_BLAMED = 12
-"""Most stages of a table whose wrong entry is sought."""
+"""Most stages of a table in which a wrong entry is sought."""
 
 
 class Audited(Frozen, eq=False):
-    """One table with what is true of it.
+    """One table with its orders and findings.
 
     Attributes:
-        table: as it was found.
-        method: None where it has none.
+        table: as found in the source.
+        method: its method; None if it has none.
         order: of the method.
-        embedded_order: with the embedded weights; None without them.
-        nonautonomous_order: where f depends on t; None where that has no meaning.
-        findings: what is wrong.
+        embedded_order: of the embedded weights; None without them.
+        nonautonomous_order: for f(t, y); None if not applicable.
+        findings: remarks on the table.
     """
 
     table: FoundTable
@@ -72,7 +74,7 @@ class Audited(Frozen, eq=False):
 
     @property
     def looks_like(self) -> bool:
-        """Whether it looks like a table, and is neither judged nor wrong in itself."""
+        """Whether it may be a table, but is neither judged nor wrong in itself."""
         return not (self.is_read or self.has_errors or self.table.kind)
 
     @property
@@ -93,17 +95,17 @@ def audited(
 
     Args:
         paths: of the sources.
-        jobs: how many processes read them; 0 is one per processor.
-        told: receives arrays that have the names of a method and other shapes, each with its
-            place and why they are none.
+        jobs: the number of processes; 0 is one per processor.
+        told: receives a text for arrays with the names of a method but other shapes, with their
+            place and the reason.
 
     Raises:
         UsageProblem: a source cannot be read, or its grammar is not installed.
     """
-    given = list(paths)
-    demand_grammars(given)
-    work = partial(_tables, orders=declared_orders(given), others=given)
-    for each in judged_within_limits(given, work, audit, _late, jobs):
+    sources = list(paths)
+    demand_grammars(sources)
+    work = partial(_tables, orders=declared_orders(sources), others=sources)
+    for each in judged_within_limits(sources, work, audit, _late, jobs):
         if each is None:
             continue
         if each.table.is_unlike:
@@ -115,7 +117,6 @@ def audited(
 def _tables(
     text: str, source: str, orders: Mapping[str, int], others: Sequence[str]
 ) -> list[FoundTable]:
-    """The tables of one source."""
     tables = with_bases(find_tables(text, source, readers_for(source)), source, others)
     return list(with_declared(tables, text, orders))
 
@@ -125,33 +126,35 @@ def _late(table: FoundTable, seconds: str) -> Audited:
 
 
 def audit(table: FoundTable) -> Audited | None:
-    """The verdict on a table; None where it is no method at all. Nothing is an error while the
-    same numbers, read otherwise, are a method; nor is order 1 all of it, where nobody declares it.
+    """The verdict on a table; None if it is no method. No finding is an error if another reading of
+    the same numbers is a method, and an undeclared order 1 is not final either.
     """
-    found = _audit(table)
-    order = 0 if found is None or found.order is None else found.order.order
+    verdict = _audit(table)
+    order = 0 if verdict is None or verdict.order is None else verdict.order.order
     is_low = order < 2 and not table.order
-    # of a table of single numbers, or that numbers tell, an error is a doubt
+    # errors in assembled or recognised tables are doubtful
     is_doubt = table.is_assembled or table.is_recognised
     wrong = {"error", "warning"} if is_doubt else {"error"}
-    is_wrong = found is not None and any(
-        x.level in wrong and x.code != "order-higher" for x in found.findings
+    is_wrong = verdict is not None and any(
+        x.level in wrong and x.code != "order-higher" for x in verdict.findings
     )
-    if found is None or not found.is_read or is_wrong or is_low:
+    if verdict is None or not verdict.is_read or is_wrong or is_low:
         least = (ENOUGH if is_low else LINKED) if order else 0
-        for told in readings_of(table):
-            other = _audit(told)
+        for reading in readings_of(table):
+            other = _audit(reading)
             if other is None or not fits(other, table):
                 continue
-            turned = found is not None and _is_turned(found, other)
+            turned = verdict is not None and _is_turned(verdict, other)
             # no single misprint makes all columns fit the nodes
-            if told.linked >= least or (turned and told.c[0] is not None):
-                return _transposed(found, other) if found and turned and table.is_sure else other
-    return found
+            if reading.linked >= least or (turned and reading.c[0] is not None):
+                return (
+                    _transposed(verdict, other) if verdict and turned and table.is_sure else other
+                )
+    return verdict
 
 
 def _is_turned(found: Audited, other: Audited) -> bool:
-    """Whether another reading has the matrix by columns, with the same weights and nodes."""
+    """Whether another reading has the transposed matrix, with the same weights and nodes."""
     if found.method is None or other.method is None:
         return False
     before, after = found.method.tableau, other.method.tableau
@@ -163,7 +166,7 @@ def _is_turned(found: Audited, other: Audited) -> bool:
 
 
 def _transposed(found: Audited, other: Audited) -> Audited:
-    """An error: who calls a function of a library stores a matrix as that does."""
+    """An error: a caller of a library must store the matrix as the library reads it."""
     assert other.order is not None
     order = other.order.order
     message = f"with the matrix transposed the order is {order}"
@@ -173,14 +176,14 @@ def _transposed(found: Audited, other: Audited) -> Audited:
 
 
 def settled(table: FoundTable) -> FoundTable:
-    """A table in the way in which its numbers fit."""
-    found = audit(table) if table.rivals else None
-    return table if found is None else found.table
+    """The reading of a table in which its numbers fit."""
+    verdict = audit(table) if table.rivals else None
+    return table if verdict is None else verdict.table
 
 
 def fits(found: Audited, told: FoundTable) -> bool:
-    """Whether another reading of a table has what it is said to have, or order 2 at least, which
-    fractions in place of rounded numbers miss by their rounding.
+    """Whether another reading of a table has the declared order, or at least order 2, which
+    fractions in place of rounded numbers fail by their rounding.
     """
     if found.order is None or found.has_errors:
         return False
@@ -190,19 +193,21 @@ def fits(found: Audited, told: FoundTable) -> bool:
 
 
 def readings_of(table: FoundTable) -> Iterator[FoundTable]:
-    """Other readings of the numbers of a table, with its names and orders; and kicks and drifts as
-    those of second-order equations.
+    """Other readings of the numbers of a table, with its names and orders; kicks and drifts also as
+    a method for second-order equations.
     """
     if [[x is None for x in row] for row in table.A] == [[True, False], [False, True]]:
         yield replace(
             table, parts=("q", "p"), structure="nystrom", how="for q'' = f(q)", linked=LINKED
         )
     if table.is_recognised and table.embedded and table.order and not table.turned:
-        # the order may be declared of the other weights
+        # the order may be declared for the other weights
         yield replace(table, b=table.embedded, embedded=table.b, linked=LINKED)
     for each in table.rivals:
-        told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
-        yield replace(each, **told, is_sure=True, is_recognised=False)
+        names_and_orders = {
+            x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")
+        }
+        yield replace(each, **names_and_orders, is_sure=True, is_recognised=False)
 
 
 def _audit(table: FoundTable) -> Audited | None:
@@ -222,8 +227,8 @@ def _audit(table: FoundTable) -> Audited | None:
     except MethodFileError as error:
         return _noted(table, error.faults[0].message)
     if not is_plausible(table, method):
-        is_told = table.is_assembled or speaks(table)
-        return _noted(table, UNRECOGNISED) if is_told else None
+        is_like_table = table.is_assembled or speaks(table)
+        return _noted(table, UNRECOGNISED) if is_like_table else None
     subject = subject_of(table, method)
     if is_unrecognised(subject):
         return _noted(subject.table, UNRECOGNISED)
@@ -238,7 +243,7 @@ def _audit(table: FoundTable) -> Audited | None:
 
 
 def subject_of(table: FoundTable, method: MethodFile) -> Subject:
-    """A table with its orders, as far as an audit looks for them."""
+    """A table with its orders, up to the limit of an audit."""
     is_high = not table.order or table.order >= HIGH
     return with_orders(table, method, HIGH if is_high else None)
 
@@ -247,31 +252,30 @@ def _of_export(table: FoundTable) -> Audited:
     from garkcli.bridges.exported import judged_export  # few sources have them
 
     try:
-        found = judged_export(table)
+        judged = judged_export(table)
     except MethodFileError as error:
         return _noted(table, error.faults[0].message)
-    return Audited(table, found.method, found.order, found.embedded_order, None, found.findings)
+    return Audited(table, judged.method, judged.order, judged.embedded_order, None, judged.findings)
 
 
 def _of_rosenbrock(table: FoundTable) -> Audited:
     from garkcli.bridges.rosenbrock import row_findings, with_row_orders  # few sources have them
 
     try:
-        found = with_row_orders(table)
+        judged = with_row_orders(table)
     except MethodFileError as error:
         return _noted(table, error.faults[0].message)
-    orders = (found.order, found.embedded_order, found.timed)
-    return Audited(found.table, found.method, *orders, tuple(row_findings(found)))
+    orders = (judged.order, judged.embedded_order, judged.timed)
+    return Audited(judged.table, judged.method, *orders, tuple(row_findings(judged)))
 
 
 def findings_of(subject: Subject) -> tuple[Remark, ...]:
-    """Every finding of a table, in the order in which an audit reports them."""
     return tuple(_weighed(x, subject) for check in CHECKS for x in check(subject))
 
 
 def is_unrecognised(subject: Subject) -> bool:
-    """Whether single numbers that were put together are no method, by what it does, or as more
-    than one row has another sum than its node.
+    """Whether an assembled table is no method: its order is too low, or several rows do not sum to
+    their nodes.
     """
     is_far_off = subject.order.order < 2 and not subject.is_slightly_off
     return subject.table.is_assembled and (is_far_off or len(subject.wrong_rows) > 1)
@@ -280,13 +284,13 @@ def is_unrecognised(subject: Subject) -> bool:
 def _noted(
     table: FoundTable, message: str, code: str = "unread", level: Severity = "note"
 ) -> Audited:
-    """A table that is not judged, and why."""
+    """A table that is not judged, with the reason."""
     return Audited(table, findings=(Remark(message, code=code, level=level),))
 
 
 def _weighed(finding: Remark, subject: Subject) -> Remark:
-    """An error as what it is: a doubt where the table was put together from single numbers, or read
-    off its numbers and no one of them mends it; a note where careless rounding explains it.
+    """An error with its proper level: a doubt if the table was assembled from single numbers, or
+    recognised and no single repair mends it; a note if careless rounding explains it.
     """
     if finding.level != "error":
         return finding
@@ -302,15 +306,15 @@ def _weighed(finding: Remark, subject: Subject) -> Remark:
 
 
 def _is_mended(finding: Remark, subject: Subject) -> bool:
-    """Whether one entry is known that makes a method of a table."""
+    """Whether one repaired entry makes the table a method."""
     if finding.code != "nodes":
         return bool(finding.help)
     return is_one_row(subject)
 
 
 def is_one_row(subject: Subject) -> bool:
-    """Whether all rows but one have their nodes for sums, and order 2 holds with these. A first
-    stage at another time, as Oliver has it, is meant.
+    """Whether all rows but one sum to their nodes, and order 2 holds with these. Excluded is a
+    first stage at a later time, as in methods of Oliver.
     """
     colour = subject.tableau.colours[0]
     several = sum(sum(map(bool, row)) > 1 for row in subject.block)
@@ -323,7 +327,7 @@ def is_one_row(subject: Subject) -> bool:
 
 
 def _is_explained(code: str, subject: Subject) -> bool:
-    """Whether rounding by many units of the last digits might be why something is missed."""
+    """Whether rounding by many units in the last digits explains a violation."""
     if code == "order":
         return not subject.misses_order
     if code == "nodes":
@@ -338,7 +342,7 @@ def _is_explained(code: str, subject: Subject) -> bool:
 
 
 def _order(subject: Subject) -> Iterator[Remark]:
-    """The declared order against the true one."""
+    """Compares the declared order with the true one."""
     declared = subject.table.order
     finding = _held(subject.order, declared, "order", subject.tableau)
     if finding is None or declared is None:
@@ -350,7 +354,7 @@ def _order(subject: Subject) -> Iterator[Remark]:
 
 
 def _held(found: Judged | None, declared: int | None, what: str, tableau: Tableau) -> Remark | None:
-    """What is wrong with a declared order; None where it holds or is not decided."""
+    """The remark on a declared order; None if it is true or undecided."""
     if found is None or declared is None or found.is_limited or found.order == declared:
         return None
     code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
@@ -359,19 +363,19 @@ def _held(found: Judged | None, declared: int | None, what: str, tableau: Tablea
     if not found.is_open:
         claims = {code: str(declared)}
         return Remark(message + _witness(found, tableau), code=code, claims=claims)
-    known = f"{what} {declared} is declared, {found.order} is proved"
+    proved = f"{what} {declared} is declared, {found.order} is proved"
     why = f"rounding may be why the conditions of {found.order + 1} fail"
-    return Remark(f"{known}: {why}", code="open", level="note")
+    return Remark(f"{proved}: {why}", code="open", level="note")
 
 
 def _said(subject: Subject) -> Iterator[Remark]:
-    """The order that words say against the true one: they may speak of something else."""
-    said, found = subject.table.said_order or 0, subject.order
+    """Compares the order in comments with the true one; these may be about something else."""
+    declared, found = subject.table.said_order or 0, subject.order
     is_known = not (subject.table.order or found.is_limited or found.is_open)
-    if not is_known or not found.order < said <= HIGH:
+    if not is_known or not found.order < declared <= HIGH:
         return
-    if not subject.is_careless(subject.tableau, said):
-        message = f"order {found.order}, a comment or docstring says {said}"
+    if not subject.is_careless(subject.tableau, declared):
+        message = f"order {found.order}, a comment or docstring says {declared}"
         yield Remark(message + _witness(found, subject.tableau), code="order", level="warning")
 
 
@@ -382,7 +386,7 @@ def _witness(found: Judged, tableau: Tableau) -> str:
 
 
 def _culprit(subject: Subject, declared: int) -> str:
-    """The row that does not fit its node, or the entry that restores the order."""
+    """The row that does not sum to its node, or the entry that restores the order."""
     if len(subject.wrong_rows) == 1:
         return subject.wrong_rows[0]
     stages = sum(space.stages for space in subject.tableau.spaces)
@@ -401,13 +405,13 @@ def _culprit(subject: Subject, declared: int) -> str:
 
 
 def _embedded(subject: Subject) -> Iterator[Remark]:
-    """The declared order of the embedded weights against the true one."""
+    """Compares the declared order of the embedded weights with the true one."""
     found, embedded = subject.embedded_order, subject.method.embedded
     if found is None or embedded is None:
         return
     declared = subject.table.embedded_order
-    # the matrix is to blame, which is reported with the order already; or the order of the estimate
-    # is meant, which is the lower one of both
+    # the matrix is to blame, as reported with the order; or the source declares the order of the
+    # estimate, the lower one of both
     is_known = subject.misses_order and 0 < found.order < (declared or 0)
     is_known = is_known or declared == subject.order.order < found.order
     if not found.order and not found.is_open:
@@ -428,7 +432,7 @@ def _sign(subject: Subject) -> Iterator[Remark]:
 
 
 def _weights(subject: Subject) -> Iterator[Remark]:
-    """Weights whose sum is not 1, where no declared order tells."""
+    """Weights that do not sum to 1, if no order is declared."""
     found = subject.order
     if not (found.order or found.is_open) and subject.table.order is None:
         sums = (sum(colour.b, ZERO) for colour in subject.tableau.colours)
@@ -437,7 +441,7 @@ def _weights(subject: Subject) -> Iterator[Remark]:
 
 
 def _nodes(subject: Subject) -> Iterator[Remark]:
-    """Nodes that are no row sums, as far as they cost an order."""
+    """Nodes that are not row sums, as far as they cost an order."""
     rows, declared = subject.wrong_rows, subject.table.order
     if subject.misses_order or all(x is None for x in subject.table.c):
         return
@@ -465,7 +469,7 @@ def _listed(rows: Sequence[str]) -> str:
 
 
 def _flags(subject: Subject) -> Iterator[Remark]:
-    """Properties that the source declares."""
+    """Properties declared in the source."""
     if not subject.table.flags.get("fsal") or not subject.block:
         return
     tolerance = 2 * subject.rounded.tolerance
@@ -476,7 +480,7 @@ def _flags(subject: Subject) -> Iterator[Remark]:
 
 
 def _stored(subject: Subject) -> Iterator[Remark]:
-    """How the numbers are stored, where that was read off them."""
+    """The storage of the numbers, if it was recognised from them."""
     if subject.table.how:
         yield Remark(f"as its numbers say: {subject.table.how}", code="stored", level="note")
     for name in subject.table.idle:
@@ -485,7 +489,7 @@ def _stored(subject: Subject) -> Iterator[Remark]:
 
 
 def _unread(subject: Subject) -> Iterator[Remark]:
-    """Nodes and embedded weights that are not known."""
+    """Nodes and embedded weights that could not be read."""
     lost = (x for x in subject.table.notes if " not read: " in x)
     yield from (Remark(x, code="unread", level="note") for x in lost)
 
@@ -494,4 +498,4 @@ _Check: TypeAlias = Callable[[Subject], Iterator[Remark]]
 CHECKS: tuple[_Check, ...] = (
     *(_order, _said, _weights, _nodes, _embedded, _sign, _flags, _stored, _unread),
 )
-"""What is examined, in the order in which it is reported."""
+"""The checks, in the order of reports."""

@@ -17,7 +17,7 @@ from garkcli.bridges.sources import source_files
 from garkcli.methodfile.build import MethodFile
 
 AnyPath: TypeAlias = "str | os.PathLike[str]"
-"""The path of a file or of a folder."""
+"""The path of a file or a folder."""
 
 
 def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
@@ -27,8 +27,8 @@ def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
         method: from a file, a text or arrays, or its ``conjugate`` or ``pair``; or a path or a name
             of the catalogue.
         target: as ``gark list exports`` shows it.
-        digits: decimals with so many digits, correctly rounded; by default exact numbers, or as
-            many digits as the target reads.
+        digits: of correctly rounded decimals; by default exact numbers, or as many digits as the
+            target reads.
 
     Raises:
         UsageProblem: there is no such target.
@@ -57,9 +57,9 @@ def import_methods(
 
     Args:
         paths: of the sources.
-        format: what they are; by default what their names end with says it.
-        is_recognising: whether to look for the exact forms of decimals.
-        is_as_found: whether they claim what is true instead of what their sources declare.
+        format: of the sources; by default the endings of their names decide.
+        is_recognising: whether to seek exact forms of decimals.
+        is_as_found: whether methods claim their true orders instead of the declared ones.
 
     Raises:
         UsageProblem: a source cannot be read, or there is no such format.
@@ -72,11 +72,11 @@ def import_methods(
 
 
 def audit(paths: AnyPath | Iterable[AnyPath], jobs: Whole = 1) -> Iterator[Audited]:
-    """Every table of some sources with what is wrong with it: ``gark audit``.
+    """The tables of some sources with their findings: ``gark audit``.
 
     Args:
         paths: files and folders, or one of them.
-        jobs: how many processes read them; 0 is one per processor.
+        jobs: the number of processes; 0 is one per processor.
 
     Raises:
         UsageProblem: a source cannot be read.
@@ -90,7 +90,7 @@ def audit(paths: AnyPath | Iterable[AnyPath], jobs: Whole = 1) -> Iterator[Audit
 
 
 def audit_patch(paths: AnyPath | Iterable[AnyPath]) -> str:
-    """What ``gark audit --fix`` writes: repairs that are sure as a unified diff; no file changes.
+    """The unified diff of ``gark audit --fix`` with the certain repairs; no file changes.
 
     Args:
         paths: files and folders below the current folder, or one of them.

@@ -1,4 +1,4 @@
-"""Why a method cannot be written for a target."""
+"""The error of a method that a target cannot hold."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The method file of a table: it claims what the source declares, true or not."""
+"""The method file of a table, with the claims that its source declares, true or not."""
 
 from __future__ import annotations
 
@@ -15,39 +15,39 @@ from garkcli.properties.last_stage import FirstSameAsLast, first_same_as_last
 from garkcli.sources.found import FoundTable
 
 _OF_TABLE = {"order", "nonautonomous-order", "stage-order"}
-"""Claims that are false by an entry or a node: its cure may change every order."""
+"""Claims that a wrong entry or node makes false: its cure may change every order."""
 
 
 def imported(table: FoundTable, name: str, is_as_found: bool = False) -> Subject:
-    """The method of a table, with its file and with what is wrong.
+    """The method of a table, with its file and findings.
 
     Args:
-        table: as it was found.
-        name: what the method file calls it.
-        is_as_found: whether the file claims what is true instead of what the source declares.
+        table: as found in the source.
+        name: its name in the method file.
+        is_as_found: whether the file claims the true orders instead of the declared ones.
 
     Raises:
-        MethodFileError: its numbers make no method.
+        MethodFileError: its numbers give no method.
     """
-    found = with_orders(table, read(table, name))
-    found = replace(found, findings=findings_of(found))
+    subject = with_orders(table, read(table, name))
+    subject = replace(subject, findings=findings_of(subject))
     tolerances = [fmpq_of(table.tolerance)] if table.tolerance else []
-    orders = (found.order, found.embedded_order)
+    orders = (subject.order, subject.embedded_order)
     tolerances += [x.tolerance for x in orders if x is not None and x.tolerance is not None]
-    claims = true_claims(found) if is_as_found else declared_claims(found)
-    text = written(found.table, name, max(tolerances, default=None), claims)
-    return replace(found, method=loads(text, place_of(table)), text=text)
+    claims = true_claims(subject) if is_as_found else declared_claims(subject)
+    text = written(subject.table, name, max(tolerances, default=None), claims)
+    return replace(subject, method=loads(text, place_of(table)), text=text)
 
 
 def true_claims(found: Subject) -> Mapping[str, str]:
-    """The orders that a method has."""
+    """The claims of the true orders."""
     return {key: x.claim for key, x, _ in _orders(found) if x.order}
 
 
 def declared_claims(found: Subject) -> Mapping[str, str]:
-    """Claims of a table: the declared ones, and true ones where the source declares nothing.
+    """The claims of a table: the declared ones, and true ones if the source declares nothing.
 
-    A declared order that is too low is a bound; one that the digits leave open is not claimed.
+    A declared order that is too low becomes a bound; one that the digits leave open is not claimed.
     """
     false = {key: claim for x in found.findings for key, claim in (x.claims or {}).items()}
     is_spoilt = bool(_OF_TABLE & false.keys())
@@ -71,7 +71,7 @@ def _is_fsal(found: Subject) -> bool:
 
 
 def _orders(found: Subject) -> list[tuple[str, Judged, int | None]]:
-    """Every order with the key of its claim and the declared value."""
+    """The orders with the keys of their claims and the declared values."""
     table, embedded = found.table, found.embedded_order
     orders = [("order", found.order, table.order)]
     if embedded is not None:

@@ -1,4 +1,4 @@
-"""From sources to methods: every table that is found, as a method with a name of its own."""
+"""The tables of sources as methods with distinct names."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 class Result(Frozen, eq=False):
-    """What became of one table.
+    """The result for one table.
 
     Attributes:
-        table: as it was found.
-        stem: of the file of its method, unique among all of them.
-        method: None where the table has no method in it.
-        recognised: the exact forms of its decimals, where they were requested.
-        trouble: why there is no method; empty where there is one.
+        table: as found in the source.
+        stem: the unique stem of the name of its method file.
+        method: of the table; None if it has none.
+        recognised: the exact forms of its decimals, if requested.
+        trouble: the reason why there is no method; empty if there is one.
     """
 
     table: FoundTable
@@ -50,17 +50,16 @@ class Result(Frozen, eq=False):
 
     @property
     def errors(self) -> Sequence[Remark]:
-        """Findings that contradict its source, or that no method can have."""
+        """Findings that contradict the source, or that no method can have."""
         findings = () if self.method is None else self.method.findings
         return [x for x in findings if x.level == "error" or x.claims]
 
     @property
     def file_name(self) -> str:
-        """The name of the method file."""
         return f"{self.stem}{SUFFIX}"
 
     def notes(self) -> Iterator[str]:
-        """Further remarks for people, a sentence each."""
+        """Further remarks for users, one sentence each."""
         yield from self.table.notes
         if self.trouble:
             yield self.trouble
@@ -69,11 +68,11 @@ class Result(Frozen, eq=False):
         tolerance = self.method.tolerance
         if tolerance:
             yield f"coefficients are rounded: tolerance {decimal(tolerance)}"
-        told = [x for x in self.method.findings if x not in self.errors and x.code not in _SAID]
-        yield from (x.message for x in told)
+        remarks = [x for x in self.method.findings if x not in self.errors and x.code not in _SAID]
+        yield from (x.message for x in remarks)
         if self.method.sign:
             yield self.method.sign
-        if self.method.order.is_open and not any(x.code == "open" for x in told):
+        if self.method.order.is_open and not any(x.code == "open" for x in remarks):
             yield f"its digits do not decide whether it has order {self.method.order.order + 1}"
         if self.recognised is not None:
             yield from self.recognised.notes()
@@ -90,10 +89,10 @@ def collected(
 
     Args:
         paths: files, ``-`` for standard input.
-        format: what they are; None for what the endings of their names say.
-        is_recognising: whether exact forms of decimals are sought.
-        is_as_found: whether the files claim what is true instead of what their sources declare.
-        left_out: who hears of tables that are left out, as they may be no methods.
+        format: of the sources; None for that of the endings of their names.
+        is_recognising: whether to seek exact forms of decimals.
+        is_as_found: whether files claim the true orders instead of the declared ones.
+        left_out: receives the tables that are left out since they may be no methods.
 
     Raises:
         UsageProblem: a source cannot be read, its grammar is not installed, or there is no such
@@ -102,10 +101,10 @@ def collected(
     if format is not None:
         reader_named(format)
     used: set[str] = set()
-    given = list(paths)
-    demand_grammars(given, format)
-    work = partial(_tables, format=format, orders=declared_orders(given), others=given)
-    for table in read_within_limits(given, work):
+    sources = list(paths)
+    demand_grammars(sources, format)
+    work = partial(_tables, format=format, orders=declared_orders(sources), others=sources)
+    for table in read_within_limits(sources, work):
         if table.is_unlike:
             continue
         table = settled(table)
@@ -113,7 +112,7 @@ def collected(
         result = _result(table, name, is_recognising, is_as_found)
         method = result.method
         is_other = method is not None and not is_plausible(table, method.method)
-        # who names the format means the arrays that are there
+        # with a named format all arrays are meant
         if is_other and format is None:
             left_out(table)
             continue
@@ -124,8 +123,8 @@ def _tables(
     text: str, source: str, format: str | None, orders: Mapping[str, int], others: Sequence[str]
 ) -> list[FoundTable]:
     chosen = readers_for(source) if format is None else [reader_named(format)]
-    found = with_bases(find_tables(text, source, chosen), source, others)
-    return list(with_declared(found, text, orders))
+    tables = with_bases(find_tables(text, source, chosen), source, others)
+    return list(with_declared(tables, text, orders))
 
 
 def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: bool) -> Result:
@@ -149,19 +148,19 @@ def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: boo
         return Result(table, trouble=UNRECOGNISED)
     if not is_recognising:
         return Result(table, method=method)
-    found = recognised(method, name, is_as_found)
-    return Result(table, method=found.method, recognised=found)
+    recognition = recognised(method, name, is_as_found)
+    return Result(table, method=recognition.method, recognised=recognition)
 
 
 def default_name(source: str) -> str:
-    """What a method is called whose source does not say."""
+    """The name of a method whose source gives none."""
     if source == STDIN_NAME:
         return "method"
     return PurePath(source).name.split(".")[0] or "method"
 
 
 def stem_of(name: str) -> str:
-    """A name of a file for the name of a method: lower case, words joined by hyphens.
+    """The stem of a file name for the name of a method: lower case, words joined by hyphens.
 
     >>> stem_of("RalstonEuler"), stem_of("3/8 rule"), stem_of("...")
     ('ralston-euler', '3-8-rule', 'method')
@@ -171,8 +170,8 @@ def stem_of(name: str) -> str:
 
 
 def _unique(stem: str, used: set[str]) -> str:
-    """The name of a file, with a number where it is used."""
+    """The stem, with a number if it is used already."""
     names = chain([stem], (f"{stem}-{number}" for number in count(2)))
-    found = next(x for x in names if x not in used)
-    used.add(found)
-    return found
+    unused = next(x for x in names if x not in used)
+    used.add(unused)
+    return unused

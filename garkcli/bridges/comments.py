@@ -1,6 +1,6 @@
-"""Comments of languages, safe for any name and any reference: one line of ASCII each.
+"""Comments of languages, safe for any name and any reference: lines of ASCII.
 
-What a text from a file could end or begin in a language is written apart: ``*/`` becomes ``* /``.
+Signs that end or begin a comment in some language are separated: ``*/`` becomes ``* /``.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from garkcli.frozen import Frozen
 from garkcli.page.plaintext import plain_line
 
 WIDTH = 76
-"""Columns of a comment without its mark; Fortran and people have at most 100."""
+"""Columns of a comment without its mark; Fortran and readers take at most 100."""
 _DANGEROUS = ("*/", "/*", "*)", "(*", "??", "]]", "%}", "%{", "=#", "#=")
-"""What ends or begins a comment in one of the languages, or is a trigraph of C."""
+"""Signs that begin or end a comment in one of the languages, or are trigraphs of C."""
 
 
 class Comment(Frozen):
-    """How a language marks comments.
+    """The marks of comments in a language.
 
     Attributes:
         mark: before each line.
@@ -35,20 +35,20 @@ class Comment(Frozen):
 
     @property
     def _pairs(self) -> tuple[str, ...]:
-        """The pairs of signs that its begin and its end are made of: ``--`` and ``->`` of XML."""
+        """The pairs of signs in its begin and its end: ``--`` and ``->`` for XML."""
         marks = (self.begin.strip(), self.end.strip())
         return tuple(x[i : i + 2] for x in marks for i in range(len(x) - 1))
 
     def lines(self, texts: Iterable[str]) -> list[str]:
-        """Texts as comment lines, long ones broken; commands, which begin with a blank, are not."""
-        found = [self.begin] if self.begin else []
+        """Texts as comment lines, long ones broken except commands, which begin with a blank."""
+        lines = [self.begin] if self.begin else []
         for text in texts:
             plain = harmless(text, self._pairs)
             broken = wrap(plain, WIDTH) or [""]
             if text.startswith(" "):
                 broken = [plain]
-            found += [f"{self.mark}{line}".rstrip() for line in broken]
-        return [*found, self.end] if self.end else found
+            lines += [f"{self.mark}{line}".rstrip() for line in broken]
+        return [*lines, self.end] if self.end else lines
 
 
 HASH = Comment("# ")
@@ -60,11 +60,11 @@ XML = Comment("  ", begin="<!--", end="-->")
 
 
 def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:
-    r"""A text that is a comment, and nothing else, in each of the languages.
+    r"""A text that stays within a comment in each of the languages.
 
     Args:
-        text: any.
-        forbidden: further pairs of signs that are written apart.
+        text: of any source.
+        forbidden: further pairs of signs to separate.
 
     >>> harmless("Größe */ int x; \\"), harmless("a-->b\n??/", ("--",))
     ('Grosse * / int x; /', 'a- ->b\\n? ?/')
@@ -74,18 +74,19 @@ def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:
         # twice, for three in a row
         for _ in range(2):
             plain = plain.replace(pair, f"{pair[0]} {pair[1]}")
-    # a line of C that ends with it goes on in the next
+    # a line of C that ends with it continues in the next one
     return plain[:-1] + "/" if plain.endswith("\\") else plain
 
 
 def head(payload: Payload, *notes: str) -> list[str]:
-    """What the head of every file says: who wrote it, which method, its orders, its reference.
+    """The head of every file: the writer, the method, its orders, its reference.
 
-    The first two lines are ours: in the first two of Python a name could set the encoding.
+    The first two lines contain no foreign text, since a name in the first two lines of Python could
+    set the encoding.
 
     Args:
         payload: the method.
-        notes: what else the target has to say.
+        notes: further lines of the target.
     """
     colours = counted(payload.size, "vector field")
     stages = ", ".join(map(str, payload.stages[payload.kind == "mri" :]))
@@ -119,7 +120,7 @@ _CLASSES = {
 
 
 def problem_class(payload: Payload) -> str:
-    """The problems that the method is for, in ASCII."""
+    """The problems of the method, in ASCII."""
     if payload.own is not None:
         is_in_positions = payload.kind == "nystrom" and "A" not in payload.own
         return _CLASSES["positions" if is_in_positions else payload.kind]

@@ -15,7 +15,7 @@ def coupling_of(payload: Payload) -> Coupling:
     """The coupling of the slow stages.
 
     Raises:
-        CannotExport: the method has none.
+        CannotExport: the method has no coupling.
     """
     if payload.coupling is None:
         message = f"{payload.name} is no multirate infinitesimal step"
@@ -35,7 +35,9 @@ def names_of(coupling: Coupling) -> Sequence[str]:
 
 
 def embedded_rows(coupling: Coupling) -> Mapping[str, Sequence[Vector]]:
-    """The rows that lead to the embedded value, by the names of the matrices; empty without it."""
+    """The rows of the embedded value by the names of the matrices; empty without embedded
+    weights.
+    """
     last = coupling.embedded
     if last is None:
         return {}
@@ -46,7 +48,7 @@ def embedded_rows(coupling: Coupling) -> Mapping[str, Sequence[Vector]]:
 
 
 def keys_of(coupling: Coupling) -> Mapping[str, Mapping[str, Any]]:
-    """The coupling as ``multirate`` has it: ``mri``, or ``mis`` with α, β and γ."""
+    """The coupling as under ``multirate``: ``mri``, or ``mis`` with α, β and γ."""
     if coupling.matrices is None:
         intervals = coupling.intervals
         beta = tuple(x.forcing[0][0] for x in intervals)
@@ -54,9 +56,9 @@ def keys_of(coupling: Coupling) -> Mapping[str, Mapping[str, Any]]:
         return {"mis": {**rows, "gamma": tuple(x.drift for x in intervals)}}
     names, embedded = names_of(coupling), embedded_rows(coupling)
     parts = dict(zip(names, coupling.matrices, strict=True))
-    found: dict[str, Any] = {"restart": coupling.restart} if coupling.restart else {}
-    found |= {"c": coupling.nodes, **parts}
-    told = {key: tuple(rows) for key, rows in embedded.items() if rows}
-    if told:
-        found["embedded"] = told if len(names) > 1 else told[names[0]]
-    return {"mri": found}
+    keys: dict[str, Any] = {"restart": coupling.restart} if coupling.restart else {}
+    keys |= {"c": coupling.nodes, **parts}
+    embedded_parts = {key: tuple(rows) for key, rows in embedded.items() if rows}
+    if embedded_parts:
+        keys["embedded"] = embedded_parts if len(names) > 1 else embedded_parts[names[0]]
+    return {"mri": keys}

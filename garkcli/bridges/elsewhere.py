@@ -1,4 +1,4 @@
-"""Orders that a source tree declares away from its tables: for an algorithm, for a class."""
+"""Orders that a source tree declares apart from its tables: for an algorithm, for a class."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ _OF_ALGORITHM = re.compile(
 _CLASS = re.compile(r"^class\s+(?P<name>\w+).*(?P<body>(?:\n(?:[ \t].*)?)*)", re.MULTILINE)
 _USED = re.compile(r"^\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 _ORDER = re.compile(r"^order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
-"""Of the class itself: what is in its functions has a margin."""
+"""Only in the class body: inside functions the lines have a margin."""
 _MADE_FOR = re.compile(
     r"(?P<name>\w+?)(?:E?S?DIRK)?(?:IMEX)?(?:Rodas)?(?:Constant)?(?:Cache|Tableau)(?:Actual)?"
 )
-"""A table is called after its algorithm: ``Tsit5ConstantCache``, ``ROS3PRodasTableau``."""
+"""A table is named after its algorithm: ``Tsit5ConstantCache``, ``ROS3PRodasTableau``."""
 
 
 def declared_orders(paths: Iterable[str]) -> Mapping[str, int]:
     """Orders by the names of algorithms and of tables; a name with two orders is left out."""
-    found: dict[str, set[int]] = {}
+    by_name: dict[str, set[int]] = {}
     for path in paths:
         if not path.endswith((".jl", ".py")):
             continue
@@ -40,55 +40,55 @@ def declared_orders(paths: Iterable[str]) -> Mapping[str, int]:
         except UsageProblem:
             continue
         for name, order in orders_in(text):
-            found.setdefault(name, set()).add(order)
-    return {name: orders.pop() for name, orders in found.items() if len(orders) == 1}
+            by_name.setdefault(name, set()).add(order)
+    return {name: orders.pop() for name, orders in by_name.items() if len(orders) == 1}
 
 
 def orders_in(text: str) -> list[tuple[str, int]]:
-    r"""What one source declares.
+    r"""The orders declared in one source, with names.
 
     >>> orders_in("alg_order(alg::Union{BS5, Tsit5}) = 5")
     [('BS5', 5), ('Tsit5', 5)]
     >>> orders_in("class RK4(Solver):\n  def f():\n    order = 3\n  order = 4\n  tableau = _RK4\n")
     [('RK4', 4), ('_RK4', 4)]
     """
-    found = []
+    declared = []
     for match in _OF_ALGORITHM.finditer(text) if "alg_order" in text else ():
         names = [name.strip().rpartition(".")[2] for name in match["names"].split(",")]
-        found += [(name, int(match["order"])) for name in names]
+        declared += [(name, int(match["order"])) for name in names]
     for match in _CLASS.finditer(text) if "order" in text else ():
         body = dedent(match["body"])
         order = _ORDER.search(body)
         if order is not None:
             names = [match["name"], *(x["name"] for x in _USED.finditer(body))]
-            found += [(name, int(order["n"])) for name in names]
-    return found
+            declared += [(name, int(order["n"])) for name in names]
+    return declared
 
 
 def with_bases(
     tables: Sequence[FoundTable], source: str, others: Sequence[str]
 ) -> Sequence[FoundTable]:
-    """Tables of a source, with the coefficients of tables that they name: these are in it, or
-    entries of a list of macros in another source.
+    """Tables of a source, with the coefficients of other tables that they name: in the same source,
+    or in a list of macros in another source.
     """
     missing = {x.base for x in tables if x.base}
     if not missing:
         return tables
-    known = {x.name: x for x in tables if x.b and x.name in missing}
+    bases = {x.name: x for x in tables if x.b and x.name in missing}
     for path in others:
-        missing -= known.keys()
+        missing -= bases.keys()
         if not missing:
             break
         if path != source and path.endswith(_LISTS):
             text, _ = source_text(path)
             if re.search(rf"\(\s*(?:{'|'.join(map(re.escape, missing))})\s*,\s*\{{", text):
-                found = find_tables(text, path, readers_for(path))
-                known |= {x.name: x for x in found if x.b and x.name in missing}
-    return [_with_base(x, known.get(x.base)) if x.base else x for x in tables]
+                tables_there = find_tables(text, path, readers_for(path))
+                bases |= {x.name: x for x in tables_there if x.b and x.name in missing}
+    return [_with_base(x, bases.get(x.base)) if x.base else x for x in tables]
 
 
 _LISTS = (".def", ".c", ".h", ".cpp", ".hpp")
-"""Files with lists of macros."""
+"""Endings of files with lists of macros."""
 
 
 def _with_base(table: FoundTable, base: FoundTable | None) -> FoundTable:
@@ -105,12 +105,12 @@ def _with_base(table: FoundTable, base: FoundTable | None) -> FoundTable:
 def with_declared(
     tables: Iterable[FoundTable], text: str, orders: Mapping[str, int]
 ) -> Iterator[FoundTable]:
-    """Tables with the order that their source tree declares for them, and the one that words say.
+    """Tables with the order declared in their source tree, and the order in comments.
 
     Args:
-        tables: as they were found.
-        text: of their source.
-        orders: those that the source tree declares, by names.
+        tables: as found in the source.
+        text: of the source.
+        orders: of the source tree, by names.
     """
     lines = text.split("\n")
     for table in tables:
@@ -122,7 +122,7 @@ def with_declared(
 
 
 def order_of(table: FoundTable, orders: Mapping[str, int]) -> int | None:
-    """The order that is declared for a table by its name; None where there is none."""
+    """The order declared for a table by its name; None if there is none."""
     if table.name in orders:
         return orders[table.name]
     made_for = _MADE_FOR.fullmatch(table.name)

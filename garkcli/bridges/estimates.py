@@ -1,4 +1,4 @@
-"""Error estimates E of which a source does not say whether they are b − b̂ or b̂ − b."""
+"""Error estimates E of sources that do not say whether they are b − b̂ or b̂ − b."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from garkcli.sources.found import FoundTable
 def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> Subject:
     """A table and its method with their orders, up to ``limit``.
 
-    An estimate E means the embedded weights b − E or b + E: those of the declared order, else those
-    of the higher order, else those of a published pair. Conditions are linear in the weights: where
-    E misses one that b meets, b − E and b + E miss it both. So their orders differ only where that
-    of b̂ is the higher one, or where rounding spoils one of them.
+    For an estimate E the embedded weights are b − E or b + E: those with the declared order, else
+    those with the higher order, else those of a published pair. Conditions are linear in the
+    weights: if E fails one that b meets, both b − E and b + E fail it. So their orders differ only
+    if b̂ has the higher order, or if rounding spoils one of them.
 
     Raises:
-        MethodFileError: the numbers of the other sign make no method.
+        MethodFileError: the numbers of the other sign give no method.
     """
     minus = Subject(table, method, *orders_of(method, table, limit))
     if table.turned is None or minus.embedded_order is None:
@@ -40,18 +40,18 @@ def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None)
 
 
 def _turned(minus: Subject, limit: int | None) -> Subject:
-    """The other sign of an estimate."""
+    """The estimate with the other sign."""
     table = replace(minus.table, embedded=minus.table.turned, turned=None)
     plus = Subject(table, read(table, minus.method.name), minus.order, minus.embedded_order)
-    found, declared = minus.embedded_order, table.embedded_order
-    assert found is not None
-    if 0 < found.order < minus.order.order and declared in (None, found.order):
+    embedded, declared = minus.embedded_order, table.embedded_order
+    assert embedded is not None
+    if 0 < embedded.order < minus.order.order and declared in (None, embedded.order):
         return plus
     return replace(plus, embedded_order=orders_of(plus.method, table, limit)[1])
 
 
 def _fit(found: Subject) -> tuple[bool, int]:
-    """How well an estimate fits: whether it has the declared order, and its order."""
+    """A key for the fit of an estimate: whether it has the declared order, and its order."""
     order = _number(found)
     return order == found.table.embedded_order, order
 
@@ -65,7 +65,7 @@ def _order(found: Subject) -> str:
 
 
 def _published(found: Subject) -> str:
-    """The name of the published pair that a method is with its embedded weights; empty where it is
+    """The name of the published pair of a method with its embedded weights; empty if there is
     none.
     """
     from garkcli.catalogue.known import known_of

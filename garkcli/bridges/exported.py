@@ -1,5 +1,5 @@
-"""Methods of further kinds in what gark exports as JSON: the keys of their files, what the document
-declares, and whether that is so.
+"""Methods of further kinds in JSON written by gark: the keys of their files, the declared orders,
+and the verdict on them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _KEYS: Mapping[Kind, tuple[str, ...]] = {
     "derivatives": ("A", "b", "c", "embedded"),
     "mri": ("c", "alpha", "beta", "omega", "gamma", "embedded"),
 }
-"""Arrays of the forms, by the kinds of methods."""
+"""The arrays of each kind of methods."""
 _DEEPEST = 5
 _TOLERANCE = re.compile(r"[0-9.]+(e-?[0-9]+)?", re.IGNORECASE)
 _RESTARTS = ("merk", "sr")
@@ -33,8 +33,8 @@ Arrays: TypeAlias = dict[str, Any]
 
 
 def exported_table(text: str, source: str, format: str) -> FoundTable | None:
-    """The method of a document that gark wrote; None where it is no such document, or its method
-    is of a kind that readers know.
+    """The method of a document that gark wrote; None for other documents, and for kinds of methods
+    that other readers know.
     """
     if SCHEMA not in text:
         return None
@@ -69,12 +69,12 @@ def _count(value: object) -> int | None:
 
 
 def _arrays(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """The arrays of a kind that are arrays of texts, as deep as they are."""
+    """The arrays of texts of a kind, at any depth."""
     return {key: document[key] for key in _KEYS[kind] if _is_array(document.get(key))}
 
 
 def _is_array(value: object, depth: int = 0) -> TypeGuard[list[Any]]:
-    """Whether a value is a row of texts, rows of them, or nothing."""
+    """Whether a value is a row of texts, or of such rows and nothing."""
     if not isinstance(value, list) or depth > _DEEPEST:
         return False
     is_row = all(isinstance(x, str) for x in value)
@@ -86,7 +86,7 @@ def _alone(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 
 def _rosenbrock(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """As papers print it; several colours in blocks."""
+    """The arrays as papers print them; several colours in blocks."""
     arrays = _arrays(kind, document)
     b = arrays.get("b") or [""]
     if isinstance(b[0], list):
@@ -95,7 +95,7 @@ def _rosenbrock(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 
 def _with_dense(arrays: Arrays) -> Arrays:
-    """Dense output with its degree."""
+    """The arrays with the degree of the dense output."""
     dense = arrays.pop("dense", None)
     if dense:
         arrays["dense"] = {"degree": str(max(map(len, dense))), "weights": dense}
@@ -103,7 +103,7 @@ def _with_dense(arrays: Arrays) -> Arrays:
 
 
 def _nystrom(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """With the further weights of both steps in one place."""
+    """The arrays with the further weights of both steps together."""
     arrays = _arrays(kind, document)
     embedded = arrays.pop("embedded", None)
     bbar = document.get("embedded_bbar")
@@ -117,43 +117,43 @@ def _nystrom(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 def _multirate(kind: Kind, document: Mapping[str, Any]) -> Arrays:
     """The coupling of the slow stages."""
-    given = document.get("multirate")
-    found: Arrays = {"fast": "exact"}
+    coupling_document = document.get("multirate")
+    multirate: Arrays = {"fast": "exact"}
     for key in ("mri", "mis"):
-        coupling = given.get(key) if isinstance(given, dict) else None
+        coupling = coupling_document.get(key) if isinstance(coupling_document, dict) else None
         if isinstance(coupling, dict):
             arrays = _arrays(kind, coupling)
             restart, embedded = coupling.get("restart"), coupling.get("embedded")
             if isinstance(embedded, dict):
                 arrays["embedded"] = _arrays(kind, embedded)
             known = {"restart": restart} if restart in _RESTARTS else {}
-            found[key] = {**known, **arrays}
-    return {"multirate": found}
+            multirate[key] = {**known, **arrays}
+    return {"multirate": multirate}
 
 
 _FORMS = {"row": _rosenbrock, "nystrom": _nystrom, "mri": _multirate}
 
 
 def _tolerance(document: Mapping[str, Any]) -> Arrays:
-    """By the keys of method files."""
+    """The tolerance by the keys of method files."""
     keys = {"others": "tolerance", "embedded": "embedded_tolerance", "dense": "dense_tolerance"}
-    found = {
+    tolerances = {
         name: text
         for name, key in keys.items()
         if isinstance(text := document.get(key), str) and _TOLERANCE.fullmatch(text)
     }
-    if not found:
+    if not tolerances:
         return {}
-    if "others" in found and len(set(found.values())) == 1:
-        return {"tolerance": found["others"]}
-    return {"tolerance": found}
+    if "others" in tolerances and len(set(tolerances.values())) == 1:
+        return {"tolerance": tolerances["others"]}
+    return {"tolerance": tolerances}
 
 
 def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> Subject:
-    """The method of such a document with its orders, its file and what is wrong.
+    """The method of such a document with its orders, file and findings.
 
     Raises:
-        MethodFileError: its numbers make no method.
+        MethodFileError: its numbers give no method.
     """
     from garkcli.bridges.rosenbrock import RowSubject, row_findings  # few sources have them
 
@@ -161,12 +161,12 @@ def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) 
     orders = find_orders(method.tableau, method.embedded, method.tolerance)
     order = Judged(orders.order, is_limited=orders.is_lower_bound)
     embedded = None if orders.embedded is None else Judged(orders.embedded)
-    found = RowSubject(table, method, order, embedded)
-    found = replace(found, findings=tuple(row_findings(found)))
+    subject = RowSubject(table, method, order, embedded)
+    subject = replace(subject, findings=tuple(row_findings(subject)))
     claims = {"order": order.claim}
     if embedded is not None and embedded.order:
         claims["embedded-order"] = embedded.claim
     if not is_as_found:
-        claims |= {key: claim for x in found.findings for key, claim in (x.claims or {}).items()}
+        claims |= {key: claim for x in subject.findings for key, claim in (x.claims or {}).items()}
     text = written(table, name, None, claims)
-    return replace(found, method=loads(text, place_of(table)), text=text)
+    return replace(subject, method=loads(text, place_of(table)), text=text)

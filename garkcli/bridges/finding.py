@@ -1,4 +1,4 @@
-"""Every kind of remark about a table."""
+"""The kinds of remarks on a table."""
 
 EXPLAINED = "careless rounding explains it"
 CODES = {
@@ -20,4 +20,4 @@ CODES = {
     "unjudged": "judging a table takes too long",
     "other-kind": "the table is not one of a Runge–Kutta method",
 }
-"""Every kind of remark, in words."""
+"""The kinds of remarks, in words."""

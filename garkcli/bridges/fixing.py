@@ -1,7 +1,8 @@
-"""Numbers of a source that another sign, digit or value mends: tried in its text and read again.
+"""Repairs of a source by another sign, digit or value of a number: each is tried in the text, which
+is read again.
 
-A repair is sure where the source that is read again has one table that differs, without an error,
-and no other repair of that size gives it the same orders.
+A repair is certain if exactly one table of the new text differs and has no error, and no other
+repair of that size gives it the same orders.
 """
 
 from __future__ import annotations
@@ -31,27 +32,27 @@ from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
 MOST_TRIED = 100
-"""So many repairs of a table are read again at most: of more none is sure."""
+"""Most repairs of a table that are tried: with more none is certain."""
 REACH = 400
-"""Lines before and behind the first one of a table that may have its numbers."""
+"""Lines around the first line of a table that may hold its numbers."""
 SLOPE = 1000
-"""A number that conditions of a rounded table ask for may be off by so many times the rounding."""
+"""Conditions of a rounded table determine a number up to so many times the rounding."""
 SURE_ORDER = 3
-"""An entry with any other value is sure from this order on: a lower one has few conditions."""
+"""From this order on a new value of an entry is certain: lower ones have few conditions."""
 LEAST_ORDER = 2
-"""An order that is restored says something of a number from this one on."""
+"""From this order on a restored order is evidence for a number."""
 _NAMED = re.compile(r"(\w+)[\"']?(?:\[[^\]=]*\])*\s*[:=](?![:=])")
 
 
 class Mended(Frozen):
-    """A source with repairs.
+    """A source with its repairs.
 
     Attributes:
         source: its path.
-        before: its text; empty where it is no UTF-8, or begins with a mark.
-        after: the same with the repairs; equal where nothing is sure.
-        wrong: how many tables have errors.
-        mended: how many of these have none any more.
+        before: its text; empty if it is not UTF-8 or begins with a byte order mark.
+        after: the text with the certain repairs.
+        wrong: the number of tables with errors.
+        mended: the number of those that the repairs mend.
     """
 
     source: str
@@ -65,9 +66,9 @@ class _Edit(Frozen):
     """A line with a repair.
 
     Attributes:
-        text: of the line.
-        place: its number, and the column of what is mended, from 0.
-        is_estimate: whether that is one of an error estimate.
+        text: the line.
+        place: its number, and the column of the repair, from 0.
+        is_estimate: whether the number is of an error estimate.
     """
 
     text: str
@@ -75,17 +76,17 @@ class _Edit(Frozen):
     is_estimate: bool
 
     def carried_out(self, text: str) -> str:
-        """A source with the line."""
+        """A source with the repaired line."""
         lines = text.split("\n")
         lines[self.place[0]] = self.text
         return "\n".join(lines)
 
 
 def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[Mended]:
-    """Every source with errors, with the repairs that are sure; nothing is written.
+    """Every source with errors, with the certain repairs; no file changes.
 
     Args:
-        found: the tables of all sources.
+        found: the audited tables of all sources.
         paths: of the sources.
 
     Raises:
@@ -95,7 +96,7 @@ def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[M
     orders = declared_orders(paths)
     for source, count in wrong.items():
         if is_stream(source):
-            continue  # nothing is written back into it
+            continue  # standard input cannot be written back
         text = _text_of(source)
         if text:
             with doing(source):
@@ -105,13 +106,13 @@ def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[M
 
 
 def _text_of(source: str) -> str:
-    """The text of a file with its line ends; empty where it is no UTF-8."""
+    """The text of a file with its line ends; empty if it is not UTF-8."""
     parsed, _ = source_text(source)
     try:
         text = read_bytes(source, MAX_CHARACTERS).decode("utf-8")
     except UnicodeDecodeError:
         return ""
-    # what is parsed has no mark at its beginning
+    # the parsed text has no byte order mark
     return text if text == parsed else ""
 
 
@@ -122,11 +123,11 @@ def _mended(source: str, text: str, orders: Mapping[str, int]) -> Mended:
 
     tables, before, wrong, mended = tables_in(text), text, 0, 0
     for k in range(len(tables)):
-        found = audit(tables[k])
-        if found is None or not found.has_errors:
+        verdict = audit(tables[k])
+        if verdict is None or not verdict.has_errors:
             continue
         wrong += 1
-        better = _better(text, tables, k, found, tables_in)
+        better = _better(text, tables, k, verdict, tables_in)
         if better:
             text, tables, mended = better, tables_in(better), mended + 1
     return Mended(source, before, text, wrong, mended)
@@ -139,7 +140,7 @@ def _better(
     found: Audited,
     tables_in: Callable[[str], list[FoundTable]],
 ) -> str:
-    """The text with the repair of table k; empty where none is sure."""
+    """The text with the repair of table k; empty if none is certain."""
     if (
         found.method is None
         or found.order is None
@@ -155,7 +156,7 @@ def _better(
             return ""
         best = max((orders for orders, _ in fitting), default=before)
         fitting = [(orders, edit) for orders, edit in fitting if orders == best]
-        # one condition, the sum of weights, is met by many numbers
+        # the sum of weights, one condition, has many solutions
         changed = [x for x, y in zip(best, before, strict=True) if x != y]
         if len({edit.place for _, edit in fitting}) == 1:
             is_sure = best >= before and min(changed, default=LEAST_ORDER) >= LEAST_ORDER
@@ -172,7 +173,9 @@ def _fitting(
     k: int,
     tables_in: Callable[[str], list[FoundTable]],
 ) -> list[tuple[tuple[int, int], _Edit]] | None:
-    """The repairs that leave no error in table k, with its orders then; None of too many."""
+    """The repairs that leave no error in table k, with its orders then; None if too many are
+    tried.
+    """
     fitting, elsewhere, tried = [], set(), 0
     for edit in edits:
         if edit.place in elsewhere:
@@ -194,7 +197,7 @@ def _fitting(
 
 
 def _differs_alone(tables: Sequence[FoundTable], others: Sequence[FoundTable], k: int) -> bool:
-    """Whether table k is the only one that another text of a source has otherwise."""
+    """Whether table k is the only one that differs between two texts of a source."""
     if len(tables) != len(others):
         return False
     return [i for i, (x, y) in enumerate(zip(tables, others, strict=True)) if x != y] == [k]
@@ -208,13 +211,13 @@ def _has_estimate(table: FoundTable) -> bool:
 
 
 def _orders(found: Audited) -> tuple[int, int]:
-    """Those of a table and of its embedded weights."""
+    """The orders of a table and of its embedded weights."""
     assert found.order is not None
     return found.order.order, 0 if found.embedded_order is None else found.embedded_order.order
 
 
 def _wanted(subject: Subject) -> Iterator[Wanted]:
-    """The numbers of which one may be wrong, with the values that would mend the table."""
+    """The numbers that may be wrong, with the values that would mend the table."""
     tableau, table, rounding = subject.tableau, subject.table, subject.rounded.tolerance
     allowed = (1 + sum(space.stages for space in tableau.spaces)) * rounding
 
@@ -246,7 +249,8 @@ def _wanted(subject: Subject) -> Iterator[Wanted]:
     for b, other in zip(weights, embedded, strict=False):
         total = sum(other, ZERO)
         yield from values(((x, x + ONE - total) for x in other), is_estimate=False)
-        # of an estimate a source has differences, with either sign, or what looks like weights
+        # a source holds differences for an estimate, with either sign, or numbers that look like
+        # weights
         pairs = [
             (s * (x - y), s * (x - y + total - ONE))
             for s in (1, -1)
@@ -254,17 +258,17 @@ def _wanted(subject: Subject) -> Iterator[Wanted]:
         ]
         yield from values([*pairs, *((x, x - total) for x in other)], is_estimate=True)
     if subject.misses_order:
-        found = _blamed(subject, tableau, table.order, is_embedded=False)
-        yield from values(*found, slope=SLOPE)
+        entries_and_certainty = _blamed(subject, tableau, table.order, is_embedded=False)
+        yield from values(*entries_and_certainty, slope=SLOPE)
     elif subject.embedded_order is not None:
-        found = _blamed(
+        entries_and_certainty = _blamed(
             subject, with_weights(tableau, embedded), table.embedded_order, is_embedded=True
         )
-        yield from values(*found, slope=SLOPE, is_estimate=False)
+        yield from values(*entries_and_certainty, slope=SLOPE, is_estimate=False)
 
 
 def _entries(tableau: Tableau, row: WrongSum) -> Vector:
-    """The entries of a row that is not its node."""
+    """The entries of a row that does not sum to its node."""
     assert row.m is not None
     assert row.i is not None
     return (tableau.block(row.l, row.m) or ())[row.i]
@@ -273,7 +277,7 @@ def _entries(tableau: Tableau, row: WrongSum) -> Vector:
 def _blamed(
     subject: Subject, tableau: Tableau, declared: int | None, is_embedded: bool
 ) -> tuple[list[tuple[Number, Number]], bool]:
-    """Entries with the values that restore a declared order, and whether there is one alone."""
+    """Entries with the values that restore a declared order, and whether there is only one."""
     order = subject.embedded_order if is_embedded else subject.order
     stages = sum(space.stages for space in tableau.spaces)
     if order is None or order.witness is None or stages > MAX_BLAMED or not declared:
@@ -288,22 +292,22 @@ def _blamed(
 
 
 def _edits(text: str, line: int, wanted: Sequence[Wanted], is_whole: bool) -> Iterator[_Edit]:
-    """The text with one repair each, those that are next to the line of the table first.
+    """Lines with one repair each, those next to the first line of the table first.
 
     Args:
         text: of the source.
-        line: where the table begins, from 1.
-        wanted: which numbers may be wrong.
-        is_whole: whether any other number is put there; otherwise another sign or digit.
+        line: the first line of the table, from 1.
+        wanted: numbers that may be wrong, with their values.
+        is_whole: whether to write the new number; otherwise another sign or digit.
     """
     lines = text.split("\n")
     first = max(line - 1 - REACH, 0)
-    found = [
+    all_places = [
         place
         for n, part in enumerate(lines[first : line + REACH], first)
         for place in places(part, n)
     ]
-    for place in sorted(found, key=lambda x: abs(x.line + 1 - line)):
+    for place in sorted(all_places, key=lambda x: abs(x.line + 1 - line)):
         value, old, start = place.value, lines[place.line], place.tokens[0].start()
         for each in wanted:
             if value != abs(each.old) or (is_whole and not each.is_sure):
@@ -317,7 +321,7 @@ def _edits(text: str, line: int, wanted: Sequence[Wanted], is_whole: bool) -> It
 
 
 def _is_in_estimate(before: Sequence[str]) -> bool:
-    """Whether the name that is assigned last is one of an error estimate."""
+    """Whether the last assigned name is of an error estimate."""
     named = (_NAMED.findall(line) for line in reversed(before))
     name = next((names[-1] for names in named if names), "")
     return "err" in name.lower() or name in {"E", "e", "evec"}

@@ -1,4 +1,4 @@
-"""The text of the method file of a table that was found."""
+"""The text of the method file of a table."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Row, Rows
 
 Tree: TypeAlias = "str | Sequence[Tree] | Mapping[str, Tree] | None"
-"""What is in a method file: words, rows of numbers, lists and mappings of these."""
+"""The content of a method file: words, rows of numbers, lists and mappings of these."""
 SHORT = 8
-"""A decimal with fewer digits is written as a fraction."""
+"""Decimals with fewer digits are written as fractions."""
 _LONG = re.compile(rf"[0-9]{{{SHORT},}}|[0-9]\.[0-9]{{{SHORT - 1},}}")
 _TAIL = re.compile(r"(?<=[0-9.])0{6,}(?![0-9])")
-"""Zeros that a printed decimal ends with."""
+"""Zeros at the end of a printed decimal."""
 _INTEGER = re.compile(r"-?(?:0|[1-9][0-9]*)")
 
 
 def numbers_of(table: FoundTable) -> Iterator[str]:
-    """The coefficients of a table, but for its dense output."""
+    """The coefficients of a table, without its dense output."""
     blocks = [block or () for blocks in table.A for block in blocks]
     for rows in (*blocks, table.b, [row or () for row in table.c], table.embedded or ()):
         for row in rows:
@@ -38,18 +38,18 @@ def numbers_of(table: FoundTable) -> Iterator[str]:
 
 
 def place_of(table: FoundTable) -> str:
-    """Where a table is, as people write it."""
+    """The place of a table for messages."""
     return f"{table.source}:{table.line}"
 
 
 def fmpq_of(text: str) -> fmpq:
-    """A rational number; 0 for anything else."""
+    """A rational number; 0 for any other text."""
     value = _value(text)
     return value if isinstance(value, fmpq) else fmpq(0)
 
 
 def _value(text: str) -> Number | None:
-    """The number that a text is; None where it is none."""
+    """The number in a text; None if it is no number."""
     try:
         expression = parse(text)
         if isinstance(expression, Literal):
@@ -63,10 +63,10 @@ def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mappin
     """The method file of a table.
 
     Args:
-        table: as it was found.
-        name: what the file calls it.
-        tolerance: the rounding that it admits.
-        claims: what it claims.
+        table: as found in the source.
+        name: the name in the file.
+        tolerance: the rounding in the file; None for none.
+        claims: the claims of the file.
     """
     whence = plain_line(printable(place_of(table)))
     lines = [f"# from {whence}, read as {table.format}", "gark: 1"]
@@ -76,13 +76,13 @@ def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mappin
     if tolerance:
         lines.append(f"tolerance: {decimal(tolerance)}")
     if claims:
-        told = ", ".join(f"{key}: {value}" for key, value in claims.items())
-        lines.append(f"expect: {{{told}}}")
+        expectations = ", ".join(f"{key}: {value}" for key, value in claims.items())
+        lines.append(f"expect: {{{expectations}}}")
     return "\n".join(lines) + "\n"
 
 
 def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[str]:
-    """YAML: what is known under its keys, or items behind dashes; rows in brackets."""
+    """YAML lines: values under their keys, or items behind dashes; rows in brackets."""
     is_keyed = isinstance(value, Mapping)
     pairs = value.items() if isinstance(value, Mapping) else (("-", x) for x in value)
     for key, x in pairs:
@@ -99,7 +99,7 @@ def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[
 
 
 def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
-    """What a method file has of the coefficients."""
+    """The keys of a method file for the coefficients."""
     if table.form is not None:
         return table.form
     if table.gamma is not None:
@@ -122,14 +122,14 @@ def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
 
 
 def _colour(table: FoundTable, l: int, A: Rows | None, c: Row | None) -> Mapping[str, Tree]:
-    """One vector field: its matrix, its nodes, its weights and those beside them."""
+    """One vector field: its matrix, nodes, weights and further weights."""
     embedded = None if table.embedded is None else table.embedded[l]
     dense = None if table.dense is None else table.dense[l : l + 1]
     return {"A": A, "b": table.b[l], "c": c, "embedded": embedded, "dense": _polynomials(dense)}
 
 
 def _rosenbrock(table: FoundTable) -> Mapping[str, Tree]:
-    """A Rosenbrock method, as papers print it or as programs store it."""
+    """A Rosenbrock method in printed or stored form."""
     beside = {"c": table.c[0], "d": table.d}
     if table.diagonal is None:
         embedded = None if table.embedded is None else table.embedded[0]
@@ -142,22 +142,22 @@ def _rosenbrock(table: FoundTable) -> Mapping[str, Tree]:
 
 def _slow(table: FoundTable) -> Mapping[str, Tree]:
     """The slow part of a multirate infinitesimal method: a coupling, or a method."""
-    found = table.coupling
-    if found is None:
+    coupling = table.coupling
+    if coupling is None:
         assert table.A[0][0] is not None
         return {"mis": _colour(table, 0, table.A[0][0], table.c[0])}
-    parts = dict(found.parts)
-    # what only one part adds
-    embedded: Tree = {key: rows for key, rows in found.embedded.items() if rows}
+    parts = dict(coupling.parts)
+    # the parts that the embedded step changes
+    embedded: Tree = {key: rows for key, rows in coupling.embedded.items() if rows}
     if len(parts) == 1:
         (key,) = parts
-        embedded = found.embedded.get(key)
+        embedded = coupling.embedded.get(key)
         # the only part
-        parts = parts if found.restart else {"gamma": parts[key]}
+        parts = parts if coupling.restart else {"gamma": parts[key]}
     return {
         "mri": {
-            "restart": found.restart or None,
-            "c": found.c,
+            "restart": coupling.restart or None,
+            "c": coupling.c,
             **parts,
             "embedded": embedded or None,
         }
@@ -173,7 +173,7 @@ def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
 
 
 def _sums(table: FoundTable, l: int) -> Row:
-    """The row sums of the diagonal block, where a source gives nodes of other colours alone."""
+    """The row sums of the diagonal block, as nodes of a colour without nodes in the source."""
     block = table.A[l][l]
     if block is None:
         return ("0",) * len(table.b[l])
@@ -193,7 +193,7 @@ def _prk(table: FoundTable) -> Mapping[str, Tree]:
 
 @lru_cache(maxsize=4096)
 def entry_text(text: str) -> str:
-    """A number of a method file: fractions in lowest terms, long decimals and roots as they are.
+    """A number of a method file: a fraction in lowest terms, or long decimals and roots unchanged.
 
     >>> entry_text("1.0/3.0"), entry_text("0.25"), entry_text("root(2, 5)")
     ('1/3', '1/4', '"root(2, 5)"')
@@ -208,8 +208,8 @@ def entry_text(text: str) -> str:
 
 
 def fraction_of(text: str) -> str:
-    """The fraction that a text without long decimals and without roots is; empty for others. What
-    is made of whole numbers, however long, is exact.
+    """The exact fraction of a text without long decimals and roots; empty for others. Quotients of
+    integers are exact at any length.
     """
     if _LONG.search(_TAIL.sub("", text)) and {*text} & {*".eq"}:
         return ""

@@ -1,4 +1,4 @@
-"""The order of a method as its digits show it: exactly, or within what their rounding explains."""
+"""The order of a method within its digits: exact, or up to what rounding explains."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Judged(Frozen, eq=False):
-    """What was found of an order.
+    """The order of a method within its digits.
 
     Attributes:
-        order: as far as conditions hold, exactly or within the rounding.
-        is_open: whether the next order is undecided: rounding may be why it fails.
-        witness: a tree whose condition fails; None where none is known.
-        rounded: the tableau, and by how much the numbers of a method with the order are off; None
-            where the conditions hold exactly.
+        order: the order up to which conditions hold, exactly or within the rounding.
+        is_open: whether the next order is undecided, since rounding may explain the violation.
+        witness: a tree whose condition fails; None if none is known.
+        rounded: the tableau, and the largest distance of its numbers from a method with the order;
+            None if the conditions hold exactly.
         is_limited: whether the search stopped at its limit.
     """
 
@@ -35,7 +35,7 @@ class Judged(Frozen, eq=False):
 
     @cached_property
     def tolerance(self) -> fmpq | None:
-        """The power of ten that a method file has to admit for this order; None where the
+        """The power of ten that a method file needs as tolerance for this order; None if the
         conditions hold exactly.
         """
         if self.rounded is None:
@@ -46,36 +46,36 @@ class Judged(Frozen, eq=False):
 
     @property
     def claim(self) -> str:
-        """The order as a method file claims it."""
+        """The order as a claim of a method file."""
         return at_least(self.order) if self.is_limited else str(self.order)
 
 
 def at_least(order: int) -> str:
-    """An order and all higher ones, as a method file claims them."""
+    """A lower bound for an order as a claim of a method file."""
     return f'">= {order}"'
 
 
 class Digits(Frozen):
-    """How exactly the coefficients of a source are written.
+    """The precision of the coefficients of a source.
 
     Attributes:
-        printed: the coefficients as they are written.
-        units: by how much those may be off that were made of printed ones.
+        printed: the coefficients as printed.
+        units: the units of the last place for numbers computed from printed ones.
     """
 
     printed: Printed
     units: Units
 
     def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:
-        """A tableau with what the digits leave open: ten units of the last place of each decimal,
-        or ``slack`` of them.
+        """A tableau with the freedom of its digits: ``slack`` units in the last place of each
+        decimal, by default ten.
         """
         units = approximant_units(self.printed, self.units)
         wide = {value: slack * unit for value, unit in units.items()}
         return RoundedTableau.printed(tableau, wide)
 
     def careless(self, tableau: Tableau) -> RoundedTableau:
-        """A tableau with what careless rounding may have left."""
+        """A tableau with the freedom of careless rounding."""
         return RoundedTableau.printed(tableau, careless_units(self.printed, self.units))
 
 
@@ -87,19 +87,19 @@ def judged(
     tolerance: fmpq | None = None,
     spans: StageSpans | None = None,
 ) -> Judged:
-    """The order of a tableau that is made of the numbers of a file.
+    """The order of a tableau with the numbers of a source.
 
-    Decimals of many digits count as rounded: each may be off by ten units of its last place,
-    and conditions are met that this explains. A residual that a good exact method might have is
-    not explained away: there the order is undecided.
+    Decimals with many digits count as rounded, each by at most ten units in its last place, and
+    conditions hold if this explains their residuals. A residual that a good exact method might have
+    is not explained so: then the order is undecided.
 
     Args:
-        digits: how exactly its numbers are written.
-        tableau: the method, or the same with embedded weights.
-        declared: the order that its source declares; the search goes one further at least.
-        limit: where the search stops; None for one order beyond the declared one at least.
-        tolerance: the rounding that the source admits; None where it says none.
-        spans: of the stage vectors, where some are known.
+        digits: the precision of its numbers.
+        tableau: the method, perhaps with embedded weights.
+        declared: the order declared in the source; the search goes at least one further.
+        limit: the last order examined; None for at least one beyond the declared one.
+        tolerance: the rounding given in the source; None if it gives none.
+        spans: the spans of stage vectors, if some are known.
     """
     reach = limit or max(DEFAULT_LIMIT, (declared or 0) + 1)
     exact = find_order(tableau, reach, spans)
@@ -111,17 +111,17 @@ def judged(
     rounded = digits.of(tableau)
     if not rounded.tolerance:
         return Judged(exact.order, witness=exact.witness)
-    found = find_order_within(rounded, reach, exact)
-    if found.order == reach and found.sizes[-1] <= unnatural(reach):
-        return replace(_judged(found, exact), is_open=False, is_limited=True)
+    within_rounding = find_order_within(rounded, reach, exact)
+    if within_rounding.order == reach and within_rounding.sizes[-1] <= unnatural(reach):
+        return replace(_judged(within_rounding, exact), is_open=False, is_limited=True)
     order = exact.order
-    while order < found.order and found.sizes[order] <= unnatural(order + 1):
+    while order < within_rounding.order and within_rounding.sizes[order] <= unnatural(order + 1):
         order += 1
-    if order < found.order:
-        # rounding explains the next residuals, and so might a good method
-        met = replace(found, order=order, witness=None)
-        return replace(_judged(met, exact), witness=exact.witness)
-    return _judged(found, exact)
+    if order < within_rounding.order:
+        # rounding explains the next residuals, but a good exact method might have them too
+        up_to_order = replace(within_rounding, order=order, witness=None)
+        return replace(_judged(up_to_order, exact), witness=exact.witness)
+    return _judged(within_rounding, exact)
 
 
 def _judged(found: RoundedOrder, exact: Order) -> Judged:

@@ -1,8 +1,7 @@
-"""Sources that are read, and tables that are judged, within a limit of time, by a process that can
-be ended.
+"""Reading of sources and judging of tables within a time limit, by a process that can be ended.
 
-Grammars of tree-sitter are C: deaf while they parse, and on text of another language they may take
-time like the square of its length. Their callbacks end older versions of tree-sitter, and leak.
+Grammars of tree-sitter are C code: they cannot be interrupted, and on text of another language they
+may take quadratic time. Their callbacks crash older versions of tree-sitter, and leak.
 """
 
 from __future__ import annotations
@@ -23,24 +22,25 @@ from garkcli.sources.found import FoundTable, unread
 
 T = TypeVar("T")
 SMALL = 8_000
-"""Bytes of a source that this process reads, which saves the start of another: grammars take half a
-second for the worst of that length that is known.
+"""Bytes of a source that this process reads itself, to save the start of another: grammars take
+half a second for the worst known text of that length.
 """
 FREE_SECONDS = 20
-"""Seconds that every source has, a hundred times what one of 50 KB takes on an idle machine."""
+"""Seconds for every source, a hundred times the time for one of 50 KB on an idle machine."""
 BYTES_PER_SECOND = 50_000
-"""And one more for so many bytes."""
+"""One more second for each so many bytes."""
 JUDGING_SECONDS = 60.0
-"""Seconds that every table has: a pair of order 10 with its 17 stages takes a third of them."""
+"""Seconds for every table: a pair of order 10 with its 17 stages takes a third of them."""
 
 
 class SourceToRead(Frozen):
-    """A source that is to be read.
+    """A source to read.
 
     Attributes:
-        name: the path of a file; what another source is called.
+        name: the path of a file, or the name of another source.
         size: in bytes of a file, in characters of a text.
-        text: of what is no ordinary file, such as standard input: that is this process's.
+        text: of a source that is no ordinary file, such as standard input, which only this process
+            can read.
     """
 
     name: str
@@ -51,19 +51,19 @@ class SourceToRead(Frozen):
 def read_within_limits(
     paths: Iterable[str], read: Callable[[str, str], list[FoundTable]], jobs: int = 1
 ) -> Iterator[FoundTable]:
-    """The tables of all sources, in order; a source whose parser takes too long has a place holder.
+    """The tables of all sources, in order; a placeholder for a source whose parser takes too long.
 
     Args:
         paths: of the sources; ``-`` is standard input.
-        read: from the text of a source and its name to its tables; both travel between processes.
-        jobs: how many processes read them; 0 is one per processor.
+        read: makes the tables from the text of a source and its name; it must be picklable.
+        jobs: the number of processes; 0 is one per processor.
 
     Raises:
         UsageProblem: a source cannot be read.
     """
-    given = [_source(path) for path in paths]
-    with _crew(_Work(read), given, jobs) as workers:
-        for tables in _known(workers, given, "files"):
+    sources = [_source(path) for path in paths]
+    with _crew(_Work(read), sources, jobs) as workers:
+        for tables in _known(workers, sources, "files"):
             yield from tables
 
 
@@ -78,23 +78,23 @@ def judged_within_limits(
 
     Args:
         paths: of the sources; ``-`` is standard input.
-        read: from the text of a source and its name to its tables; both travel between processes.
-        judge: the verdict on a table; it travels too.
-        late: the verdict on a table whose judging takes too long, and how long that is.
-        jobs: how many processes work; 0 is one per processor.
+        read: makes the tables from the text of a source and its name; it must be picklable.
+        judge: makes the verdict on a table; it must be picklable.
+        late: makes the verdict on a table whose judging takes too long, from it and the time.
+        jobs: the number of processes; 0 is one per processor.
 
     Raises:
         UsageProblem: a source cannot be read.
     """
-    given = [_source(path) for path in paths]
-    with _crew(_Work(read, judge, late), given, jobs) as workers:
-        tables = list(chain.from_iterable(_known(workers, given, "files")))
+    sources = [_source(path) for path in paths]
+    with _crew(_Work(read, judge, late), sources, jobs) as workers:
+        tables = list(chain.from_iterable(_known(workers, sources, "files")))
         yield from _known(workers, tables, "tables")
 
 
 class _Work(Frozen, eq=False):
-    """The reading of sources and, where it is requested, the judging of their tables: either item
-    has a limit of time of its own.
+    """The reading of sources and, if requested, the judging of tables, with a time limit for each
+    item.
     """
 
     read: Callable[[str, str], list[FoundTable]]
@@ -102,7 +102,7 @@ class _Work(Frozen, eq=False):
     late: Callable[[FoundTable, str], Any] | None = None
 
     def done(self, item: SourceToRead | FoundTable) -> Any:
-        """The outcome of an item, or what kept it from having one: both travel."""
+        """The result for an item, or the exception: both are picklable."""
         try:
             if isinstance(item, SourceToRead):
                 with doing(item.name):
@@ -113,7 +113,7 @@ class _Work(Frozen, eq=False):
             return error
 
     def given_up(self, item: SourceToRead | FoundTable) -> Any:
-        """The outcome of an item that takes too long."""
+        """The result for an item that takes too long."""
         seconds = f"longer than {_limit(item):.0f} s"
         if isinstance(item, FoundTable):
             return None if self.late is None else self.late(item, seconds)
@@ -125,7 +125,7 @@ class _Work(Frozen, eq=False):
 def _crew(
     work: _Work, given: Sequence[SourceToRead], jobs: int
 ) -> AbstractContextManager[Workers[SourceToRead | FoundTable, Any]]:
-    """Who reads and judges: other processes, unless there is little to read."""
+    """The workers: other processes, unless there is little to read."""
     jobs = min(jobs or os.cpu_count() or 1, len(given))
     is_apart = jobs > 1 or any(source.size > SMALL for source in given)
     limit = Limit(_limit, work.given_up) if is_apart else None
@@ -137,11 +137,11 @@ def _known(
     items: Sequence[SourceToRead | FoundTable],
     what: str,
 ) -> Iterator[Any]:
-    """Every outcome in order; what kept an item from having one is raised."""
-    for found in counting(what, in_order(workers, items), len(items)):
-        if isinstance(found, Exception):
-            raise found
-        yield found
+    """The results in order; exceptions are raised."""
+    for result in counting(what, in_order(workers, items), len(items)):
+        if isinstance(result, Exception):
+            raise result
+        yield result
 
 
 def _source(path: str) -> SourceToRead:
@@ -152,12 +152,10 @@ def _source(path: str) -> SourceToRead:
 
 
 def _limit(item: SourceToRead | FoundTable) -> float:
-    """How long it may take to read a source, or to judge a table."""
     return _seconds(item) if isinstance(item, SourceToRead) else JUDGING_SECONDS
 
 
 def _seconds(source: SourceToRead) -> float:
-    """How long it may take to read a source."""
     return FREE_SECONDS + source.size // BYTES_PER_SECOND
 
 

@@ -1,4 +1,4 @@
-"""Rosenbrock methods as targets have them: stage after stage, printed or transformed."""
+"""Rosenbrock methods for targets: stage after stage, printed or transformed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from garkcli.tableau.pointwise import Row
 
 
 class LinearStages(LinearlyImplicit, kw_only=True):
-    """A method whose stages are computed one after the other, with its further weights.
+    """A method with stages computed one after the other, and its further weights.
 
     Attributes:
         embedded: the embedded weights; None without them.
@@ -33,10 +33,10 @@ class LinearStages(LinearlyImplicit, kw_only=True):
 
 
 def printed_stages(payload: Payload) -> LinearStages:
-    """The stages of a Rosenbrock method as papers print them.
+    """The stages of a Rosenbrock method in printed form.
 
     Raises:
-        CannotExport: a stage needs a later one.
+        CannotExport: a stage depends on a later one.
     """
     method = _of(payload)
     alpha, gamma = method.alpha[0][0], method.gamma[0][0]
@@ -59,17 +59,17 @@ def printed_stages(payload: Payload) -> LinearStages:
 
 
 class Program(Frozen):
-    """A method as programs store it, with one γ for all stages.
+    """A method in stored form, with one γ for all stages.
 
     Attributes:
         stored: A, C and m.
         gamma: γ.
-        c: where f is evaluated.
+        c: the nodes.
         d: the weights of ∂f/∂t.
         error: m − m̂; None without embedded weights.
         interpolant: rows H_1, H_2, … with b(θ) = θ m + θ (1 − θ) (H_1 + θ H_2 + …); None without
-            dense output, or where it does not end at m.
-        is_new: of each stage, whether it evaluates f at another place than the stage before.
+            dense output, or if it does not end at m.
+        is_new: whether each stage evaluates f at another point than the stage before.
     """
 
     stored: Stored
@@ -81,45 +81,45 @@ class Program(Frozen):
     is_new: tuple[bool, ...]
 
     @property
-    def lower_A(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- the name it has everywhere
+    def lower_A(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- A is the usual letter
         """The entries of A below the diagonal with their places from 1, row by row."""
         return _lower(self.stored.A)
 
     @property
-    def lower_C(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- likewise
-        """Those of C."""
+    def lower_C(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- C is the usual letter
+        """The entries of C below the diagonal with their places from 1, row by row."""
         return _lower(self.stored.C)
 
 
 def program_stages(payload: Payload) -> Program:
-    """The stages of a Rosenbrock method as programs store them.
+    """The stages of a Rosenbrock method in stored form.
 
     Raises:
         CannotExport: it has no such form, or several γ_ii.
     """
     printed_stages(payload)
-    further: Any = payload  # whose weights are numbers, as no family has been put in
-    dense = None if payload.dense is None else DenseOutput(further.dense)
+    payload_of_numbers: Any = payload  # without parameters all weights are numbers
+    dense = None if payload.dense is None else DenseOutput(payload_of_numbers.dense)
     try:
-        found = stored(_of(payload), Further(further.embedded, dense))
+        form = stored(_of(payload), Further(payload_of_numbers.embedded, dense))
     except MethodError as error:
         raise CannotExport(error.message, _OTHERS) from None
-    if len(set(found.gamma)) > 1:
+    if len(set(form.gamma)) > 1:
         message = f"{payload.name} has several γ_ii, and this code factors one matrix"
         raise CannotExport(message, _OTHERS)
-    embedded = found.further.embedded
+    embedded = form.further.embedded
     (c,), (d,) = _of(payload).nodes
     is_new = [
-        i == 0 or (tuple(row[:i]), c[i]) != (tuple(found.A[i - 1][:i]), c[i - 1])
-        for i, row in enumerate(found.A)
+        i == 0 or (tuple(row[:i]), c[i]) != (tuple(form.A[i - 1][:i]), c[i - 1])
+        for i, row in enumerate(form.A)
     ]
     return Program(
-        found,
-        found.gamma[0],
+        form,
+        form.gamma[0],
         c,
         d,
-        None if embedded is None else tuple(map(sub, found.m, embedded[0])),
-        _interpolant(found),
+        None if embedded is None else tuple(map(sub, form.m, embedded[0])),
+        _interpolant(form),
         tuple(is_new),
     )
 
@@ -138,7 +138,7 @@ def _lower(matrix: Matrix) -> list[tuple[int, int, Number]]:
 
 
 def _interpolant(found: Stored) -> Rows | None:
-    """The dense output, divided by θ (1 − θ) after θ m is subtracted."""
+    """The dense output minus θ m, divided by θ (1 − θ)."""
     if found.further.dense is None:
         return None
     powers = [*zip(*found.further.dense.weights[0], strict=True)]

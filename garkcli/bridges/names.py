@@ -1,5 +1,5 @@
-"""Names of methods as languages have them: what is a word of a language, or of the files that are
-written in it, is none.
+"""Names of methods as identifiers of languages: neither words of the language nor names used in the
+files written in it.
 """
 
 from __future__ import annotations
@@ -12,13 +12,14 @@ from garkcli.errors import printable
 from garkcli.page.plaintext import plain_line
 
 LONGEST = 40
-"""Most signs of a name, with what is put before it."""
+"""Longest name with its prefix."""
 
 
 def stem_of(name: str) -> str:
     """A name as lower case ASCII letters, digits and single underscores; it begins with a letter.
 
-    Behind ``gark_`` it is a name in every language. A letter of another script is its number.
+    With the prefix ``gark_`` it is an identifier in every language. A letter of another script
+    becomes its number.
 
     >>> stem_of("Größe 3.gark.yaml"), stem_of("3/8 rule"), stem_of("中")
     ('grosse_3', 'method_3_8_rule', 'u4e2d')
@@ -33,10 +34,10 @@ def stem_of(name: str) -> str:
 
 
 def identifier(name: str, language: str) -> str:
-    """The same as a name of its own in a language.
+    """An identifier of a language that is not reserved in it.
 
     Args:
-        name: any.
+        name: of the method.
         language: a key of ``RESERVED``.
 
     >>> identifier("import", "python"), identifier("import", "r"), identifier("end", "matlab")
@@ -47,7 +48,7 @@ def identifier(name: str, language: str) -> str:
 
 
 def class_name(name: str, language: str = "python") -> str:
-    """The same as the name of a class.
+    """The name as the name of a class.
 
     >>> class_name("Ralston-Euler"), class_name("none"), class_name("3/8 rule")
     ('RalstonEuler', 'MethodNone', 'Method38Rule')
@@ -123,4 +124,4 @@ RESERVED: Mapping[str, frozenset[str]] = {
     language: frozenset(words.split()).union(*[kwlist, softkwlist] if language == "python" else [])
     for language, words in _WORDS.items()
 }
-"""The words of a language, with those that the files and programs of ``gark export`` have in it."""
+"""The words of each language, with the names in files and programs of ``gark export``."""

@@ -1,4 +1,4 @@
-"""Exact numbers as the texts of a language: whole numbers, fractions, decimals, radicals."""
+"""Exact numbers as texts of a language: integers, fractions, decimals, radicals."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from garkcli.frozen import Frozen
 from garkcli.tableau.pointwise import Cell
 
 FLOAT_DIGITS = 17
-"""So many digits mean a binary64 number, which is written with as few as bring it back."""
+"""Digits that stand for a binary64 number, which is written with the fewest that restore it."""
 EXACT_IN_FLOATS = 2**53
-"""Up to here whole numbers are binary64 numbers, and the quotient of two is rounded once."""
+"""Up to here integers are binary64 numbers, and the quotient of two is rounded once."""
 MOST_ZEROS = 5
-"""Decimals of more zeros after the point are written with an exponent."""
+"""Decimals with more zeros after the point are written with an exponent."""
 
 
 class Style(Frozen):
-    """How a language writes numbers.
+    """The format of numbers in a language.
 
     Attributes:
-        digits: of decimals; 17 are a binary64 number, written with as few as bring it back.
-        longest: decimals that end within so many digits are written whole, whatever ``digits``
-            says; 0 for none.
-        decimal: what is around a decimal, ``{x}`` in it.
-        fraction: how a fraction is written, with ``{p}`` and ``{q}``; empty where it is a decimal.
-        is_fraction_first: whether fractions are preferred to decimals that end.
+        digits: of decimals; 17 for a binary64 number, written with the fewest that restore it.
+        longest: decimals that end within so many digits are written in full, for any ``digits``; 0
+            for none.
+        decimal: the text around a decimal ``{x}``.
+        fraction: the text of a fraction, with ``{p}`` and ``{q}``; empty for decimals instead.
+        is_fraction_first: whether to prefer fractions to decimals that end.
         largest: the largest numerator and denominator of such fractions.
-        irrational: how an irrational number is written; None where it is a decimal.
+        irrational: writes an irrational number; None for a decimal.
         exponent: the letter before the power of ten.
-        point: whether whole numbers have a point: ``1.0``.
+        point: whether integers have a point: ``1.0``.
     """
 
     digits: int = FLOAT_DIGITS
@@ -50,21 +50,21 @@ class Style(Frozen):
         """A number in this style.
 
         Args:
-            x: exact, or an enclosure fine enough.
-            digits: of all numbers, where they are requested; fractions are decimals then.
+            x: exact, or a sufficiently fine enclosure.
+            digits: of all numbers, if requested; then fractions become decimals.
         """
         if digits is not None:
             return self._decimal(x, digits, is_short=False)
         if isinstance(x, Algebraic) and self.irrational is not None:
             return self.irrational(x)
         if isinstance(x, fmpq):
-            found = self._rational(x)
-            if found:
-                return found
+            rational = self._rational(x)
+            if rational:
+                return rational
         return self._decimal(x, self.digits, self.digits == FLOAT_DIGITS)
 
     def _rational(self, x: fmpq) -> str:
-        """A whole number, a decimal that ends, or a fraction; empty where it is to be rounded."""
+        """An integer, a decimal that ends, or a fraction; empty if it must be rounded."""
         if x.q == 1 and abs(x.p) <= self.largest:
             return self._around(f"{x}.0" if self.point else str(x))
         p, q = int(x.p), int(x.q)
@@ -81,8 +81,8 @@ class Style(Frozen):
         return fraction
 
     def _decimal(self, x: Cell, digits: int, is_short: bool) -> str:
-        found = Decimal(repr(nearest_float(x))) if is_short else rounded(x, digits)
-        return self._around(self.laid_out(found))
+        nearest = Decimal(repr(nearest_float(x))) if is_short else rounded(x, digits)
+        return self._around(self.laid_out(nearest))
 
     def _around(self, text: str) -> str:
         return self.decimal.format(x=text)
@@ -94,7 +94,7 @@ class Style(Frozen):
         ('-0.125', '1.25e-8')
         """
         digits, whole = _digits(x), "0" if self.point else ""
-        # what is before the point, counted from the first digit
+        # the digits before the point, counted from the first one
         before = x.adjusted() + 1
         if not x or -MOST_ZEROS < before <= max(len(digits), FLOAT_DIGITS):
             text, _, rest = f"{x:f}".partition(".")
@@ -110,7 +110,7 @@ def _digits(x: Decimal) -> str:
 
 
 def ending(x: fmpq) -> Decimal | None:
-    """A decimal that ends, exactly; None for other fractions.
+    """The exact decimal of a fraction; None if it does not end.
 
     >>> ending(fmpq(-1, 8)), ending(fmpq(1, 3)), ending(fmpq(300))
     (Decimal('-0.125'), None, Decimal('300'))
@@ -131,18 +131,18 @@ EXACT = Style(
     irrational=str,
     point=False,
 )
-"""As method files have it: nothing is lost."""
+"""Exact, as in method files."""
 PYTHON = Style(longest=100, fraction="{p}/{q}", point=False)
-"""Python and MATLAB round the quotient of two whole numbers, and a decimal of any length, once."""
+"""Python and MATLAB round the quotient of two integers, and a decimal of any length, once."""
 DECIMALS = Style()
-"""The floats of languages that divide no whole numbers as they read them."""
+"""The floats of languages that divide no integers as they read them."""
 
 
 def c_style(macro: str, digits: int = 36) -> Style:
     """Numbers inside a macro that gives them the suffix of their type.
 
-    A quotient of two whole numbers that the type has is right in every precision; 36 digits are
-    enough for binary128.
+    A quotient of two integers of the type is right in every precision; 36 digits are enough for
+    binary128.
     """
     return Style(
         digits=digits,

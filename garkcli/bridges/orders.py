@@ -1,4 +1,4 @@
-"""The orders that the head of an exported file names, proved when it is written."""
+"""The orders in the head of an exported file, proved when it is written."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Orders(Frozen):
-    """What was proved.
+    """The proved orders of a method.
 
     Attributes:
         order: of the method.
-        is_lower_bound: whether it is known only that the order is no smaller.
-        embedded: the order with the embedded weights; None without them.
-        nonautonomous: the order for y' = f(t, y) with the nodes as they are, where nodes are not
-            the row sums; None where it is the order, or has no meaning.
-        w_order: of a Rosenbrock method with any matrix for its Jacobian; else None.
-        tolerance: within which the conditions are met; None where they hold exactly.
-        embedded_tolerance: the same of those of the embedded weights.
+        is_lower_bound: whether the order may be higher.
+        embedded: the order of the embedded weights; None without them.
+        nonautonomous: the order for y' = f(t, y) with the given nodes, if these are not the row
+            sums; None if it equals the order, or is not applicable.
+        w_order: of a Rosenbrock method with any matrix for its Jacobian; None for others.
+        tolerance: within which the conditions hold; None if they hold exactly.
+        embedded_tolerance: the same for the conditions of the embedded weights.
     """
 
     order: int
@@ -39,7 +39,7 @@ class Orders(Frozen):
 
     @property
     def effective(self) -> int:
-        """The order on whatever problem, time in it or not: as targets name it."""
+        """The order for any problem, with time or not: the order that targets name."""
         if self.nonautonomous is None:
             return self.order
         return min(self.order, self.nonautonomous)
@@ -70,12 +70,12 @@ def _how(tolerance: fmpq | None) -> str:
 
 
 def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | None) -> Orders:
-    """Prove the orders of a method.
+    """Proves the orders of a method.
 
     Args:
         tableau: the method.
         embedded: its embedded weights; None without them.
-        tolerance: the rounding of its coefficients; None where they are exact.
+        tolerance: the rounding of its coefficients; None if they are exact.
     """
     method = meant(tableau, tolerance)
     if is_rosenbrock(tableau):
@@ -93,7 +93,6 @@ def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | No
 
 
 def _of_rosenbrock(method: AnyTableau, embedded: Weights | None) -> Orders:
-    """The orders of a Rosenbrock method."""
     order = order_of(method)
     views: tuple[Which, Which] = ("with_any_matrix", "with_time")
     w_order, timed = (order_of(seen(method, x)) for x in views)

@@ -1,6 +1,6 @@
-"""Methods of further kinds as targets have them: the arrays of their papers, by their names.
+"""Methods of further kinds for targets: the arrays of their papers, by their names.
 
-They are Nyström methods, nonlinearly partitioned ones, and those that use derivatives of f.
+They are Nyström methods, nonlinearly partitioned ones, and multiderivative ones.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 OwnKind: TypeAlias = Literal["nystrom", "nprk", "derivatives"]
 Nested: TypeAlias = tuple[Any, ...]
-"""Entries in as many tuples as the array has dimensions."""
+"""Entries in as many nested tuples as the array has dimensions."""
 OwnArrays: TypeAlias = Mapping[str, Nested]
 KINDS: Mapping[Kind, str] = {
     "nystrom": "Nyström methods",
@@ -29,7 +29,7 @@ KINDS: Mapping[Kind, str] = {
 
 
 def own_kind(tableau: Tableau) -> OwnKind | None:
-    """Which of these kinds a method has; None for any other."""
+    """The one of these kinds that a method has; None for any other."""
     if tableau.uses_derivatives:
         return "derivatives"
     if tableau.has_fields_alone:
@@ -43,12 +43,12 @@ def own_arrays(kind: OwnKind, tableau: Tableau, further: Further) -> OwnArrays:
     """The arrays of a method of such a kind.
 
     Args:
-        kind: of it.
+        kind: the kind.
         tableau: its tableau.
-        further: its embedded weights and its dense output.
+        further: its embedded weights and dense output.
     """
-    made = {"nystrom": _of_nystrom, "nprk": _of_nprk, "derivatives": _of_derivatives}[kind]
-    return {name: rows for name, rows in made(tableau, further) if rows is not None}
+    make = {"nystrom": _of_nystrom, "nprk": _of_nprk, "derivatives": _of_derivatives}[kind]
+    return {name: rows for name, rows in make(tableau, further) if rows is not None}
 
 
 _Named: TypeAlias = Iterator[tuple[str, Nested | None]]
@@ -82,11 +82,11 @@ def _of_derivatives(tableau: Tableau, further: Further) -> _Named:
 
 
 def stepped_values(payload: Payload) -> Mapping[str, Any]:
-    """What the template of a program that steps has.
+    """The values in the template of a program that steps.
 
     Raises:
-        CannotExport: a stage needs a later one; or itself, where its equations need derivatives of
-            more than F.
+        CannotExport: a stage depends on a later one; or on itself, if its equations involve
+            derivatives of more than F.
     """
     kind, arrays, name = own_kind(payload.tableau), payload.own, payload.name
     assert kind is not None
@@ -111,11 +111,11 @@ def stepped_values(payload: Payload) -> Mapping[str, Any]:
 
 
 def _latest(matrix: Nested) -> int:
-    """The last stage that is an argument where the matrix is not zero; −1 where it is."""
+    """The last stage that is an argument with a nonzero weight; −1 if there is none."""
     places = [(j, k) for j, row in enumerate(matrix) for k, x in enumerate(row) if x]
     return max(map(max, places), default=-1)
 
 
 def _depth(array: object) -> int:
-    """How many dimensions an array has."""
+    """The number of dimensions of an array."""
     return 1 + _depth(array[0]) if isinstance(array, tuple) else 0

@@ -1,4 +1,4 @@
-"""Changed sources as a patch: a unified diff that ``patch -p1`` and ``git apply`` take."""
+"""Changed sources as a patch: a unified diff for ``patch -p1`` and ``git apply``."""
 
 from __future__ import annotations
 
@@ -26,13 +26,14 @@ def patches(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[tuple[Me
 
 
 def patch_of(source: str, before: str, after: str) -> str:
-    """The unified diff of one file; empty where nothing changes, where it would have signs that
-    command a terminal or the runner of a job, or no path below the current folder.
+    """The unified diff of one file; empty if nothing changes, if it would contain control sequences
+    for a terminal or commands for the runner of a job, or if the path is not below the current
+    folder.
 
     Args:
         source: its path.
         before: its text.
-        after: the text that it is to have.
+        after: its new text.
     """
     name = _name_of(source)
     if not name or before == after:
@@ -52,14 +53,14 @@ def patch_of(source: str, before: str, after: str) -> str:
 
 
 def _name_of(source: str) -> str:
-    """The path of a file below the current folder; empty where it is not, or cannot be written."""
+    """The path of a file below the current folder; empty if it is not, or cannot be written."""
     try:
         name = Path(os.path.relpath(source)).as_posix()
-    except ValueError:  # of another drive
+    except ValueError:  # on another drive
         return ""
     if name.startswith("../") or not name.isprintable() or set(name) & {'"', "\\"}:
         return ""
-    # as git ends it: what is behind a tab is no name
+    # git ends such a path with a tab
     return f"{name}\t" if " " in name else name
 
 
@@ -69,5 +70,5 @@ def _lines(text: str) -> Sequence[str]:
 
 
 def _range(start: int, stop: int) -> str:
-    """Lines as the head of a hunk has them, from 1."""
+    """A range of lines in the head of a hunk, from 1."""
     return f"{start + 1}" if stop - start == 1 else f"{start + 1},{stop - start}"

@@ -1,4 +1,4 @@
-"""What a writer gets: one method with every number of it exact, and what gark proved about it."""
+"""The input of writers: one method with all numbers exact, and its proved orders."""
 
 from __future__ import annotations
 
@@ -29,43 +29,43 @@ Kind: TypeAlias = Literal[
     "rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives", "mri"
 ]
 """One vector field; several that share all stages; the pair (q, p); any other GARK method; a
-Rosenbrock method; the kinds with arrays of their own; a multirate method with the exact fast part.
+Rosenbrock method; the kinds with their own arrays; a multirate method with an exact fast part.
 """
 SCHEMA = "gark/export/1"
 """The format of JSON documents."""
 
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
-"""An array: its colour and, of a block, the colour that it sees, from 1; its rows."""
+"""An array: its colour and, for a block, the colour of its columns, from 1; its rows."""
 
 
 class Payload(Frozen, eq=False, kw_only=True):
-    """A method as writers see it. Colours and stages count from 0.
+    """A method for writers. Colours and stages count from 0.
 
     Attributes:
-        name: one line, whatever signs are in it.
-        kind: which form it has.
-        tableau: with one coordinate a stage where the nodes have simple radicals.
-        A: ``A[l][m]`` is a matrix, or None where the stages of colour l do not see colour m;
-            entries are exact numbers, or enclosures fine enough to be rounded.
-        b: the weights, a row per colour.
-        c: the nodes, a row per colour.
-        embedded: the embedded weights, a row per colour.
+        name: one line of any signs.
+        kind: its form.
+        tableau: on point stages if the nodes have simple radicals.
+        A: ``A[l][m]`` is a matrix, or None if the stages of colour l do not depend on colour m;
+            entries are exact numbers, or enclosures fine enough for rounding.
+        b: the weights of each colour.
+        c: the nodes of each colour.
+        embedded: the embedded weights of each colour.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         predictor: the weights that predict stages.
-        orders: what was proved.
+        orders: the proved orders.
         is_exact: whether every entry is an exact number.
-        tolerance: the rounding that A, b and c of the file admit; None where they are exact.
-        embedded_tolerance: that of its embedded weights.
-        dense_tolerance: that of its dense output.
-        structure: which vector fields the method is for, such as ``general``, ``separable``.
-        reference: where it was published, in one line.
-        digits: of every number, where they were requested.
-        moved_within: how far they are from those of the file at most, where these have fewer
-            digits; None where they are the same.
-        rosenbrock: of a Rosenbrock method, whose α, b and c are A, b and c; else None.
-        own: of a method whose kind has arrays of its own, these; A, b and c are empty then.
+        tolerance: the rounding of A, b and c in the file; None if they are exact.
+        embedded_tolerance: the rounding of its embedded weights.
+        dense_tolerance: the rounding of its dense output.
+        structure: of the vector fields, such as ``general``, ``separable``.
+        reference: its publication, in one line.
+        digits: of every number, if requested.
+        moved_within: a bound on the distance to the numbers of the file, if these have fewer
+            digits; None if they are the same.
+        rosenbrock: a Rosenbrock method, with α, b and c in A, b and c; None for others.
+        own: the arrays of kinds with their own arrays; then A, b and c are empty.
         coupling: between the slow stages of a multirate infinitesimal method.
-        derivation: whether it is the conjugate or the pair of what a file gives.
+        derivation: whether it is the conjugate or the pair of the method of the file.
         version: of gark.
     """
 
@@ -100,16 +100,14 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages of each colour; those of the method where these are no GARK
-        stages.
-        """
+        """The number of stages of each colour; for kinds with their own arrays of the method."""
         if self.own is not None:
             return (len(self.own["c"]),)
         return tuple(map(len, self.b))
 
     @property
     def parts(self) -> Mapping[str, list[Part]]:
-        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by colour; of a
+        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by colour; for a
         predictor ``predictor_old_r0`` and so on, a matrix for each power of r.
         """
         blocks: list[Part] = [
@@ -119,36 +117,36 @@ class Payload(Frozen, eq=False, kw_only=True):
             if block is not None
         ]
         rows = {"b": self.b, "c": self.c, "embedded": self.embedded or ()}
-        found = {"A": blocks}
+        arrays = {"A": blocks}
         for x, of_colours in rows.items():
-            found[x] = [(l, "", (row,)) for l, row in enumerate(of_colours, start=1)]
-        found["dense"] = [(l, "", weights) for l, weights in enumerate(self.dense or (), start=1)]
+            arrays[x] = [(l, "", (row,)) for l, row in enumerate(of_colours, start=1)]
+        arrays["dense"] = [(l, "", weights) for l, weights in enumerate(self.dense or (), start=1)]
         if self.predictor is not None:
             for name, matrices in (("old", self.predictor.old), ("new", self.predictor.new)):
                 for k, matrix in enumerate(matrices):
-                    found[f"predictor_{name}_r{k}"] = [(1, "", matrix)]
-        return found
+                    arrays[f"predictor_{name}_r{k}"] = [(1, "", matrix)]
+        return arrays
 
     def arrays(self, before: str = "") -> list[tuple[str, Sequence[Row]]]:
-        """The arrays, each with a name for programs: ``A``, ``b``; ``A1_2``, ``b2`` of several
-        vector fields, with ``before`` between the letter and its numbers.
+        """The arrays with names for programs: ``A``, ``b``; for several vector fields ``A1_2``,
+        ``b2``, with ``before`` between the letter and its numbers.
         """
-        found = [(part, *x) for part, arrays in self.parts.items() for x in arrays]
-        found.sort(key=lambda x: (x[0] != "A", x[1]))
+        parts = [(part, *x) for part, arrays in self.parts.items() for x in arrays]
+        parts.sort(key=lambda x: (x[0] != "A", x[1]))
         if self.size == 1:
-            return [(part, rows) for part, _, _, rows in found]
-        return [(f"{part}{before}{l}{m and f'_{m}'}", rows) for part, l, m, rows in found]
+            return [(part, rows) for part, _, _, rows in parts]
+        return [(f"{part}{before}{l}{m and f'_{m}'}", rows) for part, l, m, rows in parts]
 
     @cached_property
     def stem(self) -> str:
-        """The name as ASCII letters, digits and underscores, for what is put behind ``gark_``."""
+        """The name in ASCII letters, digits and underscores, for identifiers after ``gark_``."""
         return names.stem_of(self.name)
 
     def number(self, x: Cell, style: Style = EXACT) -> str:
-        """An entry in the style of a language, with the digits that were requested.
+        """An entry in the style of a language, with the requested digits.
 
         Raises:
-            CannotExport: an enclosure does not tell how it is rounded.
+            CannotExport: an enclosure is too wide for rounding.
         """
         try:
             return style.text(x, self.digits)

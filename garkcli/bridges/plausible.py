@@ -1,4 +1,4 @@
-"""Whether arrays called A and b are a method at all: other matrices have such names, too."""
+"""Whether arrays called A and b are a method at all: other matrices have these names, too."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from garkcli.sources import naming
 from garkcli.sources.found import FoundTable
 
 _SHORT = re.compile("euler|midpoint|implicit|trapez|crank", re.IGNORECASE)
-"""Words for methods of few numbers."""
+"""Words for methods with few numbers."""
 NEAR = 0.01
-"""Sums that differ by less are meant to be the same."""
+"""Sums that differ by less are taken to be equal."""
 TINY = 1e-9
-"""Conditions that are missed by less are meant."""
+"""Conditions with smaller residuals are taken to hold."""
 FAR = 0.5
-"""Weights of a method have a sum that is nearer to 1, misprints included."""
+"""Largest distance of the sum of weights from 1, misprints included."""
 
 
 def is_plausible(table: FoundTable, method: MethodFile) -> bool:
-    """Whether a table is a method: its source says so, or its numbers do. Whole numbers, of one
-    stage or without nodes, need words.
+    """Whether a table is a method, by its source or its numbers. Integers with one stage or without
+    nodes need words.
 
-    Where no reading of them tells, as of several misprints, the sum of its weights is near 1, and
-    its nodes are the row sums of half of its rows; without nodes order 2 nearly holds, or its
-    matrix is triangular.
+    If no reading of the numbers decides, as with several misprints, the sum of the weights must be
+    near 1, and the nodes the row sums of half of the rows; without nodes order 2 must nearly hold,
+    or the matrix be triangular.
     """
     if table.is_sure or table.linked:
         return True
@@ -60,20 +60,20 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     )
     is_quadrature = by_nodes < TINY and abs(_sum(colour.b) - 1) < TINY
     if speaks(table) and is_quadrature and by_rows > NEAR:
-        # the matrix is wrong
+        # only the matrix is wrong
         return not _are_whole((*rows, colour.b))
-    # whole numbers alone may be a linear system, whose zeros agree
+    # integers alone may be a linear system, whose zeros agree
     return agreeing >= (len(rows) if _are_whole((*rows, colour.b)) else len(rows) / 2)
 
 
 def speaks(table: FoundTable) -> bool:
-    """Whether the names of a table, around it or of its source are those of a method."""
+    """Whether the names of a table, around it or of its source are words for methods."""
     words = f"{table.name} {table.around} {PurePath(table.source).name}"
     return naming.speaks(words) or _SHORT.search(words) is not None
 
 
 def _are_whole(rows: Iterable[Sequence[Number]]) -> bool:
-    """Whether there are no fractions in some rows."""
+    """Whether all numbers are integers."""
     return all(isinstance(x, fmpq) and x.q == 1 for row in rows for x in row)
 
 

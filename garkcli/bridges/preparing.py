@@ -1,4 +1,4 @@
-"""From a method to what writers get: entries at points, zeros proved, orders decided."""
+"""Methods as input of writers: entries at points, zeros proved, orders decided."""
 
 from __future__ import annotations
 
@@ -29,21 +29,21 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 EXTRA = 120
-"""Digits of enclosures beyond those that are written: nines and zeros show rounding."""
+"""Digits of enclosures beyond the written ones: nines and zeros reveal rounding."""
 USUAL = 40
-"""More digits than any target writes where none are requested."""
+"""More digits than any target writes by default."""
 
 
 @doing("numbers and orders")
 def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
-    """What writers get of a method.
+    """The input of writers for a method.
 
     Args:
-        method: as it was read from a file, or the conjugate or the pair of such a method.
-        digits: of every number, where they are requested.
+        method: as read from a file, or the conjugate or the pair of such a method.
+        digits: of every number, if requested.
 
     Raises:
-        CannotExport: no target writes a method like this.
+        CannotExport: no target writes such a method.
         MethodError: it was not read from a file.
     """
     file = method if method.base is None else method.base
@@ -64,7 +64,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         N = len(row.b)
         embedded, dense = embedded and embedded[:N], dense and DenseOutput(dense.weights[:N])
         tableau = row.without_jacobian
-    found = _NO_ENTRIES if own else _entries(tableau, digits)
+    cells = _NO_ENTRIES if own else _entries(tableau, digits)
     kind: Kind = own or (kind_of(tableau) if row is None else "row")
     if own is None and tableau.exact_to is not None:
         kind = "mri"
@@ -74,10 +74,10 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         ),
         kind=kind,
         tableau=tableau if own else in_points(tableau) or tableau,
-        A=found.A,
-        b=found.b,
-        c=found.c,
-        is_exact=found.is_exact,
+        A=cells.A,
+        b=cells.b,
+        c=cells.c,
+        is_exact=cells.is_exact,
         orders=orders,
         embedded=None if own else embedded,
         own=own_arrays(own, tableau, method.further) if own else None,
@@ -97,18 +97,18 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
 
 
 _NO_ENTRIES = Entries((), (), (), is_exact=True, digits=0, have_radicals=True)
-"""Of methods with arrays of their own."""
+"""For methods with their own arrays."""
 
 
 def _tolerance(method: GarkMethod) -> fmpq | None:
-    """The largest rounding of its numbers; None where all are exact."""
-    found = (method.tolerance, method.embedded_tolerance, method.dense_tolerance)
-    return max((t for t in found if t is not None), default=None)
+    """The largest rounding of its numbers; None if all are exact."""
+    tolerances = (method.tolerance, method.embedded_tolerance, method.dense_tolerance)
+    return max((t for t in tolerances if t is not None), default=None)
 
 
 def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> GarkMethod:
-    """The method; where more digits are requested than its file has, the one that these are taken
-    to be a rounding of.
+    """The method; if more digits are requested than its file has, a method with more digits that
+    rounds to it.
     """
     tolerance = _tolerance(method)
     if tolerance is None or digits is None:
@@ -123,19 +123,19 @@ def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> Ga
             " recover more"
         )
         raise CannotExport(message, "leave out --digits")
-    # files that are exact do without
+    # exact files have all digits
     from garkcli.api.methods import conjugate, pair
     from garkcli.conversion.convert import convert
 
-    found: GarkMethod = convert(file, "recovered", digits=places).method
-    made = {"conjugate": conjugate, "pair": pair}.get(method.derivation)
-    if made is not None:
-        found = made(found)
-    return found
+    recovered: GarkMethod = convert(file, "recovered", digits=places).method
+    derive = {"conjugate": conjugate, "pair": pair}.get(method.derivation)
+    if derive is not None:
+        recovered = derive(recovered)
+    return recovered
 
 
 def _name(method: MethodFile) -> str:
-    """Its name; without one that of its file, whatever folder it is in."""
+    """Its name; without one that of its file, without the folder."""
     if method.name != method.source:
         return method.name
     base = re.split(r"[\\/]", method.source)[-1]
@@ -143,7 +143,7 @@ def _name(method: MethodFile) -> str:
 
 
 def kind_of(tableau: Tableau) -> Kind:
-    """Which form a tableau has."""
+    """The form of a tableau."""
     if [colour.part for colour in tableau.colours] == ["q", "p"]:
         return "prk"
     if tableau.size == 1 and not tableau.is_partitioned:
@@ -153,21 +153,21 @@ def kind_of(tableau: Tableau) -> Kind:
 
 
 def _entries(tableau: Tableau, digits: int | None) -> Entries:
-    """The entries, exact where that is possible; enclosures of zero are exact zeros, and so is the
-    block that a method for one vector field lacks.
+    """The entries, exact if possible; enclosures of zero become exact zeros, and so does a missing
+    block of a method for one vector field.
     """
-    found = entries(tableau, max(digits or 0, USUAL) + EXTRA)
-    if not found.is_exact:
+    cells = entries(tableau, max(digits or 0, USUAL) + EXTRA)
+    if not cells.is_exact:
         A = [
             tuple(_block(tableau, l, m, block) for m, block in enumerate(blocks))
-            for l, blocks in enumerate(found.A)
+            for l, blocks in enumerate(cells.A)
         ]
-        c = [_nodes(tableau, l, row) for l, row in enumerate(found.c)]
-        found = replace(found, c=tuple(c), A=tuple(A))
-    if tableau.size == 1 and found.A[0][0] is None:
-        zeros = (ZERO,) * len(found.b[0])
-        return replace(found, A=(((zeros,) * len(zeros),),))
-    return found
+        c = [_nodes(tableau, l, row) for l, row in enumerate(cells.c)]
+        cells = replace(cells, c=tuple(c), A=tuple(A))
+    if tableau.size == 1 and cells.A[0][0] is None:
+        zeros = (ZERO,) * len(cells.b[0])
+        return replace(cells, A=(((zeros,) * len(zeros),),))
+    return cells
 
 
 def _nodes(tableau: Tableau, l: int, row: Row) -> Row:
@@ -189,7 +189,7 @@ def _nodes(tableau: Tableau, l: int, row: Row) -> Row:
 
 
 def _block(tableau: Tableau, l: int, m: int, block: Block) -> Block:
-    """A block, with zeros that are proved to be zero."""
+    """A block, with exact zeros for entries that are proved to vanish."""
     place = tableau.colours[l].space, m
 
     def cell(i: int, j: int, x: Cell) -> Cell:

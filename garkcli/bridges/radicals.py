@@ -1,4 +1,4 @@
-"""Irrational numbers exactly, in the languages that have roots."""
+"""Irrational numbers in the languages with exact roots."""
 
 from __future__ import annotations
 
@@ -11,16 +11,15 @@ from garkcli.exact.rewriting import PlainText
 
 
 class Radicals(PlainText, ABC):
-    """How a language writes a sum of multiples of radicals; each says what is its own."""
+    """Writes sums of multiples of radicals; subclasses fill in their language."""
 
     POWER = "^"
 
     @abstractmethod
     def rational(self, x: fmpq) -> str:
-        """A positive rational number, as a factor that needs no parentheses."""
+        """A positive rational number, as a factor without parentheses."""
 
     def text(self, x: Algebraic) -> str:
-        """The number."""
         text = ""
         for coefficient, word in x.terms():
             factors = [self.tight(x.field.radicals[index][0]) for index in word]

@@ -1,4 +1,4 @@
-"""Exact forms of decimals: proposed from their digits, taken where the order does not fall."""
+"""Exact forms of decimals: proposed from their digits, accepted if the order does not fall."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from garkcli.frozen import Frozen, replace
 from garkcli.sources.found import FoundTable
 
 MAX_NUMBERS = 400
-"""Most different decimals that are examined."""
+"""Most distinct decimals that are examined."""
 
 
 class Recognised(Frozen):
     """A method with exact forms in place of decimals.
 
     Attributes:
-        method: with those that were taken.
-        taken: what was taken.
-        refused: what was proposed, and with which the order falls.
-        left: decimals that nothing was proposed for.
+        method: with the accepted forms.
+        taken: accepted proposals.
+        refused: proposals with which the order falls.
+        left: decimals without a proposal.
     """
 
     method: Subject
@@ -34,7 +34,7 @@ class Recognised(Frozen):
     left: tuple[str, ...]
 
     def notes(self) -> Iterator[str]:
-        """What people should know, a sentence each."""
+        """Remarks for users, one sentence each."""
         yield from (f"{x.printed} is {x.exact}, {x.distance} away" for x in self.taken)
         for x in self.refused:
             yield f"{x.printed} is not {x.exact}: with it the order falls"
@@ -42,19 +42,19 @@ class Recognised(Frozen):
 
 
 def recognised(before: Subject, name: str, is_as_found: bool = False) -> Recognised:
-    """The method with exact numbers, as many as the certificate of the order bears out.
+    """The method with as many exact numbers as the certificate of the order confirms.
 
     Args:
-        before: as it was imported.
-        name: what its file calls it.
-        is_as_found: whether the file claims what is true instead of what the source declares.
+        before: the imported method.
+        name: the name in its file.
+        is_as_found: whether the file claims the true orders instead of the declared ones.
     """
     texts = dict.fromkeys(numbers_of(before.table))
     decimals = [x for x in texts if significant_digits(x) >= FEWEST_DIGITS]
-    found = {x: proposed(x) for x in decimals[:MAX_NUMBERS]}
-    left = tuple(x for x in decimals if found.get(x) is None)
-    # the shortest forms are the surest; the longest are given up first
-    kept = sorted(filter(None, found.values()), key=lambda x: len(x.exact))
+    proposals = {x: proposed(x) for x in decimals[:MAX_NUMBERS]}
+    left = tuple(x for x in decimals if proposals.get(x) is None)
+    # the shortest forms are the most certain, so the longest are given up first
+    kept = sorted(filter(None, proposals.values()), key=lambda x: len(x.exact))
     refused: list[Proposal] = []
     while kept:
         after = _with(before.table, {x.printed: x.exact for x in kept}, name, is_as_found)
@@ -71,7 +71,7 @@ def _orders(found: Subject) -> list[int]:
 def _with(
     table: FoundTable, exact: Mapping[str, str], name: str, is_as_found: bool
 ) -> Subject | None:
-    """The method with other texts; what the source says of its rounding goes."""
+    """The method with other texts, without the rounding given in the source."""
 
     def changed(value: Any) -> Any:
         return tuple(map(changed, value)) if isinstance(value, tuple) else exact.get(value, value)

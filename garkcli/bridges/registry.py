@@ -1,4 +1,4 @@
-"""The targets of ``gark export``: what each declares, what it is given, and the list of them."""
+"""The targets of ``gark export``: their declarations, their input, and the list of them."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ from garkcli.frozen import Frozen
 
 EMBEDDED, DENSE, PREDICTOR = "embedded weights", "dense output", "predictor"
 Stages: TypeAlias = Literal["any", "lower", "explicit"]
-"""Which stages a target computes: all together, one after the other, explicit ones alone."""
+"""The stages that a target computes: all together, one after the other, or only explicit ones."""
 
 
 class FileName(Frozen):
-    """How the file has to be called that a program runs.
+    """The required name of a file that a program runs.
 
     Attributes:
-        pattern: of the whole name.
-        why: what the language does with it.
+        pattern: a regular expression for the whole name.
+        why: the reason in the language.
         cure: for other names.
     """
 
@@ -50,33 +50,33 @@ class FileName(Frozen):
 
 
 class Bridge(Frozen):
-    """One target.
+    """A target of ``gark export``.
 
     Its template is ``templates/NAME.SUFFIX.jinja``, that of its program ``NAME_test.ENDING.jinja``.
 
     Attributes:
-        name: on the command line.
-        summary: half a line.
-        suffix: of its files.
-        kinds: the forms of methods that it can hold, some of them under conditions.
-        style: of its numbers.
-        stages: which it computes.
-        several: what it is given of several vector fields: ``as they are`` the blocks of the
-            method, ``shared`` a table each on the same stages, ``pair`` the explicit table and
+        name: the word on the command line.
+        summary: half a line on the target.
+        suffix: the ending of its files.
+        kinds: the forms of methods that it can hold, some under conditions.
+        style: the format of its numbers.
+        stages: the stages that it computes.
+        several: its input for several vector fields: ``as they are`` for the blocks of the method,
+            ``shared`` for a table each on the same stages, ``pair`` for the explicit table and
             another one.
         is_split: whether it takes a method for (q, p) as kicks and drifts.
-        starts: whether an explicit first stage has to be at the beginning of a step.
-        ends: whether explicit methods get a last stage that is the first of the next step.
-        lacks: what its files have no place for.
-        has_predictor: whether they have one for weights that predict stages.
-        values: what its template has beyond what all have, from the method and its tables; raises
+        starts: whether an explicit first stage must be at the beginning of a step.
+        ends: whether to append to explicit methods a last stage that is the first of the next step.
+        lacks: the further weights without a place in its files.
+        has_predictor: whether its files have a place for a predictor.
+        values: makes further values for its template from the method and its tables; raises
             ``CannotExport`` with the reason and the cure.
-        words: how its programs write the right-hand sides; None where nothing runs it.
-        file: how its file has to be called to be run.
-        reads_back: whether ``gark import`` reads what it writes.
-        write: the file of a method, where no template writes it.
-        linear: what its template for Rosenbrock methods, ``NAME-row.SUFFIX.jinja``, has beyond what
-            all have; raises ``CannotExport`` with the reason and the cure.
+        words: for right-hand sides in its programs; None if there are no programs.
+        file: the required name of its file for a program.
+        reads_back: whether ``gark import`` reads its files.
+        write: makes the file of a method, if no template does.
+        linear: makes further values for its template for Rosenbrock methods,
+            ``NAME-row.SUFFIX.jinja``; raises ``CannotExport`` with the reason and the cure.
     """
 
     name: str
@@ -99,15 +99,15 @@ class Bridge(Frozen):
     linear: Callable[[Payload], Values] = lambda payload: {"linear": printed_stages(payload)}
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
-        """A program that runs a method, and its problem, by what is put after the stem of the
-        table's name: ``_test.c``; none where the target is data.
+        """A program that runs a method, and its problem, by the ending after the stem of the
+        table's name: ``_test.c``; empty if the target is data.
 
         Args:
             payload: the method.
-            file: the name of the file with its table, no folder.
+            file: the name of the file with its table, without folder.
 
         Raises:
-            CannotExport: the target cannot hold it, or the file must have another name.
+            CannotExport: the target cannot hold the method, or the file must have another name.
         """
         if self.words is None:
             return {}
@@ -129,19 +129,19 @@ class Bridge(Frozen):
         """The file of a method.
 
         Raises:
-            CannotExport: the target cannot hold it.
+            CannotExport: the target cannot hold the method.
         """
-        given = self._given(payload)
+        values = self._given(payload)
         if self.write is not None:
             return self.write(payload)
         form = "-own" if payload.own else "-row" if payload.kind == "row" else ""
-        return text_of(f"{self.name}{form}{self.suffix}", payload, self.style, given)
+        return text_of(f"{self.name}{form}{self.suffix}", payload, self.style, values)
 
     def _given(self, payload: Payload) -> Values:
-        """What the templates of the target have of a method.
+        """The values for the templates of the target.
 
         Raises:
-            CannotExport: the target cannot hold it.
+            CannotExport: the target cannot hold the method.
         """
         if payload.kind == "row" and payload.size > 1 and self.name != "json":
             message = f"{self.name} has no Rosenbrock methods of several colours"
@@ -156,32 +156,32 @@ class Bridge(Frozen):
             return {} if self.write else stepped_values(payload)
         fields: Sequence[int] = range(payload.size)
         if payload.kind == "prk" and self.is_split:
-            given = {"steps": self._steps(payload), "tables": [], "fields": fields}
-            return {**given, "left_out": _left_out(payload, (EMBEDDED, DENSE, PREDICTOR))}
+            of_steps = {"steps": self._steps(payload), "tables": [], "fields": fields}
+            return {**of_steps, "left_out": _left_out(payload, (EMBEDDED, DENSE, PREDICTOR))}
         tables = [table(payload)] if payload.kind == "rk" else []
         if payload.kind != "rk" and self.several != "as they are":
             tables = shared(payload)
             fields = self._pair(payload, tables) if self.several == "pair" else fields
         tables = [self._fitting(payload, tables[m]) for m in fields if tables]
-        late = [x.c[0] for x in tables if not vanishes(x.c[0])]
-        if self.starts and late and all(vanishes(x.A[0][0]) for x in tables):
-            node = payload.number(late[0])
+        late_nodes = [x.c[0] for x in tables if not vanishes(x.c[0])]
+        if self.starts and late_nodes and all(vanishes(x.A[0][0]) for x in tables):
+            node = payload.number(late_nodes[0])
             cure = "where f does not depend on t, set the first node to 0"
             message = f"the first node is {node}; {self.name} has an explicit first stage at t"
             raise CannotExport(message, cure)
-        found = {"tables": tables, **self.values(payload, tables)}
-        first = found["tables"][0] if tables else None
+        of_tables = {"tables": tables, **self.values(payload, tables)}
+        first = of_tables["tables"][0] if tables else None
         left_out = self._left_out(payload)
-        return {**found, "table": first, "fields": fields, "left_out": left_out}
+        return {**of_tables, "table": first, "fields": fields, "left_out": left_out}
 
     def _left_out(self, payload: Payload) -> list[str]:
         return _left_out(payload, self.lacks if self.has_predictor else (*self.lacks, PREDICTOR))
 
     def _steps(self, payload: Payload) -> Composition:
         """A method for (q, p) as kicks and drifts."""
-        found = composition(payload)
-        if found is not None:
-            return found
+        sequence = composition(payload)
+        if sequence is not None:
+            return sequence
         cure = _others(payload, "any")
         if payload.structure == "general":
             cure = f"for q' = f(p), p' = g(q) say so: structure: separable; {cure}"
@@ -192,7 +192,7 @@ class Bridge(Frozen):
         )
 
     def _pair(self, payload: Payload, tables: Sequence[Table]) -> Sequence[int]:
-        """The vector field that has an explicit table, and the other one."""
+        """The vector field with an explicit table, and the other one."""
         is_other = payload.tableau.is_partitioned and payload.kind != "prk"
         explicit = [m for m, x in enumerate(tables) if x.is_explicit]
         message = (
@@ -209,7 +209,9 @@ class Bridge(Frozen):
         raise CannotExport(message, _others(payload, "any"))
 
     def _fitting(self, payload: Payload, found: Table) -> Table:
-        """A table whose stages the target computes, with the last stage that it wants."""
+        """A table with stages that the target computes, and with the last stage that it
+        requires.
+        """
         holds = {"lower": found.is_diagonally_implicit, "explicit": found.is_explicit, "any": True}
         computed = [x for x in holds if holds[x]]
         if self.stages not in computed:
@@ -229,9 +231,9 @@ class Bridge(Frozen):
 
 EVERYTHING: tuple[Kind, ...] = ("rk", "ark", "prk", "gark")
 STEPPED: tuple[Kind, ...] = (*EVERYTHING, "row", *KINDS)
-"""With those for which templates write a function that steps."""
+"""The kinds for which templates write a function that steps."""
 _ENDINGS = {".hpp": ".cpp"}
-"""Of programs that are no files of the same kind as the tables."""
+"""Endings of programs that differ from those of the tables."""
 _KINDS: Mapping[Kind, str] = {
     "rk": "methods for one vector field",
     "ark": "methods for several vector fields that share their stages",
@@ -244,7 +246,7 @@ _KINDS: Mapping[Kind, str] = {
 
 
 def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
-    """What a method has that its file has no place for."""
+    """The further weights of a method without a place in its file."""
     has = {
         EMBEDDED: payload.embedded is not None,
         DENSE: payload.dense is not None,
@@ -254,7 +256,7 @@ def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
 
 
 def _others(payload: Payload, *stages: str) -> str:
-    """The targets that have methods of this form; those alone that compute such stages."""
+    """The targets for methods of this form that compute such stages."""
     known = [x for x in bridges().values() if payload.kind in x.kinds]
     names = [x.name for x in known if x.stages in stages or not stages]
     return f"these have: {', '.join(names)}"
@@ -262,19 +264,19 @@ def _others(payload: Payload, *stages: str) -> str:
 
 @lru_cache(maxsize=1)
 def bridges() -> Mapping[str, Bridge]:
-    """Every target by its name, in alphabetical order."""
-    found: dict[str, Bridge] = {}
+    """The targets by their names, in alphabetical order."""
+    by_name: dict[str, Bridge] = {}
     for module in pkgutil.iter_modules(targets.__path__):
         for bridge in import_module(f"{targets.__name__}.{module.name}").BRIDGES:
-            found[bridge.name] = bridge
-    return dict(sorted(found.items()))
+            by_name[bridge.name] = bridge
+    return dict(sorted(by_name.items()))
 
 
 def bridge_named(name: str, *others: str) -> Bridge:
-    """The target of that name; ``others`` are further words that the caller takes.
+    """The target of a name; ``others`` are further words that the caller accepts.
 
     Raises:
-        UsageProblem: there is none.
+        UsageProblem: there is no such target.
     """
     known = bridges()
     if name not in known:

@@ -1,5 +1,5 @@
-"""Rosenbrock and multirate infinitesimal methods of sources: their orders within what the digits
-say, and what is wrong.
+"""Rosenbrock and multirate infinitesimal methods of sources: their orders within their digits, and
+the findings.
 """
 
 from __future__ import annotations
@@ -31,27 +31,27 @@ from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 
 _LITTLE = 1e-9
-"""A smaller residual is one of rounding."""
+"""Smaller residuals are rounding."""
 MANY = 60
-"""Of so many rounded numbers each condition is judged by itself."""
+"""With more rounded numbers each condition is judged on its own."""
 MOST = -4
-"""The largest exponent of a power of ten that is a tolerance."""
+"""The largest exponent of a power of ten for a tolerance."""
 TINY = 1e-300
-"""In place of what is less than any float."""
+"""Stands for numbers below any float."""
 
 
 class _Within(Digits):
-    """A tableau with what the digits of its source leave open.
+    """A tableau with the freedom of the digits of its source.
 
     Attributes:
-        method: exact, or rounded so.
+        method: exact, or within this rounding.
     """
 
     printed: Any = ()
     units: Any = ()
     method: Any = None
 
-    def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:  # noqa: ARG002 -- theirs
+    def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:  # noqa: ARG002 -- an override
         """The tableau with its box."""
         if isinstance(self.method, Tableau):
             return RoundedTableau.printed(tableau, {})
@@ -64,7 +64,7 @@ class RowSubject(Subject):
 
     Attributes:
         timed: the order for f(t, y), with the c and d of the source.
-        careless: what its digits do not explain, and careless rounding does.
+        careless: violations that only careless rounding explains.
     """
 
     timed: Judged | None = None
@@ -82,39 +82,39 @@ class RowSubject(Subject):
 
 
 def _radii(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
-    """Ten units of the last digit of each decimal that is long beside the others."""
+    """Ten units in the last digit of each long decimal, and zero for others."""
     fewest = fewest_digits(text for text, _ in numbers)
     return [SLACK * unit_of(text, fewest) for text, _ in numbers]
 
 
 def with_row_orders(table: FoundTable, name: str = "") -> RowSubject:
-    """A table and its method with their orders; of the two signs of an error estimate the one with
-    the higher order.
+    """A table and its method with their orders; an error estimate gets the sign with the higher
+    order.
 
     Raises:
-        MethodFileError: its numbers make no method.
+        MethodFileError: its numbers give no method.
     """
-    found = _subject(table, read(table, name))
-    embedded = found.embedded_order
-    # conditions are linear in the weights: both signs miss what e alone misses
-    if table.error is None or embedded is None or embedded.order != found.order.order:
-        return found
+    subject = _subject(table, read(table, name))
+    embedded = subject.embedded_order
+    # conditions are linear in the weights: both signs fail those that e alone fails
+    if table.error is None or embedded is None or embedded.order != subject.order.order:
+        return subject
     turned = replace(table, error=tuple(f"-({x})" for x in table.error))
     other = _subject(turned, read(turned, name))
     assert other.embedded_order is not None
     if other.embedded_order.order <= embedded.order:
-        return found
+        return subject
     sign = f"order {other.embedded_order.order} with the embedded weights m + e, as they are read"
     return replace(other, sign=f"{sign}, and {embedded.order} with m - e")
 
 
 def _careless(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
-    """The radii of numbers that were computed in floats, which lost digits."""
-    found = []
+    """The radii of numbers computed in floats, which lost digits."""
+    radii = []
     for radius, (_, x) in zip(_radii(numbers), numbers, strict=True):
         least = CARELESS * FLOAT * (1 + rounded_up(abs(to_ball(x))))
-        found.append(max(radius * (CARELESS // SLACK), least) if radius else radius)
-    return found
+        radii.append(max(radius * (CARELESS // SLACK), least) if radius else radius)
+    return radii
 
 
 def _subject(table: FoundTable, method: MethodFile) -> RowSubject:
@@ -122,19 +122,19 @@ def _subject(table: FoundTable, method: MethodFile) -> RowSubject:
     if not _misses_by_little(found):
         return found
     again = _within(table, method, within_digits(method.tableau, _careless))
-    said = tuple(_explained(found, again))
-    return replace(again, careless=said) if said else found
+    remarks = tuple(_explained(found, again))
+    return replace(again, careless=remarks) if remarks else found
 
 
 def _explained(found: RowSubject, again: RowSubject) -> Iterator[Remark]:
-    """The orders that careless rounding alone gives: a digit may be wrong as well."""
+    """The orders that only careless rounding explains: a wrong digit is possible as well."""
     what = ("order", "order where f depends on t", "embedded order")
     orders = None
     for name, one, other in zip(what, found.judged_orders, again.judged_orders, strict=True):
         if one is None or other is None or not one.order < other.order:
             continue
         if orders == (one.order, other.order):
-            continue  # time adds nothing
+            continue  # time changes nothing
         orders = one.order, other.order
         off = "" if other.rounded is None else f" by {_digits(other.rounded[1])}"
         message = f"{name} {other.order} if decimals are off{off}, {one.order} as they are printed"
@@ -146,20 +146,20 @@ def _digits(off: fmpq) -> str:
 
 
 def _misses_by_little(found: RowSubject) -> bool:
-    """Whether a condition fails by so little that careless rounding may be why."""
-    given = found.judged_orders
-    witnesses = [x.witness for x in given if x is not None and x.witness is not None]
+    """Whether a condition fails by so little that careless rounding may explain it."""
+    orders = found.judged_orders
+    witnesses = [x.witness for x in orders if x is not None and x.witness is not None]
     return any(abs(to_ball(x.residual)) < _LITTLE for x in witnesses)
 
 
 def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | None) -> RowSubject:
-    """The orders where the numbers are off by so much; those of exact ones without rounding."""
+    """The orders with numbers within their rounding; without rounding for exact ones."""
     within = method.tableau if rounded is None else rounded.of_orders()
     if _are_many(within):
         note = f"each condition is judged by itself, as more than {MANY} numbers are rounded"
         table = replace(table, notes=(*table.notes, note))
     order = _order(within, table.order)
-    # no higher one is of interest
+    # higher orders do not matter
     other_times = _with_time(table, within)
     timed = None if other_times is None else _order(other_times, table.order, order.order)
     embedded = None
@@ -184,19 +184,21 @@ def _order(method: AnyTableau, declared: int | None, limit: int | None = None) -
     if limit is None and declared:
         limit = declared + 1
     if _are_many(method):
-        found = method.one_by_one(limit or DEFAULT_LIMIT)
-        met = method.tableau, method.tolerance
-        return Judged(found.order, False, found.witness, met, found.is_lower_bound)
+        verdict = method.one_by_one(limit or DEFAULT_LIMIT)
+        within_rounding = method.tableau, method.tolerance
+        return Judged(
+            verdict.order, False, verdict.witness, within_rounding, verdict.is_lower_bound
+        )
     return judged(_Within(method=method), printed(method), declared, limit)
 
 
 def _are_many(method: AnyTableau) -> TypeGuard[RoundedTableau]:
-    """Whether it takes too long to find one method that meets all conditions together."""
+    """Whether it takes too long to find one method for all conditions together."""
     return isinstance(method, RoundedTableau) and len(method.search.box.numbers) > MANY
 
 
 def row_findings(subject: RowSubject) -> Iterator[Remark]:
-    """What is wrong with such a method."""
+    """The findings about such a method."""
     yield from subject.careless
     table, order = subject.table, subject.order
     declared = table.order
@@ -220,7 +222,7 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
 
 
 def _differing(what: str, found: Judged, declared: int) -> Remark:
-    """A declared order that is not the true one."""
+    """The remark on a declared order that is not the true one."""
     code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
     if found.order > declared:
         return Remark(message, code=f"{code}-higher", level="warning")
@@ -235,37 +237,37 @@ def _why(found: Judged) -> str:
 
 
 def imported_row(table: FoundTable, name: str, is_as_found: bool) -> RowSubject:
-    """The method of a table, with its file and with what is wrong.
+    """The method of a table, with its file and findings.
 
     Raises:
-        MethodFileError: its numbers make no method.
+        MethodFileError: its numbers give no method.
     """
-    found = with_row_orders(table, name)
-    found = replace(found, findings=tuple(row_findings(found)))
-    claims = {"order": found.order.claim}
-    if found.timed is not None:
-        claims["nonautonomous-order"] = found.timed.claim
-    if found.embedded_order is not None and found.embedded_order.order:
-        claims["embedded-order"] = found.embedded_order.claim
+    subject = with_row_orders(table, name)
+    subject = replace(subject, findings=tuple(row_findings(subject)))
+    claims = {"order": subject.order.claim}
+    if subject.timed is not None:
+        claims["nonautonomous-order"] = subject.timed.claim
+    if subject.embedded_order is not None and subject.embedded_order.order:
+        claims["embedded-order"] = subject.embedded_order.claim
     if not is_as_found:
-        claims |= {key: claim for x in found.findings for key, claim in (x.claims or {}).items()}
-    text = written(found.table, name, _tolerance(found), claims)
-    return replace(found, method=loads(text, place_of(table)), text=text)
+        claims |= {key: claim for x in subject.findings for key, claim in (x.claims or {}).items()}
+    text = written(subject.table, name, _tolerance(subject), claims)
+    return replace(subject, method=loads(text, place_of(table)), text=text)
 
 
 def _tolerance(found: RowSubject) -> fmpq | None:
-    """The power of ten that a file has to admit for the orders; None where they hold exactly."""
-    given = [x for x in (found.order, found.timed, found.embedded_order) if x is not None]
-    if all(x.rounded is None for x in given):
+    """The power of ten that a file needs as tolerance for the orders; None if they hold exactly."""
+    orders = [x for x in (found.order, found.timed, found.embedded_order) if x is not None]
+    if all(x.rounded is None for x in orders):
         return None
     tableau, further = found.method.tableau, found.method.further
-    least = min(to_float(x.rounded[1]) for x in given if x.rounded is not None) or TINY
+    least = min(to_float(x.rounded[1]) for x in orders if x.rounded is not None) or TINY
     for exponent in range(math.floor(math.log10(least)), MOST + 1):
         tolerance = fmpq(10) ** exponent
         method = meant(tableau, tolerance, further)
         assert isinstance(method, RoundedTableau)
         if _are_many(method):
-            if all(x.rounded is None or x.rounded[1] <= tolerance for x in given):
+            if all(x.rounded is None or x.rounded[1] <= tolerance for x in orders):
                 return tolerance
             continue
         wanted: list[tuple[AnyTableau | None, Judged | None]] = [

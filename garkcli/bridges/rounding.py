@@ -1,7 +1,7 @@
-"""Exact numbers rounded correctly: to decimals of any number of digits, and to floats.
+"""Correct rounding of exact numbers: to decimals of any number of digits, and to floats.
 
-A rational number is rounded by integers alone. Of an irrational number an enclosure is made finer
-until both of its ends round to the same text; it never lies half way between two decimals.
+Rational numbers are rounded in integers. An enclosure of an irrational number is refined until both
+of its ends round to the same decimal, as it never lies half way between two decimals.
 """
 
 from __future__ import annotations
@@ -19,25 +19,24 @@ from garkcli.tableau.pointwise import Cell
 
 T = TypeVar("T", Decimal, float)
 MOST_DIGITS = 20_000
-"""Irrational numbers whose rounding is not told by so many digits are given up: 10 000 nines."""
+"""Most digits to decide the rounding of an irrational number, enough for 10 000 nines."""
 _GUARD = 20
 _BITS = 1000
-"""Of arithmetic with enclosures, far beyond what is written of them."""
+"""Precision of arithmetic with enclosures, far beyond the written digits."""
 _DIGITS = 300
 
 
 class TooWide(ArithmeticError):
-    """An enclosure does not tell how its number is rounded."""
+    """An enclosure is too wide for rounding."""
 
 
 def ends(ball: arb) -> tuple[fmpq, fmpq]:
-    """The ends of a ball, which are rational."""
     middle, radius = midpoint(ball), midpoint(ball.rad())
     return middle - radius, middle + radius
 
 
 def significant(x: fmpq, digits: int) -> Decimal:
-    """The nearest decimal of so many digits; half goes to even.
+    """The nearest decimal of so many digits, ties to even.
 
     >>> significant(fmpq(2, 3), 3), significant(fmpq(-9999, 10), 3)
     (Decimal('0.667'), Decimal('-1.00E+3'))
@@ -46,16 +45,16 @@ def significant(x: fmpq, digits: int) -> Decimal:
 
 
 def quotient(x: fmpq, context: Context) -> Decimal:
-    """A fraction as a decimal, rounded once, whatever the size of its powers of ten."""
+    """A fraction as a decimal, rounded once, for powers of ten of any size."""
     context.Emax, context.Emin = MAX_EMAX, MIN_EMIN
     return context.divide(Decimal(int(x.p)), Decimal(int(x.q)))
 
 
 def rounded(x: Cell, digits: int) -> Decimal:
-    """The same for any number.
+    """The nearest decimal of so many digits to any number, ties to even.
 
     Raises:
-        TooWide: an enclosure that is given does not tell.
+        TooWide: a given enclosure does not decide it.
     """
     return _told(x, digits, lambda end: significant(end, digits))
 
@@ -64,15 +63,15 @@ def nearest_float(x: Cell) -> float:
     """The nearest binary64 number, ties to even.
 
     Raises:
-        TooWide: an enclosure that is given does not tell.
-        OverflowError: there is none.
+        TooWide: a given enclosure does not decide it.
+        OverflowError: the number is too large.
     """
     # the quotient of two integers of Python is rounded once
     return _told(x, 17, lambda end: int(end.p) / int(end.q))
 
 
 def _told(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
-    """What is nearest to a number, and to both ends of an enclosure that is fine enough."""
+    """The common value of ``nearest`` at both ends of a sufficiently fine enclosure."""
     if isinstance(x, fmpq):
         return nearest(x)
     for ball in _finer(x, digits):
@@ -83,7 +82,7 @@ def _told(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
 
 
 def _finer(x: Cell, digits: int) -> Iterator[arb]:
-    """Enclosures of a number, each finer than the one before; that of an arb is all there is."""
+    """Ever finer enclosures of a number; for an arb only itself."""
     if isinstance(x, arb):
         yield x
         return
@@ -94,8 +93,8 @@ def _finer(x: Cell, digits: int) -> Iterator[arb]:
 
 
 def combined(*terms: tuple[fmpq | int, Cell]) -> Cell:
-    """The sum of multiples k x of entries, given as pairs: exact where all entries are of one
-    field, else an enclosure far finer than what is written.
+    """The sum of multiples k x of entries, given as pairs: exact if all entries are in one field,
+    otherwise an enclosure far finer than the written digits.
     """
     if not any(isinstance(x, arb) for _, x in terms):
         try:
@@ -107,5 +106,5 @@ def combined(*terms: tuple[fmpq | int, Cell]) -> Cell:
 
 
 def ball(x: Cell) -> arb:
-    """An enclosure, far finer than what is written."""
+    """An enclosure far finer than the written digits."""
     return x if isinstance(x, arb) else to_ball(x, _DIGITS)

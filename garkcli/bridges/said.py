@@ -1,4 +1,4 @@
-"""Orders that words say: in a comment above a table, in the docstring of its function or class."""
+"""Orders in words: in a comment above a table, or in the docstring of its function or class."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _OTHER_BEFORE = frozenset(
         *("at", "than", "effective", "q", "p"),
     }
 )
-"""Words that say of what else an order is."""
+"""Words that give an order of something else."""
 _OTHER_AFTER = re.compile(
     r"[0-9]|ode|odes|dae|daes|pde|pdes|ivp|equation|differential|ordinary|system|problem|derivative"
     r"|dense|interpol|error|estimat|embed|hermite|polynomial|term|optimi|backward|condition"
@@ -44,17 +44,17 @@ _SCOPE = re.compile(
     r"(?:def|class|function|struct|subroutine|module procedure)\b"
 )
 _REFERENCES = re.compile(r"\breferences?\b|\\cite", re.IGNORECASE)
-"""Behind it are titles of publications."""
+"""Titles of publications follow."""
 MAX_LINES = 60
 """Longest comment or docstring that is read."""
 MAX_LENGTH = 1000
-"""Longest line at whose end a comment is sought."""
+"""Longest line whose trailing comment is read."""
 MAX_SCOPE = 1000
-"""So far above a table its function or class may begin."""
+"""Most lines from a table up to the head of its function or class."""
 
 
 def order_said(text: str) -> int | None:
-    """The order that a comment or a docstring says of a method; None if it says none, or two.
+    """The order of a method in a comment or docstring; None if it gives none, or two.
 
     >>> order_said("The 5th-order method of Tsitouras, of order five")
     5
@@ -65,26 +65,26 @@ def order_said(text: str) -> int | None:
     """
     said = set()
     plain = " ".join(text.split())
-    for found in _ORDER.finditer(_REFERENCES.split(plain)[0]):
-        before = found["before"].strip().lower()
-        if before in _OTHER_BEFORE or _OTHER_AFTER.match(found["after"]):
+    for match in _ORDER.finditer(_REFERENCES.split(plain)[0]):
+        before = match["before"].strip().lower()
+        if before in _OTHER_BEFORE or _OTHER_AFTER.match(match["after"]):
             continue
-        text = (found["word"] or found["ordinal"] or found["number"]).lower()
+        text = (match["word"] or match["ordinal"] or match["number"]).lower()
         words = next((x for x in (_WORDS, _NUMBERS) if text in x), ())
         said.add(words.index(text) + 1 if words else int(text))
     return said.pop() if len(said) == 1 else None
 
 
 def order_said_of(lines: Sequence[str], line: int) -> int | None:
-    """The order that the source says of the table that begins at ``line``, from 1: the nearest
-    comment or docstring that says one.
+    """The order in the nearest comment or docstring about the table that begins at ``line``, from
+    1.
     """
     return next((x for x in map(order_said, _passages(lines, line)) if x is not None), None)
 
 
 def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
-    """What is written about a table, the nearest first: on its line and above it, then in and above
-    the function or the class around it.
+    """The texts about a table, the nearest first: on its line and above it, then in and above the
+    function or class around it.
     """
     at = line - 1
     if not 0 <= at < len(lines):
@@ -94,14 +94,14 @@ def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
         yield " ".join([*_above(lines, at), end["text"] if end else ""])
         at = _around(lines, at)
     if at >= 0:
-        # the docstring of Python is below the end of the head
+        # a docstring of Python follows the end of the head
         ends = (i for i in range(at, min(len(lines) - 1, at + 11)) if lines[i].rstrip()[-1:] == ":")
         below = next((_quoted(lines, i + 1, 1) for i in ends), [])
         yield " ".join([*_above(lines, at), *below])
 
 
 def _around(lines: Sequence[str], at: int) -> int:
-    """The line on which the function or class around a line begins; -1 where there is none."""
+    """The first line of the function or class around a line; -1 if there is none."""
     width = _indent(lines[at])
     for i in range(at - 1, max(-1, at - MAX_SCOPE), -1):
         if lines[i].strip() and _indent(lines[i]) < width:
@@ -118,7 +118,7 @@ def _indent(line: str) -> int:
 def _above(lines: Sequence[str], at: int) -> Sequence[str]:
     """The comment, or the docstring of Julia, that ends right above a line."""
     if at > 1 and _SCOPE.match(lines[at]) and not lines[at - 1].strip():
-        # Fortran leaves a line between a comment and the head below it
+        # Fortran has an empty line between a comment and the head below it
         at -= 1
     first = at
     while first > max(0, at - MAX_LINES) and _COMMENT.match(lines[first - 1]):
@@ -127,8 +127,8 @@ def _above(lines: Sequence[str], at: int) -> Sequence[str]:
 
 
 def _quoted(lines: Sequence[str], at: int, step: int) -> Sequence[str]:
-    """A docstring, or above a table a comment of C, that has one end on a line, and the other there
-    or below it, by a step of 1, or above it, by -1.
+    """A docstring, or a comment of C above a table, with one end on a line, and the other on it or
+    below it for step 1, above it for step -1.
     """
     text = lines[at].strip().lstrip("rRuU") if at >= 0 else ""
     mark = text[:3] if step > 0 else text[-3:]

@@ -1,4 +1,4 @@
-"""Which sources are meant, and their text: files, folders, standard input."""
+"""Sources and their texts: files, folders, standard input."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ MAX_FILES = 100_000
 
 
 def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
-    """The files meant by ``paths``: of a folder all that some reader reads, in order.
+    """The files of ``paths``: of a folder all that some reader reads, in order.
 
-    Hidden files and folders are left out, and links to folders are not followed. A file of a folder
-    that cannot be read is no reason to read none, nor is a link out of the folder.
+    Hidden files and folders are left out, and links to folders are not followed. Files of a folder
+    that cannot be read, and links out of it, are skipped.
 
     Args:
         paths: files and folders.
-        told: who hears of files of a folder that are left out, and why.
+        told: receives the reason for each file of a folder that is left out.
     """
     for path in paths:
         if path == STDIN or not os.path.isdir(path):
@@ -43,7 +43,7 @@ def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> 
 
 
 def _why_not(path: str, folder: str) -> str:
-    """Why a file of a folder is not read; empty where it is."""
+    """The reason why a file of a folder is not read; empty if it is."""
     try:
         size = os.stat(path).st_size
     except OSError as error:
@@ -69,7 +69,7 @@ def _below(folder: str) -> Iterator[str]:
 
 
 def source_text(path: str) -> tuple[str, str]:
-    """The text of a source and what it is called; bytes that are no UTF-8 do no harm.
+    """The text of a source and its name; bytes that are not UTF-8 are replaced.
 
     Raises:
         UsageProblem: it cannot be read, or is too long.

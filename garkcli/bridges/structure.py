@@ -1,4 +1,6 @@
-"""What targets ask of a method: stages one after the other, explicit ones, shared ones, kicks."""
+"""Structures of methods that targets require: stages one after the other, explicit ones, shared
+ones, kicks.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ Rows: TypeAlias = tuple[Row, ...]
 
 
 def vanishes(x: Cell) -> bool:
-    """Whether an entry is zero; an enclosure is no proof of that."""
+    """Whether an entry is zero; False for any enclosure."""
     return not isinstance(x, arb) and not x
 
 
@@ -46,12 +48,12 @@ class Table(Frozen):
 
     @property
     def is_explicit(self) -> bool:
-        """Whether each stage needs only those before it."""
+        """Whether each stage depends only on those before it."""
         return self.is_diagonally_implicit and all(map(vanishes, self.diagonal))
 
     @property
     def is_diagonally_implicit(self) -> bool:
-        """Whether each stage needs only itself and those before it."""
+        """Whether each stage depends only on itself and those before it."""
         return all(vanishes(x) for i, row in enumerate(self.A) for x in row[i + 1 :])
 
     @property
@@ -67,7 +69,6 @@ class Table(Frozen):
 
     @property
     def is_first_same_as_last(self) -> bool:
-        """Whether the last stage of a step is the first of the next."""
         return self.begins_at_start and self.is_fsal
 
     @property
@@ -77,7 +78,6 @@ class Table(Frozen):
 
     @property
     def diagonal(self) -> Row:
-        """The diagonal of A."""
         return tuple(row[i] for i, row in enumerate(self.A))
 
     @property
@@ -89,7 +89,7 @@ class Table(Frozen):
 
 
 def table(payload: Payload) -> Table:
-    """The one table of a method for one vector field."""
+    """The table of a method for one vector field."""
     return Table(
         payload.A[0][0] or (),
         payload.b[0],
@@ -100,12 +100,12 @@ def table(payload: Payload) -> Table:
 
 
 def with_last_stage(found: Table) -> Table:
-    """The same method with f(t + h, y at the end) as one more stage, whose weight is 0."""
+    """The table with f(t + h, y at the end) as a last stage of weight 0."""
     return _with_stage(found, found.stages, found.b, ONE)
 
 
 def with_first_stage(found: Table) -> Table:
-    """The same method with f(t, y) as one more stage before all, whose weight is 0."""
+    """The table with f(t, y) as a first stage of weight 0."""
     return _with_stage(found, 0, (ZERO,) * found.stages, ZERO)
 
 
@@ -123,12 +123,12 @@ def _with_stage(found: Table, at: int, weights: Row, node: Cell) -> Table:
 
 
 class _Stage(Mutable):
-    """A stage of all colours together, in the making.
+    """A shared stage of all colours under construction.
 
     Attributes:
         rows: the stage value as weights of all vector fields, colour by colour.
-        place_of: for a colour that evaluates its vector field here, the number of its stage.
-        node: where all other vector fields are evaluated.
+        place_of: for each colour that evaluates its vector field here, the number of its stage.
+        node: the node of all other vector fields.
     """
 
     rows: tuple[Row, ...]
@@ -137,12 +137,12 @@ class _Stage(Mutable):
 
 
 def shared(payload: Payload) -> list[Table]:
-    """The method with all stages shared by all vector fields, in an order in which they can be
-    computed: a table a colour.
+    """The tables of all colours on stages shared by all vector fields, in an order in which they
+    can be computed.
 
-    Every GARK method is such a method: its stage values, those of all colours one after the other,
-    are the stages; a vector field has zero columns where it is not evaluated. Stage values that
-    are equal are one stage.
+    Every GARK method has this form: the stages are the stage values of all colours one after the
+    other; a vector field has zero columns at stages without an evaluation. Equal stage values are
+    one stage.
     """
     merged = _merged(payload)
     stages = [merged[k] for k in _sorted(merged)]
@@ -150,27 +150,27 @@ def shared(payload: Payload) -> list[Table]:
 
 
 def _merged(payload: Payload) -> list[_Stage]:
-    """The different stage values of all colours."""
-    found: list[_Stage] = []
+    """The distinct stage values of all colours."""
+    distinct: list[_Stage] = []
     for l, blocks in enumerate(payload.A):
         for i, node in enumerate(payload.c[l]):
             rows = tuple(
                 (ZERO,) * len(payload.b[m]) if block is None else block[i]
                 for m, block in enumerate(blocks)
             )
-            # one with these rows that has no stage of this colour yet
-            same = (x for x in found if l not in x.place_of and x.rows == rows)
+            # an equal stage without a stage of this colour yet
+            same = (x for x in distinct if l not in x.place_of and x.rows == rows)
             stage = next(same, None)
             if stage is None:
                 stage = _Stage(rows, node=node)
-                found.append(stage)
+                distinct.append(stage)
             stage.place_of[l] = i
-    return found
+    return distinct
 
 
 def _sorted(stages: Sequence[_Stage]) -> list[int]:
-    """An order in which no stage needs a later one, the given one as far as possible; stages that
-    need each other come together.
+    """An order in which no stage depends on a later one, close to the given one; stages that depend
+    on each other come together.
     """
     at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
     needs = {
@@ -208,8 +208,8 @@ class Composition(Frozen):
     """A separable method as a sequence of exact flows: kicks p += hk g(q), drifts q += hd f(p).
 
     Attributes:
-        kicks: and
-        drifts: by turns, a kick first: kick 1, drift 1, kick 2, …; as many of each.
+        kicks: the factors hk of the kicks.
+        drifts: as many factors hd; flows alternate, a kick first: kick 1, drift 1, kick 2, …
     """
 
     kicks: Row
@@ -217,7 +217,7 @@ class Composition(Frozen):
 
     @property
     def drift_first(self) -> tuple[Row, Row]:
-        """The same as drifts and kicks by turns, a drift first."""
+        """The drifts and kicks in alternation with a drift first."""
         if vanishes(self.kicks[0]):
             return self.drifts, (*self.kicks[1:], ZERO)
         if vanishes(self.drifts[-1]):
@@ -226,13 +226,13 @@ class Composition(Frozen):
 
 
 def composition(payload: Payload) -> Composition | None:
-    """A method for q' = f(p), p' = g(q) as such a sequence; None where it is none."""
+    """A method for q' = f(p), p' = g(q) as such a sequence; None if it is none."""
     at_forces, at_velocities = payload.A[1][0], payload.A[0][1]
     sees_itself = payload.A[0][0] or payload.A[1][1]
     if at_forces is None or at_velocities is None or sees_itself:
         return None
     drifts, kicks = payload.b
-    # the kicks, by the drifts that lie before each
+    # the kicks by the drifts before each
     steps: dict[frozenset[int], Cell] = {}
     for row, kick in zip(at_forces, kicks, strict=True):
         before = frozenset(j for j, x in enumerate(row) if not vanishes(x))
@@ -241,7 +241,7 @@ def composition(payload: Payload) -> Composition | None:
         if not vanishes(kick):
             steps[before] = steps.get(before, ZERO) + kick
     for j, drift in enumerate(drifts):
-        # the kicks that do not have this drift before them
+        # the kicks without this drift before them
         later = (x if vanishes(row[j]) else ZERO for row, x in zip(at_forces, kicks, strict=True))
         if not vanishes(drift) and at_velocities[j] != tuple(later):
             return None

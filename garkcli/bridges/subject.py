@@ -1,5 +1,5 @@
-"""From a table that was found to a method: its orders, its rounding, and what several checks of an
-audit need once.
+"""The method of a table: its orders, its rounding, and values shared by several checks of an
+audit.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 
 HIGH = 10
-"""Higher orders are not tried: a wrong digit costs a lower one."""
+"""The highest order tried: a wrong digit shows at a lower one."""
 
 
 class Subject(Frozen, eq=False):
-    """A table with the method that it is.
+    """A table with its method.
 
     Attributes:
-        table: as it was found.
-        method: as its file is read.
+        table: as found in the source.
+        method: as read from its method file.
         order: of the method, exactly or within the rounding of its digits.
-        embedded_order: the same with the embedded weights; None without them.
-        text: of the method file, where there is one.
-        sign: which sign an error estimate is read with, and why; empty where there is none, or the
+        embedded_order: of the embedded weights; None without them.
+        text: of the method file, if there is one.
+        sign: the chosen sign of an error estimate, with the reason; empty if there is none, or the
             source fixes it.
-        is_sign_open: whether nothing decides it.
-        findings: what is wrong with it, where that is examined.
+        is_sign_open: whether nothing decides the sign.
+        findings: remarks on it, if examined.
     """
 
     table: FoundTable
@@ -59,63 +59,64 @@ class Subject(Frozen, eq=False):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding that the method file admits."""
+        """The rounding in the method file."""
         return self.method.tolerance
 
     @property
     def tableau(self) -> Tableau:
-        """The method."""
         return self.method.tableau
 
     @property
     def block(self) -> Matrix:
-        """The only matrix; empty where there is none, or more than one."""
+        """The only matrix; empty if there is none, or more than one."""
         return (self.tableau.size == 1 and self.tableau.block(0, 0)) or ()
 
     @cached_property
     def digits(self) -> Digits:
-        """How exactly the coefficients are written."""
+        """The precision of the coefficients."""
         return digits_of(self.method, self.table)
 
     @cached_property
     def rounded(self) -> RoundedTableau:
-        """The method with what its digits leave open."""
+        """The method with the freedom of its digits."""
         return self.digits.of(self.tableau)
 
     @cached_property
     def wrong_rows(self) -> tuple[str, ...]:
-        """The nodes that are no row sums, beyond what rounding explains, in words."""
+        """Texts on the nodes that are not row sums, beyond what rounding explains."""
         return tuple(self._off(self.rounded))
 
     @property
     def careless_rows(self) -> tuple[str, ...]:
-        """The nodes that are no sums of numbers which are off by one unit of their last place."""
+        """Texts on the nodes that are not row sums within one unit in the last place of each
+        number.
+        """
         return tuple(self._off(self.digits.of(self.tableau, slack=1)))
 
     @cached_property
     def misprinted_rows(self) -> Mapping[str, Number]:
-        """Those that no careless rounding explains either, with by how much they are off."""
+        """Texts on the nodes that careless rounding does not explain either, with the
+        differences.
+        """
         return self._off(self.digits.careless(self.tableau))
 
     @property
     def is_misprinted(self) -> bool:
-        """Whether a row sum is next to its node, and no rounding explains that it is not the node:
-        nodes that are meant to be others are further away.
+        """Whether a row sum is close to its node but no rounding explains the difference: nodes
+        that are not row sums on purpose differ more.
         """
         return any(abs(to_ball(x)) < NEAR for x in self.misprinted_rows.values())
 
     @property
     def is_slightly_off(self) -> bool:
-        """Whether a sum is not what it should be: that of a row, or that of the weights; or a
-        condition fails by little.
-        """
+        """Whether the sum of a row or of the weights is wrong, or a condition fails by little."""
         witness = self.order.witness
         is_near = witness is not None and bool(abs(to_ball(witness.residual)) < NEAR)
         return not self.order.order or is_near or bool(self.wrong_rows)
 
     def _off(self, rounded: RoundedTableau) -> dict[str, Number]:
-        """The nodes that are no row sums within a rounding, in words, with by how much."""
-        # parts of shared stages with times of their own: each has its own row sums for nodes
+        """Texts on the nodes that are not row sums within a rounding, with the differences."""
+        # parts on shared stages with their own times have their own row sums as nodes
         has_own_times = len(self.table.A) > 1 and len(set(self.table.A)) == 1
         edges = [(l, m) for l, m in self.tableau.edges() if not has_own_times or l == m]
         rows = wrong_rows(rounded.defects, edges)
@@ -124,7 +125,7 @@ class Subject(Frozen, eq=False):
 
     @cached_property
     def nonautonomous(self) -> Judged | None:
-        """The order where f depends on t, with the nodes as they are."""
+        """The order for f(t, y), with the given nodes."""
         timed = with_time(self.tableau)
         if timed is None:
             return None
@@ -134,23 +135,23 @@ class Subject(Frozen, eq=False):
 
     @cached_property
     def misses_order(self) -> bool:
-        """Whether the order is lower than declared, for another reason than careless rounding."""
+        """Whether the order is lower than declared, beyond careless rounding."""
         declared, found = self.table.order, self.order
         if declared is None or found.is_limited or found.is_open or found.order >= declared:
             return False
         return not self.is_careless(self.tableau, declared)
 
     def is_careless(self, tableau: Tableau, wanted: int) -> bool:
-        """Whether careless rounding may be why a tableau of these numbers misses an order."""
+        """Whether careless rounding may explain why a tableau of these numbers lacks an order."""
         rounded, wanted = self.digits.careless(tableau), min(wanted, HIGH)
         return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
 
 
 def read(table: FoundTable, name: str = "") -> MethodFile:
-    """The method of a table as it is, with no tolerance.
+    """The method of a table, without tolerance.
 
     Raises:
-        MethodFileError: its numbers make no method.
+        MethodFileError: its numbers give no method.
     """
     return loads(written(table, name, None, {}), place_of(table))
 
@@ -158,7 +159,7 @@ def read(table: FoundTable, name: str = "") -> MethodFile:
 def orders_of(
     method: MethodFile, table: FoundTable, limit: int | None = None
 ) -> tuple[Judged, Judged | None]:
-    """The order of a method and that of its embedded weights, within what their digits say, up to
+    """The order of a method and that of its embedded weights, within their digits, up to
     ``limit``.
     """
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
@@ -171,7 +172,7 @@ def orders_of(
 
 
 def digits_of(method: MethodFile, table: FoundTable) -> Digits:
-    """How exactly the coefficients of a table are written: also those that its method file has as
+    """The precision of the coefficients of a table, including those that its method file holds as
     fractions.
     """
     texts = {x for x in numbers_of(table) if len(x) > FEWEST_DIGITS and "." in x}

@@ -1,7 +1,7 @@
-"""The files of targets: what their templates are given, and what these may print.
+"""The files of targets: the values for their templates, and the types that these may print.
 
-No text of a file is given to a template: the name of a method is an identifier of the language,
-and what is said about it is a comment already. Only texts and whole numbers can be printed.
+Templates get no text from a file: the name of a method is an identifier of the language, and
+remarks about it are comments already. They can print only texts and integers.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 Values: TypeAlias = Mapping[str, Any]
-"""What one target gives to its template, beyond what all have."""
+"""Further values of one target for its template."""
 
 
 class Language(Frozen):
-    """How the files of an ending are written.
+    """The format of files with an ending.
 
     Attributes:
-        comment: its comments.
-        names: its words, a key of ``RESERVED``.
-        joint: what is between two numbers.
-        continuation: what ends a line that goes on.
+        comment: the marks of comments.
+        names: the reserved words, a key of ``RESERVED``.
+        joint: the text between two numbers.
+        continuation: the text at the end of a continued line.
         width: of lines of numbers.
     """
 
@@ -63,7 +63,7 @@ LANGUAGES: Mapping[str, Language] = {
     ".wl": Language(STARRED, "mathematica"),
     ".xml": Language(XML, "python"),
 }
-"""By the ending of a file; the lines of C and of Fortran are longer than those of the others."""
+"""Languages by the endings of files; lines of C and Fortran are longer than others."""
 
 
 _OF_METHOD = (
@@ -82,13 +82,13 @@ _OF_METHOD = (
 
 
 def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
-    """The text that a template makes.
+    """The text made by a template.
 
     Args:
-        file: what the template writes, ``scipy.py``; it lies in ``templates/scipy.py.jinja``.
+        file: the name of its output, such as ``scipy.py`` for ``templates/scipy.py.jinja``.
         payload: the method.
         style: of its numbers.
-        values: what the target has computed.
+        values: further values of the target.
     """
     template = _environment().get_template(f"{file}.jinja")
     language = LANGUAGES[PurePath(file).suffix]
@@ -97,11 +97,11 @@ def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
 
 
 def program_values(payload: Payload, file: str, ending: str) -> Values:
-    """What templates of programs have beyond the others.
+    """Further values for templates of programs.
 
     Args:
         payload: the method.
-        file: the name of the file with its table, no folder.
+        file: the name of the file with its table, without folder.
         ending: of the program.
     """
     mark = LANGUAGES[ending].comment
@@ -109,7 +109,7 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
     texts = {"file": file, "stem": stem, "command": command_of(payload, f"{stem}_problem.yaml")}
 
     def comment(*notes: str) -> str:
-        """Notes in which ``{file}``, ``{stem}`` and ``{command}`` stand for what these are."""
+        """Notes with values for ``{file}``, ``{stem}`` and ``{command}``."""
         return "\n".join(mark.lines(note.format(**texts) for note in notes))
 
     return {
@@ -126,7 +126,9 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
 def _given(
     payload: Payload, language: Language, style: Style, left_out: Sequence[str]
 ) -> dict[str, object]:
-    """What every template has: the method, its names, and how its numbers become lines."""
+    """The values for every template: the method, its names, and functions that lay out its
+    numbers.
+    """
 
     def heading(*notes: object) -> str:
         wanted = [str(note) for note in notes if note]
@@ -146,7 +148,9 @@ def _given(
     def matrix(
         begin: str, rows: Sequence[Row], end: str, last: str | None = None, then: str | None = None
     ) -> str:
-        """A row a line at least; the last one may end, and those after the first begin, apart."""
+        """At least one line for each row; the last one may end differently, and those after the
+        first begin differently.
+        """
         begins = [begin, *[begin if then is None else then] * (len(rows) - 1)]
         ends = [*[end] * (len(rows) - 1), end if last is None else last]
         return "\n".join(map(row, begins, rows, ends))
@@ -168,8 +172,8 @@ def _given(
 
 
 def filled(language: Language, begin: str, items: Sequence[str], end: str) -> list[str]:
-    """Items one after the other in as few lines as hold them, those behind the first indented as
-    far as its begin; one that is too long has its own.
+    """Items in as few lines as hold them, continuation lines indented to the first item; an item
+    that is too long gets its own line.
 
     >>> filled(Language(HASH, "python", width=12), "x = [", ["1", "22", "333"], "]")
     ['x = [1, 22,', '     333]']
@@ -187,7 +191,7 @@ def filled(language: Language, begin: str, items: Sequence[str], end: str) -> li
 
 @cache
 def _environment() -> Environment:
-    """The templates, which write source texts: nothing is escaped."""
+    """The templates; they write source texts, so nothing is escaped."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     return Environment(
@@ -201,10 +205,10 @@ def _environment() -> Environment:
 
 
 def printed(value: object) -> object:
-    """A text or a whole number.
+    """A text or an integer.
 
     Raises:
-        TypeError: it is something else, which a template would print as Python writes it.
+        TypeError: it is something else, which a template would print in Python notation.
     """
     if isinstance(value, bool) or not isinstance(value, (str, int)):
         raise TypeError(f"a template prints {type(value).__name__}")

@@ -1,6 +1,6 @@
-"""The problems of the programs that ``gark export --test`` writes: three, small and smooth.
+"""The three small, smooth problems of the programs of ``gark export --test``.
 
-Each is a problem file too, on which ``gark converge`` prints the same errors.
+Each is also a problem file, for which ``gark converge`` prints the same errors.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from garkcli.bridges.payload import Payload
 from garkcli.frozen import Frozen
 
 STEPS = (8, 16, 32, 64)
-"""In so many steps the time is stepped through, one row of the output each."""
+"""Numbers of steps, one row of the output each."""
 
 
 class Trial(Frozen):
     """A problem with two unknowns.
 
     Attributes:
-        name: of the problem, in one word.
+        name: one word.
         title: of its file.
-        sides: the right-hand sides, a pair of formulas each, with ``{y1}``, ``{y2}``, ``{t}``,
-            ``{sin}`` and ``{cos}`` in them; of the separable one q' and p' of (q, p).
-        t_end: where the errors are measured.
-        final: the solution there, correct to all digits.
+        sides: the right-hand sides, pairs of formulas in ``{y1}``, ``{y2}``, ``{t}``, ``{sin}`` and
+            ``{cos}``; q' and p' for the separable one.
+        t_end: the time at which errors are measured.
+        final: the solution at ``t_end``, correct to all digits.
         hamiltonian: the terms of the separable one, in x and px.
     """
 
@@ -37,7 +37,7 @@ class Trial(Frozen):
     hamiltonian: tuple[str, ...] = ()
 
     def formulas(self, side: int, words: Mapping[str, str]) -> tuple[str, str]:
-        """A right-hand side in a language: words for y1, y2, t, sin and cos."""
+        """A right-hand side in a language with words for y1, y2, t, sin and cos."""
         first, second = self.sides[side]
         return first.format(**words), second.format(**words)
 
@@ -59,7 +59,7 @@ class Trial(Frozen):
 
 
 WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos", "zero": "0.0"}
-"""As C, Python and others with arrays from 0 have them."""
+"""The words in C, Python and other languages with arrays from 0."""
 CPP_WORDS = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
 WHOLE = Trial(
     name="whole",
@@ -87,7 +87,7 @@ TRIALS = (WHOLE, SPLIT, SEPARABLE)
 
 
 def trial_of(payload: Payload) -> Trial:
-    """The problem that a method is tried on.
+    """The problem for a method.
 
     Raises:
         CannotExport: there is none.
@@ -104,8 +104,8 @@ def trial_of(payload: Payload) -> Trial:
 def sides(
     payload: Payload, fields: Sequence[int], words: Mapping[str, str]
 ) -> Sequence[tuple[str, str]]:
-    """The right-hand sides in a language, one for each of some vector fields; of a pair (q, p) each
-    has one component.
+    """The right-hand sides of some vector fields in a language; for a pair (q, p) each has one
+    component.
     """
     trial = trial_of(payload)
     if payload.kind != "prk":
@@ -115,7 +115,7 @@ def sides(
 
 
 def command_of(payload: Payload, problem_file: str) -> str:
-    """What prints the same errors, for the head of a program."""
+    """The command with the same errors, for the head of a program."""
     steps = ",".join(f"{trial_of(payload).t_end}/{n}" for n in STEPS)
     taken = f" --{payload.derivation}" if payload.derivation else ""
     return f"gark converge FILE{taken} --problem {problem_file} --steps {steps}"

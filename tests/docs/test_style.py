@@ -62,7 +62,7 @@ INSIDE = re.compile(
     re.IGNORECASE,
 )
 """Phrases that docstrings and comments do without."""
-NOT_CLEAN = {"bridges", "sources"}
+NOT_CLEAN = {"sources"}
 """Rooms, and files beside them, whose docstrings and comments are still to be rewritten."""
 DOCSTRING = re.compile(r'^ *r?"""(.*?)"""', re.MULTILINE | re.DOTALL)
 COMMENT = re.compile(r"^(?:.*?  | *)# (?!noqa|type:)(.+)$", re.MULTILINE)

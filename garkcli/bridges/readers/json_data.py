@@ -1,4 +1,4 @@
-"""JSON: what gark exports and prints, and any object with A and b."""
+"""JSON: exports and output of gark, and any object with A and b."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES
 
 MAX_DEPTH = 12
-"""Deepest nesting of objects that tables are sought in."""
+"""Deepest nesting of objects in which tables are sought."""
 _KEYS = {
     **{key: key for key in ("tolerance", "structure")},
     **ROLES,
@@ -25,7 +25,7 @@ _KEYS = {
     "b_embedded": "embedded",
 }
 _HEAD = ("order", "claimed_order", "embedded_order", "tolerance")
-"""What an object says of the table in it."""
+"""Keys of an object that apply to the table in it."""
 _OBJECT = re.compile(r'"(?:[^"\\]|\\.)*"|\{')
 
 
@@ -39,7 +39,7 @@ def _found(text: str) -> Iterator[tuple[int, Values]]:
 
 
 def _lines(text: str) -> Iterator[int]:
-    """The lines in which objects begin."""
+    """The first lines of objects."""
     place, line = 0, 1
     for match in _OBJECT.finditer(text):
         if match.group() == "{":
@@ -55,7 +55,7 @@ def _has_matrix(mapping: Mapping[str, Any]) -> bool:
 def _tableaus(
     document: object, title: str, depth: int, lines: Iterator[int]
 ) -> Iterator[tuple[int, Values]]:
-    """The objects that may be tables, each with its name; ``lines`` has those of all objects."""
+    """The objects that may be tables, with their names; ``lines`` are the lines of all objects."""
     line = next(lines, 1) if isinstance(document, dict) else 1
     if isinstance(document, list):
         for value in document:
@@ -79,8 +79,12 @@ def _tableau(mapping: Mapping[str, Any], title: str) -> Values:
     for key, content in mapping.items():
         if key in _KEYS:
             values.setdefault(_KEYS[key], _value(content))
-    told = mapping.get("colours")
-    colours = [x for x in told if isinstance(x, dict)] if isinstance(told, list) else []
+    colour_objects = mapping.get("colours")
+    colours = (
+        [x for x in colour_objects if isinstance(x, dict)]
+        if isinstance(colour_objects, list)
+        else []
+    )
     if [x.get("drives") for x in colours] == ["q", "p"]:
         values["parts"] = ir.Text("q p")
     linear = [str(l) for l, x in enumerate(colours) if x.get("linear")]
@@ -107,7 +111,7 @@ _OBJECTS = reader("json", "JSON: gark's export, or any object with A and b", (".
 
 
 def _find(text: str, source: str) -> list[FoundTable]:
-    """The method that gark exported, or the tables of any objects."""
+    """The method of an export of gark, or the tables of any objects."""
     table = exported_table(text, source, _OBJECTS.name)
     return _OBJECTS.find(text, source) if table is None else [table]
 

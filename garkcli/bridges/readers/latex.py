@@ -24,7 +24,7 @@ _COLUMNS = re.compile(r"[^{]*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}")
 """The column specification in braces."""
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _GENERAL = "q' = f(q, p)"
-"""In a comment: both parts see both."""
+"""In a comment: both parts depend on both."""
 MAX_ARRAY = 400_000
 """Longest text of one array."""
 
@@ -34,7 +34,7 @@ _Grid = tuple[list[int], list[list[list[str]]], list[list[str]]]
 
 
 def _tableaus(text: str) -> Iterator[tuple[int, printed.Values]]:
-    """The arrays of a text that are tableaus."""
+    """The tableaus among the arrays of a text."""
     comments = [x.group()[1:].strip() for x in _COMMENT.finditer(text)]
     is_general = any(_GENERAL in comment for comment in comments)
     arrays = deque(_arrays(_COMMENT.sub("", text)))
@@ -55,7 +55,7 @@ def _tableaus(text: str) -> Iterator[tuple[int, printed.Values]]:
 
 
 def _arrays(text: str) -> Iterator[tuple[int, str, str]]:
-    """The line of each array, what is before it and what is in it."""
+    """The line of each array, the text before it and the text in it."""
     line = 1
     for before, inside in pairwise(_BEGIN.split(text)):
         line += before.count("\n")
@@ -65,13 +65,13 @@ def _arrays(text: str) -> Iterator[tuple[int, str, str]]:
 
 
 def _letter(before: str) -> str:
-    """The Q or P that is written before an array of a pair."""
+    """The Q or P before an array of a pair."""
     words = re.findall(r"\b([QP])\s*:", before)
     return words[-1] if words else ""
 
 
 def _groups(columns: str) -> list[int]:
-    """How many columns are between the bars, without that of the nodes."""
+    """The number of columns between bars, without that of the nodes."""
     repeated = re.sub(
         r"\*\{([0-9]{1,3})\}\{([clr|]{1,9})\}", lambda x: x[2] * min(int(x[1]), MAX_STAGES), columns
     )
@@ -81,7 +81,7 @@ def _groups(columns: str) -> list[int]:
 
 
 def _parts(body: str) -> list[list[list[str]]]:
-    """The cells of each row, the rows between horizontal lines together."""
+    """The rows between horizontal lines, as cells."""
     parts: list[list[list[str]]] = [[]]
     for piece in filter(None, _BETWEEN.split(_NOTHING.sub(" ", body))):
         if _LINE.fullmatch(piece):
@@ -92,33 +92,35 @@ def _parts(body: str) -> list[list[list[str]]]:
 
 
 def _read(inside: str) -> _Grid:
-    """What an array is.
+    """The columns, stages and weights of an array.
 
     Raises:
         Unreadable: it is no tableau.
     """
-    told = _COLUMNS.match(inside[:2_000])
-    parts = _parts(inside[told.end() :] if told else inside)
-    # weights have no node; embedded ones may be below a line of their own
+    columns = _COLUMNS.match(inside[:2_000])
+    parts = _parts(inside[columns.end() :] if columns else inside)
+    # weights have no node; embedded ones may be below another line
     first = len(parts)
     while first > 1 and not any(row[0] for row in parts[first - 1]):
         first -= 1
     width = max((len(row) for part in parts for row in part), default=0) - 1
     if first == len(parts) or not 0 < width <= MAX_STAGES:
         raise Unreadable("there are no weights below a line")
-    groups = _groups(told[1] if told else "")
+    groups = _groups(columns[1] if columns else "")
     rows = [[_numbers(row, width + 1) for row in part] for part in parts]
     weights = [row[1:] for part in rows[first:] for row in part]
     return groups if sum(groups) == width else [width], rows[:first], weights
 
 
 def _numbers(cells: list[str], count: int) -> list[str]:
-    """The numbers of so many cells; an empty one stays empty."""
+    """The numbers of ``count`` cells; an empty one stays empty."""
     return [number_of(cell) if cell else "" for cell in cells] + [""] * (count - len(cells))
 
 
 def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
-    """The arrays Q and P of a partitioned method, with columns of one vector field each."""
+    """The arrays Q and P of a partitioned method, with columns of one vector field each; empty if
+    they do not fit.
+    """
     if len(of_q[1]) == len(of_p[0]) == 2 and len(of_p[1]) == 1:
         return _semi_separable(of_q, of_p)
     if len(of_q[1]) != 1 or len(of_p[1]) != 1:
@@ -136,19 +138,19 @@ def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
 
 
 def _semi_separable(of_q: _Grid, of_p: _Grid) -> printed.Values:
-    """A pair whose second Hamiltonian is of q alone: vector fields V1, F1 and F2.
+    """A pair with a second Hamiltonian in q alone: vector fields V1, F1 and F2.
 
-    V1 and F1 have the stages of the first rows of Q, which are those of P; F2 has the others,
-    which see V1 alone.
+    V1 and F1 have the stages of the first rows of Q and of P; F2 has the others, which depend on V1
+    alone.
     """
     groups, _, weights = of_p
     first, last = of_q[1]
-    whole = [sum(of_q[0])]
-    shared = [*printed.blocks(whole, first), *printed.blocks(groups, of_p[1][0])]
+    all_columns = [sum(of_q[0])]
+    shared = [*printed.blocks(all_columns, first), *printed.blocks(groups, of_p[1][0])]
     of_forces = list(map(printed.filled, printed.split(weights[0], groups)))
     if [len(x) for x in of_forces] != [len(first), len(last)]:
         return {}
-    A: printed.Nested = [shared, shared, [*printed.blocks(whole, last), None, None]]
+    A: printed.Nested = [shared, shared, [*printed.blocks(all_columns, last), None, None]]
     c = [printed.nodes(x) for x in (first, first, last)]
     return {"A": A, "b": [printed.filled(of_q[2][0]), *of_forces], "c": c}
 

@@ -1,4 +1,4 @@
-r"""Numbers in LaTeX as method files write them: ``\frac{1}{2} - \frac{\sqrt{3}}{6}``."""
+r"""Numbers in LaTeX of method files: ``\frac{1}{2} - \frac{\sqrt{3}}{6}``."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _IGNORED = re.compile(
     r"|bigl?|bigr?|Bigl?|Bigr?|mathstrut)(?![A-Za-z])|\\[,;:!> ]"
 )
 _ROOT_OF = re.compile(r"\\operatorname\{root\}\(([-+0-9x^{}/]{1,4000}),x\\approx(-?[0-9.]{1,60})\)")
-"""The root of a polynomial nearest to a decimal, as gark writes it."""
+"""The root of a polynomial nearest to a decimal, in the notation of gark."""
 _ONE = r"(?:\{([^{}]*)\}|([0-9]))"
 _COMMANDS = (
     (re.compile(rf"\\(?:[tdcs]|nice)?frac{_ONE}{_ONE}"), r"((\1\2)/(\3\4))"),
@@ -23,7 +23,7 @@ _COMMANDS = (
     (re.compile(rf"\\sqrt{_ONE}"), r"sqrt(\1\2)"),
     (re.compile(r"(?<![a-z\]}])\{([^{}]*)\}(?!\{)"), r"(\1)"),
 )
-"""What is inside of other braces is written first."""
+"""Braces without commands inside are replaced first."""
 _PLAIN = re.compile(r"(?:sqrt|root_of\([-+*/^().0-9x]*,|root|[-+*/^().,0-9])*")
 
 
@@ -34,7 +34,7 @@ def number_of(text: str) -> str:
     ('((1)/(2))-((sqrt(3))/(6))', '1.5*10^(-16)')
 
     Raises:
-        Unreadable: it is no number.
+        Unreadable: the text is no number.
     """
     if len(text) > MAX_CELL or text.count("\\") > MAX_COMMANDS:
         raise Unreadable("a cell that is too long")

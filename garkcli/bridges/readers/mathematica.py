@@ -49,8 +49,8 @@ class MathematicaLowering(Formulas):
                     yield ir.Assign(entry, self.expression(*value), line)
 
     def _inside(self, start: int, end: int, depth: int) -> ir.Body:
-        """What a value does: the statements between its brackets, ``With[{x = 1}, …]``, or it is a
-        table itself.
+        """The statements in a value: those between its brackets, as in ``With[{x = 1}, …]``, or the
+        table that it is.
         """
         value, line = self.expression(start, end), self.tokens[start].line
         listed = _of_ndsolve(value)
@@ -64,7 +64,7 @@ class MathematicaLowering(Formulas):
 
 
 def _of_ndsolve(value: ir.Expr) -> tuple[ir.Expr, ...]:
-    """The lists of ``N[{amat, bvec, cvec, evec}, precision]``; none of another value."""
+    """The lists of ``N[{amat, bvec, cvec, evec}, precision]``; empty for other values."""
     match value:
         case ir.Call(callee=ir.Name(name=name), args=(first, *_)) if name in _ROUNDED:
             value = first
@@ -75,7 +75,6 @@ def _of_ndsolve(value: ir.Expr) -> tuple[ir.Expr, ...]:
 
 
 def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a Mathematica source."""
     return tables_in(text, source, NAME, lambda x: MathematicaLowering(x).block(), base=1)
 
 

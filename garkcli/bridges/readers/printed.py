@@ -1,4 +1,4 @@
-"""Tableaus as programs print them, lowered to one call that makes a table."""
+"""Printed tableaus, lowered to one call that makes a table."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import PRINTED
 
 Nested: TypeAlias = "str | Sequence[Nested] | ir.Expr | None"
-"""Numbers as texts, in lists; nothing where a block is missing."""
+"""Numbers as texts, in lists; None for a missing block."""
 Cells: TypeAlias = Sequence[Sequence[str]]
 Values: TypeAlias = Mapping[str, Nested]
 """The parts of a tableau by their names: ``A``, ``b``, ``c``, ``embedded``, …"""
 
 
 def printed(line: int, values: Values) -> ir.Statement:
-    """A tableau that is in a line."""
+    """A tableau at a line, as a statement."""
     named = tuple((key, listed(x)) for key, x in values.items() if x)
     made = ir.Do(ir.Call(ir.Name(PRINTED), (), named), line)
     return ir.Scope("entry", "", (made,), line)
@@ -40,15 +40,15 @@ def listed(value: Nested) -> ir.Expr:
 
 
 def grid(groups: Sequence[int], stages: Sequence[Cells], weights: Cells) -> Values:
-    """The parts of a tableau in rows; empty where its sizes do not fit.
+    """The parts of a tableau in rows; empty if its sizes do not fit.
 
     Args:
-        groups: how many columns each vector field has.
+        groups: the number of columns of each vector field.
         stages: the rows ``c_i, a_i1, …`` of each set of stages; an empty cell is 0.
         weights: the rows of the weights, without a node.
     """
     if len(stages) == 1 and len(groups) > 1:
-        # colours that share their stages, or a bar that means nothing
+        # colours that share their stages, or a bar without meaning
         is_shared = len(set(groups)) == 1 and groups[0] == len(stages[0])
         groups = groups if is_shared else [sum(groups)]
     due = groups if len(stages) > 1 else groups[:1]
@@ -70,7 +70,7 @@ def split(row: Sequence[str], groups: Sequence[int]) -> list[Sequence[str]]:
 
 
 def filled(row: Sequence[str]) -> list[str]:
-    """Cells, 0 for the empty ones."""
+    """Cells, 0 for empty ones."""
     return [x or "0" for x in row]
 
 
@@ -80,7 +80,7 @@ def nodes(rows: Cells) -> list[str]:
 
 
 def blocks(groups: Sequence[int], rows: Cells) -> list[Nested]:
-    """The blocks of a set of stages; an empty one of several is none."""
+    """The blocks of a set of stages; None for an empty one among several."""
     columns = zip(*(split(row[1:], groups) for row in rows), strict=True)
     is_one = len(groups) == 1
     return [list(map(filled, x)) if is_one or any(map(any, x)) else None for x in columns]
@@ -93,7 +93,7 @@ def reader(
     tableaus: Callable[[str], Iterable[tuple[int, Values]]],
     is_named_by_file: bool = False,
 ) -> Reader:
-    """The reader of a format: ``tableaus`` finds those of a text, each with its line; stages count
+    """The reader of a format: ``tableaus`` gives those of a text with their lines; stages count
     from 1.
     """
 

@@ -1,4 +1,4 @@
-"""The readers of ``gark import`` and ``gark audit``, found in the files of two folders."""
+"""The readers of ``gark import`` and ``gark audit``, collected from two folders."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from garkcli.sources.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, 
 
 @lru_cache(maxsize=1)
 def all_readers() -> Mapping[str, Reader]:
-    """Every reader by its name, in alphabetical order."""
-    found: dict[str, Reader] = {}
+    """The readers by their names, in alphabetical order."""
+    by_name: dict[str, Reader] = {}
     for package in (readers, languages):
         for module in pkgutil.iter_modules(package.__path__):
             place = import_module(f"{package.__name__}.{module.name}")
-            found |= {x.name: x for x in vars(place).values() if isinstance(x, Reader)}
-    return dict(sorted(found.items()))
+            by_name |= {x.name: x for x in vars(place).values() if isinstance(x, Reader)}
+    return dict(sorted(by_name.items()))
 
 
 def reader_named(name: str) -> Reader:
-    """The reader of that name.
+    """The reader of a name.
 
     Raises:
-        UsageProblem: there is none.
+        UsageProblem: there is no such reader.
     """
     known = all_readers()
     if name not in known:
@@ -45,18 +45,18 @@ def suffixes() -> frozenset[str]:
 
 
 def readers_for(path: str) -> Sequence[Reader]:
-    """The readers of files with such an ending; all of them where no reader has it."""
+    """The readers for the ending of a path; all of them if none reads it."""
     suffix = PurePath(path).suffix.lower()
     everyone = tuple(all_readers().values())
     return [x for x in everyone if suffix in x.suffixes] or everyone
 
 
 def demand_grammars(paths: Iterable[str], format: str | None = None) -> None:
-    """Refuse sources whose grammars are not installed.
+    """Raises for sources whose grammars are not installed.
 
     Args:
         paths: of the sources.
-        format: what they are; None for what the endings of their names say.
+        format: of the sources; None for that of the endings of their names.
 
     Raises:
         UsageProblem: there is such a source.
@@ -74,25 +74,25 @@ def demand_grammars(paths: Iterable[str], format: str | None = None) -> None:
 
 
 def find_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
-    """The tables of a source in the order of its lines; what several readers find is found once.
+    """The tables of a source in the order of its lines; with all readers those of the best one.
 
     Args:
         text: of the source.
-        source: what it is called.
-        chosen: who reads it.
+        source: its name.
+        chosen: the readers.
     """
     if len(text) > MAX_CHARACTERS:
         return []
     if len(chosen) == len(all_readers()):
         return _by_the_best(text, source, chosen)
-    found: list[FoundTable] = []
+    tables: list[FoundTable] = []
     for reader in chosen:
-        found += _read(reader, text, source)
-    return sorted(found, key=lambda x: x.line)
+        tables += _read(reader, text, source)
+    return sorted(tables, key=lambda x: x.line)
 
 
 def _read(reader: Reader, text: str, source: str) -> list[FoundTable]:
-    """What a reader finds; in a source that becomes too large the place where it does."""
+    """The tables of a reader; for a source that becomes too large, the place where it does."""
     try:
         return reader.find(text, source)
     except TooLarge as error:
@@ -100,18 +100,20 @@ def _read(reader: Reader, text: str, source: str) -> list[FoundTable]:
 
 
 def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
-    """The tables of the reader that finds most in a text of an unknown format."""
+    """The tables of the reader that reads most in a text of an unknown format."""
     best: list[FoundTable] = []
     no_tables: list[FoundTable] = []
     for reader in chosen:
-        found = _read(reader, text, source)
-        no_tables += [x for x in found if x.trouble]
-        if _worth(found) > _worth(best):
-            best = found
+        tables = _read(reader, text, source)
+        no_tables += [x for x in tables if x.trouble]
+        if _worth(tables) > _worth(best):
+            best = tables
     return best or no_tables
 
 
 def _worth(tables: Sequence[FoundTable]) -> tuple[int, int]:
-    """How many tables were read, those that say that they are methods before others."""
-    whole = [x for x in tables if not x.trouble]
-    return sum(x.is_sure for x in whole), len(whole)
+    """A key for the number of tables that were read: those that are certain to be methods count
+    first.
+    """
+    read = [x for x in tables if not x.trouble]
+    return sum(x.is_sure for x in read), len(read)

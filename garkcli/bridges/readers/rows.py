@@ -1,4 +1,4 @@
-"""Numbers in rows: CSV, files of RungeKutta.jl, what ``ARKodeButcherTable_Write`` prints."""
+"""Numbers in rows: CSV, files of RungeKutta.jl, the output of ``ARKodeButcherTable_Write``."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ _HEAD = re.compile(r"#[ \t]*([0-9]{1,3})[ \t]+([0-9]{1,3})[ \t]+([A-Za-z]\S*)")
 _NUMBER = re.compile(r"[-+]?(?:[0-9]{1,400}\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,4}|//[0-9]+)?")
 _PART = re.compile(r"[ \t]*([Acbd])[ \t]*=[ \t]*([-+0-9.eE \t,]*)")
 MAX_LINE = 20_000
-"""Longest line that ARKODE prints."""
+"""Longest line of ARKODE."""
 csv.field_size_limit(131_072)
 
 
 def _csv(text: str) -> Iterator[tuple[int, Values]]:
-    """The table of a CSV file, or of each part of it between blank lines."""
+    """The table of a CSV file, or of each part between blank lines."""
     lines = text.splitlines()
     if len(lines) > MAX_ROWS:
         raise TooLarge(f"the source has more than {MAX_ROWS} lines", MAX_ROWS + 1)
-    told = _TITLE.search(text)
-    title: Values = {"title": ir.Text(told[1].strip())} if told else {}
+    title_line = _TITLE.search(text)
+    title: Values = {"title": ir.Text(title_line[1].strip())} if title_line else {}
     rows: list[list[str]] = []
     for number, line in enumerate([*lines, ""], start=1):
         cells = [] if line.lstrip().startswith("#") else _cells(line)
@@ -53,7 +53,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _entries(rows: Sequence[Sequence[str]]) -> Values:
-    """``part,l,m,i,j,value``: each entry in a row of its own; colours and stages count from 1."""
+    """``part,l,m,i,j,value``: one row for each entry; colours and stages count from 1."""
     entries: dict[str, dict[tuple[int, ...], str]] = {}
     for row in rows:
         if len(row) != len(COLUMNS) or row[0] not in _PARTS:
@@ -70,7 +70,7 @@ def _entries(rows: Sequence[Sequence[str]]) -> Values:
 
 
 def _nested(entries: Mapping[tuple[int, ...], str], widths: Sequence[int] = ()) -> Nested:
-    """Entries in lists, so many at least, with nothing where none is given."""
+    """Entries in nested lists of at least the given lengths, with None for missing ones."""
     if () in entries:
         return entries[()]
     inner: dict[int, dict[tuple[int, ...], str]] = {}
@@ -81,13 +81,13 @@ def _nested(entries: Mapping[tuple[int, ...], str], widths: Sequence[int] = ()) 
 
 
 def _tableau(rows: Sequence[list[str]]) -> Values:
-    """Rows ``c_i, a_i1, …``; below them the weights, whose first cell is empty."""
+    """Rows ``c_i, a_i1, …``; below them the weights, with an empty first cell."""
     width = len(rows[0]) if rows else 0
     if not 1 < width <= MAX_STAGES + 1 or any(len(row) > width for row in rows):
         return {}
-    whole = [row + [""] * (width - len(row)) for row in rows]
-    below = [row[1:] for row in whole if not row[0]]
-    above = [row for row in whole if row[0]]
+    padded = [row + [""] * (width - len(row)) for row in rows]
+    below = [row[1:] for row in padded if not row[0]]
+    above = [row for row in padded if row[0]]
     return grid([width - 1], [above], below) if len(below) < 3 else {}
 
 

@@ -1,1 +1,1 @@
-"""The targets of ``gark export``: each file has one or more ``Bridge`` values in ``BRIDGES``."""
+"""The targets of ``gark export``: each file has its ``Bridge`` values in ``BRIDGES``."""

@@ -15,36 +15,36 @@ from garkcli.exact.field import ONE, ZERO
 
 
 def _of_arkode(_: Payload, tables: Sequence[Table]) -> Values:
-    """The integrator of a table alone, or of a pair."""
+    """The form of the integrator, for a single table or a pair."""
     first, *others = tables
     if others:
         return {"form": "ark"}
     if not first.is_explicit:
         return {"form": "dirk"}
-    # Before 6.6.1 ERKStep takes each method whose last node is 1 for one whose last stage is the
-    # first of the next step, and is of another order then, in silence.
+    # Before 6.6.1 ERKStep takes each method with 1 as its last node for one whose last stage is the
+    # first of the next step, and silently has another order.
     return {"form": "erk" if first.is_fsal or first.c[-1] != ONE else "explicit"}
 
 
 def _of_ts(_: Payload, tables: Sequence[Table]) -> Values:
-    """An implicit method is the implicit half of a pair; its explicit half is never used."""
-    found = tables[0]
-    if len(tables) > 1 or found.is_explicit:
+    """An implicit method as the implicit half of a pair; its explicit half is never used."""
+    implicit = tables[0]
+    if len(tables) > 1 or implicit.is_explicit:
         return {}
-    zeros = (ZERO,) * found.stages
-    nothing = Table((zeros,) * found.stages, zeros, found.c, found.embedded and zeros)
-    return {"tables": [nothing, found]}
+    zeros = (ZERO,) * implicit.stages
+    nothing = Table((zeros,) * implicit.stages, zeros, implicit.c, implicit.embedded and zeros)
+    return {"tables": [nothing, implicit]}
 
 
 def _of_rosw(payload: Payload) -> Values:
-    """The solver sums the rows itself."""
-    found = printed_stages(payload)
-    lost = [] if found.has_row_sums else ["c and d, which are the row sums there"]
-    return {"linear": found, "left_out": lost}
+    """The stages; the solver sums the rows itself."""
+    stages = printed_stages(payload)
+    lost = [] if stages.has_row_sums else ["c and d, which are the row sums there"]
+    return {"linear": stages, "left_out": lost}
 
 
 BRIDGES = (
-    # it takes f at t for the first stage where that is explicit, whatever its node is
+    # it evaluates an explicit first stage at t, for any node
     Bridge(
         name="sundials",
         summary="C for ARKODE: ERK, DIRK, ARK pairs, SPRK",

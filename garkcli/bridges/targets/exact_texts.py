@@ -32,52 +32,51 @@ from garkcli.page.schema import (
 from garkcli.tableau.tableau import Colour
 
 DIGITS = 40
-"""Of entries that have no simple radicals."""
+"""Digits of entries without simple radicals."""
 _EXACT = replace(EXACT, digits=DIGITS)
 _PRINTED = replace(_EXACT, is_fraction_first=False)
-"""Of methods with rounded coefficients: decimals stay decimals."""
+"""For rounded coefficients: decimals stay decimals."""
 
 
 def _json(payload: Payload) -> str:
-    """The method as one object."""
     return _REPORT.text(payload)
 
 
 def export_schema() -> Schema:
-    """The JSON Schema of what is written."""
+    """The JSON Schema of the exported documents."""
     return published("method of gark export, with --to json", _REPORT.schema)
 
 
 def style_of(payload: Payload) -> Style:
-    """How the numbers of a method are written where nothing may be lost."""
+    """The lossless style for the numbers of a method."""
     return _EXACT if payload.tolerance is None else _PRINTED
 
 
 def _array(name: str) -> Callable[[Payload], Any]:
-    """The texts of an array, colour by colour; of one vector field its own."""
+    """The texts of an array, colour by colour; for one vector field without the outer list."""
 
     def texts(payload: Payload) -> Any:
         if payload.own is not None:
             return _texts(payload, payload.own.get(name))
         if payload.kind == "mri":
             return None
-        found = getattr(payload, name)
-        if payload.kind in {"rk", "row"} and payload.size == 1 and found is not None:
-            found = found[0][0] if name == "A" else found[0]
-        return _texts(payload, found)
+        cells = getattr(payload, name)
+        if payload.kind in {"rk", "row"} and payload.size == 1 and cells is not None:
+            cells = cells[0][0] if name == "A" else cells[0]
+        return _texts(payload, cells)
 
     return texts
 
 
 def _nodes(payload: Payload) -> Any:
-    """The texts of the nodes; of a coupling those of its slow stages."""
+    """The texts of the nodes; for a coupling of its slow stages."""
     if payload.kind != "mri":
         return _array("c")(payload)
     return _texts(payload, coupling_of(payload).nodes)
 
 
 def _multirate(payload: Payload) -> Any:
-    """The keys of a method file with their texts, of a multirate infinitesimal method."""
+    """The keys of a method file for a multirate infinitesimal method, with their texts."""
     if payload.kind != "mri":
         return None
     return _told(payload, keys_of(coupling_of(payload)))
@@ -85,8 +84,8 @@ def _multirate(payload: Payload) -> Any:
 
 def _predictor(payload: Payload) -> Any:
     """The matrices of 1, r, r², … that predict stages."""
-    found = payload.predictor
-    return found and {"old": _texts(payload, found.old), "new": _texts(payload, found.new)}
+    matrices = payload.predictor
+    return matrices and {"old": _texts(payload, matrices.old), "new": _texts(payload, matrices.new)}
 
 
 def _told(payload: Payload, value: Any) -> Any:
@@ -96,26 +95,26 @@ def _told(payload: Payload, value: Any) -> Any:
 
 
 def _own(name: str) -> Callable[[Payload], Any]:
-    """The texts of an array that methods of one kind alone have."""
+    """The texts of an array that only one kind of methods has."""
     return lambda payload: _texts(payload, payload.own.get(name)) if payload.own else None
 
 
 def _texts(payload: Payload, cells: Any) -> Any:
-    """Lists of texts, as deep as the tuples of entries."""
+    """Lists of texts, nested like the tuples of entries."""
     if isinstance(cells, tuple):
         return [_texts(payload, x) for x in cells]
     return None if cells is None else payload.number(cells, style_of(payload))
 
 
 def _linear(payload: Payload, name: Literal["alpha", "gamma", "d"]) -> Any:
-    """The texts of an array that Rosenbrock methods alone have."""
+    """The texts of an array that only Rosenbrock methods have."""
     method = payload.rosenbrock
     if method is None:
         return None
-    found = method.nodes[1] if name == "d" else getattr(method, name)
+    cells = method.nodes[1] if name == "d" else getattr(method, name)
     if payload.size == 1:
-        found = found[0] if name == "d" else found[0][0]
-    return _texts(payload, found)
+        cells = cells[0] if name == "d" else cells[0][0]
+    return _texts(payload, cells)
 
 
 _COLOUR: Record[Colour] = Record(
@@ -209,8 +208,8 @@ _REPORT: Record[Payload] = Record(
 
 
 def _csv(payload: Payload) -> str:
-    """A row an entry, below a head of comments; colours and stages count from 1, of ``dense`` j is
-    the power of theta.
+    """One row for each entry, below a head of comments; colours and stages count from 1; for
+    ``dense`` j is the power of theta.
     """
     notes = [] if payload.predictor is None else [f"Left out: {PREDICTOR}."]
     return (
@@ -224,7 +223,7 @@ def _lines(payload: Payload) -> Iterator[str]:
             for i, row in enumerate(rows, start=1):
                 for j, text in enumerate(payload.numbers(row, style_of(payload)), start=1):
                     place = f"{i},{j}" if part in {"A", "dense"} else f"{j},"
-                    # the comma of root(x, n)
+                    # for the comma of root(x, n)
                     value = f'"{text}"' if "," in text else text
                     yield f"{part},{l},{m},{place},{value}"
 

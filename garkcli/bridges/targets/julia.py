@@ -1,4 +1,4 @@
-"""Julia: a named tuple of any method, and what its packages of Runge-Kutta methods take."""
+"""Julia: a named tuple of any method, and the input of its packages of Runge-Kutta methods."""
 
 from __future__ import annotations
 
@@ -34,10 +34,11 @@ class _Big(Radicals):
 
 
 class _Exact(Style):
-    """Exact where Julia has it: fractions with //, square roots of BigFloat; else decimals."""
+    """Exact if Julia can hold it: fractions with //, square roots of BigFloat; otherwise
+    decimals.
+    """
 
     def text(self, x: Cell, digits: int | None = None) -> str:
-        """The number."""
         if digits is None and isinstance(x, fmpq):
             if max(abs(int(x.p)), int(x.q)) <= _LARGEST:
                 return f"{x.p}//{x.q}"
@@ -61,16 +62,16 @@ JULIA = _Exact(digits=_BIG, decimal='big"{x}"')
 
 def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
     """A, B and c of the 2N form."""
-    (found,) = tables
+    (only_table,) = tables
     message = (
         f"climatimesteppers has methods in Williamson's 2N form, which {payload.name} has"
         " exactly or not at all; its numbers are of several fields"
     )
     if payload.is_exact:
-        form = in_two_registers(found.A, found.b, payload.tolerance or 0)
+        form = in_two_registers(only_table.A, only_table.b, payload.tolerance or 0)
         if not isinstance(form, int):
             A, B = form
-            return {"rows": [tuple(fmpq(x) if x == 0 else x for x in A), tuple(B), found.c]}
+            return {"rows": [tuple(fmpq(x) if x == 0 else x for x in A), tuple(B), only_table.c]}
         message = (
             f"climatimesteppers has methods in Williamson's 2N form; {payload.name} has none: from"
             f" one stage to the next the slopes of stages {form} and {form + 1} do not enter in one"
@@ -80,7 +81,7 @@ def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
 
 
 _ROWS_OF_H = 4
-"""So many rows of the interpolant its solvers add up."""
+"""Most rows of the interpolant that its solvers add up."""
 
 
 def _rodas(payload: Payload) -> Values:

@@ -10,11 +10,11 @@ from garkcli.bridges.registry import DENSE, Bridge
 from garkcli.bridges.texts import Values
 
 MOST_STAGES = 6
-"""So many have a place in the arrays of KPP."""
+"""Most stages in the arrays of KPP."""
 
 
 def values(payload: Payload) -> Values:
-    """The coefficients; the matrix of all stages is made with the first entry of d."""
+    """The coefficients; KPP forms the matrix of all stages with the first entry of d."""
     program = program_stages(payload)
     if len(program.c) > MOST_STAGES:
         message = f"the arrays of KPP hold {MOST_STAGES} stages, {payload.name} has more"

@@ -1,4 +1,4 @@
-"""LaTeX: the tableau as the paper prints it, embedded weights below the others."""
+"""LaTeX: the tableau as papers print it, embedded weights below the others."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from garkcli.page.tableau_latex import displays
 from garkcli.tableau.pointwise import Cell, Entries
 
 DECIMALS = Style(longest=1000, point=False)
-"""Of methods with rounded coefficients, and of entries without radicals."""
+"""For rounded coefficients, and for entries without radicals."""
 
 
 def write(payload: Payload) -> str:
@@ -32,7 +32,7 @@ def write(payload: Payload) -> str:
 
 
 def _cell(payload: Payload, cell: Cell) -> str:
-    """An entry: exact, or a decimal where the file has decimals or digits were requested."""
+    """An entry: exact, or a decimal if the file has decimals or digits were requested."""
     is_printed = isinstance(cell, fmpq) and payload.tolerance is not None
     if isinstance(cell, arb) or is_printed or payload.digits is not None:
         return decimal_latex(payload.number(cell, DECIMALS))

@@ -1,4 +1,4 @@
-"""Targets whose template says all: what each takes, and how it writes numbers."""
+"""Targets that consist of a template: the methods that each takes, and its style of numbers."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ BRIDGES = (
         suffix=".inputs",
         stages="explicit",
     ),
-    # a function that makes the stepper, of any type of state
+    # a function that makes the stepper, for any type of state
     Bridge(
         name="boost",
         summary="Boost.Odeint: a header of C++, explicit methods",
@@ -32,7 +32,7 @@ BRIDGES = (
         words=CPP_WORDS,
         file=_HEADER,
     ),
-    # for any real type; several vector fields have arrays A1_2, b2 with their numbers
+    # for any real type; for several vector fields arrays have names such as A1_2, b2
     Bridge(
         name="c",
         summary="a C header with constant arrays",
@@ -44,7 +44,7 @@ BRIDGES = (
         reads_back=True,
     ),
     # With varstep = FALSE deSolve reads only the entries right below the diagonal of A. R reads
-    # decimals through long double, which rounds some twice: those of floats come back.
+    # decimals through long double, which rounds some twice; those of floats survive it.
     Bridge(
         name="desolve",
         summary="deSolve of R: a method for rk, explicit methods",
@@ -81,7 +81,7 @@ BRIDGES = (
         file=_FUNCTION,
         reads_back=True,
     ),
-    # the solver keeps pointers to the numbers, which are static
+    # the numbers are static, since the solver keeps pointers to them
     Bridge(
         name="mfem",
         summary="MFEM: a header of C++, explicit methods",
@@ -109,7 +109,7 @@ BRIDGES = (
         style=PYTHON,
         reads_back=True,
     ),
-    # Tempus reads numbers by the stream operator of C++, for which 1/3 is 1: all are decimals
+    # Tempus reads numbers by the stream operator of C++, for which 1/3 is 1, so all are decimals
     Bridge(
         name="tempus",
         summary="Tempus of Trilinos: XML, explicit, DIRK and IMEX methods",
@@ -118,8 +118,8 @@ BRIDGES = (
         stages="lower",
         several="pair",
     ),
-    # Its cubic between steps takes the slopes of the first and the last stage: a method that has
-    # none at the end of the step gets one, whose weight is 0, the first one of the next step.
+    # Its cubic between steps uses the slopes of the first and the last stage: a method without a
+    # stage at the end of the step gets one of weight 0, the first one of the next step.
     Bridge(
         name="torchode",
         summary="torchode: a module with a class, explicit methods",

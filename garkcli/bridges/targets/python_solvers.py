@@ -17,26 +17,26 @@ from garkcli.bridges.trials import WORDS
 from garkcli.exact.field import ONE, ZERO
 from garkcli.tableau.pointwise import Row
 
-_CLOSE = 1e-8  # as numpy.allclose has it, for diffrax
+_CLOSE = 1e-8  # of numpy.allclose, used by diffrax
 HERMITE = ((0, 3, -2), (1, -2, 1), (0, -1, 1))
-"""The cubic that has the values and slopes of both ends: what b_i, the first and the last slope
-are multiplied by, as coefficients of θ, θ² and θ³.
+"""The cubic with the values and slopes of both ends: the factors of b_i, the first and the last
+slope, as coefficients of θ, θ² and θ³.
 """
 
 
 def _of_scipy(_: Payload, tables: Sequence[Table]) -> Values:
-    """What the class has; without the last stage where that is f at the new value. The program
-    takes fixed steps.
+    """The values of the class, without a last stage that is f at the new value. The program takes
+    fixed steps.
 
-    The errors are the differences b̂ − b, the sign that the classes of SciPy have.
+    The errors are the differences b̂ − b, with the sign of the classes of SciPy.
     """
-    (found,) = tables
-    kept = found.stages - found.is_fsal
-    last = () if found.is_fsal else (ZERO,)
+    (only_table,) = tables
+    kept = only_table.stages - only_table.is_fsal
+    last = () if only_table.is_fsal else (ZERO,)
     return {
         "kept": kept,
-        "errors": (*(combined((-1, x)) for x in found.error), *last),
-        "between": _dense(found, kept),
+        "errors": (*(combined((-1, x)) for x in only_table.error), *last),
+        "between": _dense(only_table, kept),
     }
 
 
@@ -55,16 +55,16 @@ def _dense(found: Table, kept: int) -> Sequence[Row]:
 def _of_torchdiffeq(payload: Payload, tables: Sequence[Table]) -> Values:
     """The weights of the middle.
 
-    Its steps take the last stage for f(t + h, y at the end), and begin with it: a method without
-    such a stage gets one, whose weight is 0, at no cost. Between steps it has a polynomial of
-    degree 4 through both ends, their slopes and the middle, whose weights are ours to give. The
-    program has tolerances that accept every step, and steps bounded by h.
+    torchdiffeq takes the last stage for f(t + h, y at the end), and the next step begins with it: a
+    method without such a stage gets one of weight 0, at no cost. Between steps it uses a polynomial
+    of degree 4 through both ends, their slopes and the middle, with weights given here. The program
+    has tolerances that accept every step, and steps bounded by h.
     """
     return {"middle": middle(payload, tables[0])}
 
 
 def middle(payload: Payload, found: Table) -> Row:
-    """The weights of y(t + h/2): by dense output, or those that make the quartic the cubic."""
+    """The weights of y(t + h/2): by dense output, or those that make the quartic a cubic."""
     if payload.dense is None:
         eighths = (ONE, *(ZERO,) * (found.stages - 2), -ONE)
         pairs = zip(found.b, eighths, strict=True)
@@ -76,25 +76,25 @@ def middle(payload: Payload, found: Table) -> Row:
 
 
 def _of_dedalus(_: Payload, tables: Sequence[Table]) -> Values:
-    """The tables with the stages that they need: H is the implicit method, A the explicit one.
+    """The tables with the required stages: H is the implicit method, A the explicit one.
 
-    The last rows of its matrices are the weights, so both methods have to end with a stage at the
-    new value, and its first stage is explicit: a missing one is put in, with the weight 0.
+    The last rows of its matrices are the weights, so both methods must end with a stage at the new
+    value, and the first stage must be explicit: missing stages are added with weight 0.
     """
     if not all(vanishes(x) for found in tables for x in found.A[0]):
         tables = [*map(with_first_stage, tables)]
-    # a single stage is the first too
+    # a single stage is also the first
     ends = all(x.stages > 1 and x.A[-1] == x.b and x.c[-1] == ONE for x in tables)
     return {"tables": tables if ends else [*map(with_last_stage, tables)], "is_put_in": not ends}
 
 
 def _of_diffrax(payload: Payload, tables: Sequence[Table]) -> Values:
-    """The tables with a second stage, and what the class is derived from.
+    """The tables with at least two stages, and the base classes.
 
-    diffrax wants two stages at least, and nodes that are the row sums. Its cubic between steps
-    takes the slopes of the first and the last stage: explicit methods that have none at the end of
-    the step get one, whose weight is 0, and which is the first one of the next step. The program
-    takes constant steps; implicit stages are solved until rounding ends it.
+    diffrax requires two stages, and nodes that are the row sums. Its cubic between steps uses the
+    slopes of the first and the last stage: explicit methods without a stage at the end of the step
+    get one of weight 0, the first one of the next step. The program takes constant steps; implicit
+    stages are solved to rounding.
     """
     tables = [x if x.stages > 1 else with_first_stage(x) for x in tables]
     for found in tables:
@@ -106,7 +106,7 @@ def _of_diffrax(payload: Payload, tables: Sequence[Table]) -> Values:
         bases += ", diffrax.AbstractImplicitSolver" if is_implicit else ""
     return {
         "tables": tables,
-        # a stage is first sought where the one before was
+        # each stage starts from the one before
         "guesses": [(*(ZERO,) * i, ONE) for i in range(tables[0].stages - 1)],
         "is_implicit": is_implicit,
         "bases": bases,
@@ -115,7 +115,6 @@ def _of_diffrax(payload: Payload, tables: Sequence[Table]) -> Values:
 
 
 def kind_of(found: Table) -> str:
-    """Which base class has it."""
     if found.is_explicit:
         return "ERK"
     first, *others = found.diagonal
@@ -130,10 +129,10 @@ def has_cubic(found: Table) -> bool:
 
 
 def _check_nodes(payload: Payload, found: Table) -> None:
-    """Diffrax compares the nodes with the row sums; explicit methods have 0 first.
+    """Raises if a node is not the row sum: diffrax compares them.
 
     Raises:
-        CannotExport: a node is none.
+        CannotExport: a node is not the row sum.
     """
     for i, (row, node) in enumerate(zip(found.A, found.c, strict=True), 1):
         rest = combined((1, node), *((-1, x) for x in row))

@@ -1,8 +1,8 @@
 """SUNDIALS MRIStep in C: the slow part of a multirate infinitesimal step.
 
 It is the coupling of a file with ``multirate: {mis: …}`` or ``{mri: …}``, or an explicit method:
-stage i goes on from stage i − 1: the fast equation is solved from c_{i−1} to c_i, with the constant
-slow tendency Σ_j (a_{ij} − a_{i−1,j}) f_j / (c_i − c_{i−1}). The last stage is the new value. With
+from stage i − 1 to stage i the fast equation is solved from c_{i−1} to c_i, with the constant slow
+tendency Σ_j (a_{ij} − a_{i−1,j}) f_j / (c_i − c_{i−1}). The last stage is the new value. With
 ``restart`` the fast equation is solved from the beginning of the step.
 """
 
@@ -35,12 +35,13 @@ class Slow(Frozen):
     """The slow part of a multirate infinitesimal step.
 
     Attributes:
-        nodes: of its stages, the last one the new value.
-        matrices: by W, explicit, or G, implicit, those of τ⁰, τ¹, …; row i leads to stage i.
-        order: with the fast equation solved exactly, or as well as the file says.
-        embedding: the rows that lead to the embedded value, by W or G a row for each power, and
-            its order; None without it.
-        restart: merk or sr, of methods whose fast problems begin with the step.
+        nodes: of its stages; the last one is the new value.
+        matrices: of τ⁰, τ¹, …, under W for explicit and G for implicit ones; row i leads to stage
+            i.
+        order: with the fast equation solved exactly, or by the steps in the file.
+        embedding: the rows to the embedded value, under W or G one for each power, and its order;
+            None without it.
+        restart: merk or sr, if fast problems begin with the step.
     """
 
     nodes: Row
@@ -51,7 +52,7 @@ class Slow(Frozen):
 
     @property
     def type(self) -> str:
-        """As MRIStep calls it."""
+        """The name of its type in MRIStep."""
         if self.restart:
             return f"MRISTEP_{self.restart.upper()}"
         names = {"W": "EXPLICIT", "G": "IMPLICIT", "WG": "IMEX"}
@@ -59,16 +60,16 @@ class Slow(Frozen):
 
     @property
     def groups(self) -> Sequence[Sequence[int]]:
-        """Of ``merk`` stages with one forcing: MRIStep goes through them in one fast problem. The
-        embedded value is the last stage of the last group but one, and has the number of stages;
-        the new value is a group of its own.
+        """Groups of ``merk`` stages with one forcing, each one fast problem for MRIStep. The
+        embedded value is the last stage of the last group but one, with the number of stages as its
+        number; the new value is its own group.
         """
         last = len(self.nodes) - 1
         forcing = [tuple(matrix[i] for matrix in self.matrices["W"]) for i in range(last + 1)]
-        found: dict[object, list[int]] = {}
+        by_forcing: dict[object, list[int]] = {}
         for i in range(1, last):
-            found.setdefault(forcing[i], []).append(i)
-        groups = [sorted(x, key=lambda i: float(ball(self.nodes[i]))) for x in found.values()]
+            by_forcing.setdefault(forcing[i], []).append(i)
+        groups = [sorted(x, key=lambda i: float(ball(self.nodes[i]))) for x in by_forcing.values()]
         rows = () if self.embedding is None else self.embedding[0]["W"]
         zeros = ((ZERO,) * (last + 1),) * (len(forcing[0]) - len(rows))
         if groups and forcing[groups[-1][0]] == (*rows, *zeros):
@@ -79,7 +80,7 @@ class Slow(Frozen):
 
 
 def values(payload: Payload, _: Sequence[Table]) -> Values:
-    """The coupling; the orders of a file's are those with its fast steps, where it has them."""
+    """The coupling, and whether the orders are those with fast steps in the file."""
     has_steps = payload.coupling is not None and payload.kind != "mri"
     return {"slow": slow_part(payload), "has_steps": has_steps}
 
@@ -88,7 +89,7 @@ def slow_part(payload: Payload) -> Slow:
     """The slow part of a file with a coupling, or an explicit method as one.
 
     Raises:
-        CannotExport: it is none.
+        CannotExport: it is neither.
     """
     if payload.kind != "rk" or payload.coupling is not None:
         return _coupled(payload, coupling_of(payload))
@@ -101,20 +102,20 @@ def slow_part(payload: Payload) -> Slow:
             f"{payload.name} do not ascend",
             "choose a method with ascending nodes, such as Ralston's of order 3",
         )
-    whole = _with_value(found)
-    increments = map(_difference, whole.A[1:], whole.A)
+    with_value = _with_value(found)
+    increments = map(_difference, with_value.A[1:], with_value.A)
     order = infinitesimal_order(found, payload.orders.effective)
     embedding = None
-    if whole.embedded is not None:
-        last = _difference(whole.embedded, whole.A[-2])
+    if with_value.embedded is not None:
+        last = _difference(with_value.embedded, with_value.A[-2])
         embedding = {"W": [last]}, min(payload.orders.embedded or 0, 2)
-    return Slow(whole.c, {"W": [((ZERO,) * whole.stages, *increments)]}, order, embedding)
+    return Slow(with_value.c, {"W": [((ZERO,) * with_value.stages, *increments)]}, order, embedding)
 
 
 def _coupled(payload: Payload, coupling: Coupling) -> Slow:
-    """The coupling of a file: what looks at the end of its own row is implicit."""
+    """The coupling of a file; a matrix is implicit if a row depends on the end of its own stage."""
     nothing = (ZERO,) * len(coupling.nodes)
-    found: dict[str, list[Rows]] = {}
+    by_letter: dict[str, list[Rows]] = {}
     if coupling.matrices is None:
         message = f"the fast problems of {payload.name} begin between stages"
         raise CannotExport(message, "choose a coupling without α and γ")
@@ -127,19 +128,19 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
         # row i leads from stage i to the next
         is_implicit = any(any(row[i + 1 :]) for rows in powers for i, row in enumerate(rows))
         letter = "G" if is_implicit else "W"
-        if letter in found:
+        if letter in by_letter:
             message = f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit"
             raise CannotExport(message, "MRIStep takes an explicit and an implicit one")
         rows[letter] = () if last is None else last.forcing[part]
-        found[letter] = _with_first_rows(powers, nothing, len(rows[letter]))
-    matrices = {letter: found[letter] for letter in "WG" if letter in found}
+        by_letter[letter] = _with_first_rows(powers, nothing, len(rows[letter]))
+    matrices = {letter: by_letter[letter] for letter in "WG" if letter in by_letter}
     embedding = None if last is None else (rows, payload.orders.embedded or 0)
     return Slow(coupling.nodes, matrices, payload.orders.effective, embedding)
 
 
 def _with_first_rows(powers: Sequence[Rows], nothing: Row, least: int) -> list[Rows]:
-    """The matrices, each with a row for the first stage; at least so many, for embedded rows of
-    more powers.
+    """The matrices with a row for the first stage, at least ``least`` of them since embedded rows
+    may have more powers.
     """
     zeros = (nothing,) * len(nothing)
     return [*((nothing, *matrix) for matrix in powers), *[zeros] * (least - len(powers))]
@@ -173,10 +174,11 @@ def _restarted(payload: Payload, coupling: Coupling) -> Slow:
 
 
 def _refuse_stages(name: str, nodes: Row, parts: Sequence[Sequence[Rows]]) -> None:
-    """Refuse what MRIStep refuses as it begins.
+    """Raises for couplings that MRIStep refuses at its start.
 
     Raises:
-        CannotExport: nodes descend, or a stage uses a later one, or itself beside a fast problem.
+        CannotExport: nodes descend, or a stage uses a later one, or is implicit with a fast
+            problem.
     """
     widths = [ball(combined((1, end), (-1, begin))) for begin, end in pairwise(nodes)]
     if any(width < 0 for width in widths):
@@ -202,16 +204,16 @@ def _difference(row: Row, before: Row) -> Row:
 
 
 def infinitesimal_order(found: Table, order: int) -> int:
-    """The order of the step with the fast equation solved exactly: 3 at most.
+    """The order of the step with the fast equation solved exactly, at most 3.
 
-    It is 3 where Σ_i (c_i − c_{i−1}) (e_i + e_{i−1})ᵀ A c = 1/3, the new value among the stages
-    (Knoth and Wolke, Applied Numerical Mathematics 28, 1998).
+    It is 3 if Σ_i (c_i − c_{i−1}) (e_i + e_{i−1})ᵀ A c = 1/3, the new value among the stages (Knoth
+    and Wolke, Applied Numerical Mathematics 28, 1998).
     """
     if order < 3:
         return order
-    whole = _with_value(found)
-    values = [sum(map(mul, row, whole.c), start=ZERO) for row in whole.A]
-    pairs = zip(_difference(whole.c[1:], whole.c[:-1]), pairwise(values), strict=True)
+    with_value = _with_value(found)
+    values = [sum(map(mul, row, with_value.c), start=ZERO) for row in with_value.A]
+    pairs = zip(_difference(with_value.c[1:], with_value.c[:-1]), pairwise(values), strict=True)
     return 3 if sum((width * (x + y) for width, (x, y) in pairs), start=ZERO) == fmpq(1, 3) else 2
 
 

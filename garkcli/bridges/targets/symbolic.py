@@ -12,23 +12,23 @@ from garkcli.frozen import replace
 
 
 class _Surds(Radicals):
-    """Roots as Mathematica has them."""
+    """Roots in Mathematica."""
 
     def rational(self, x: fmpq) -> str:
         return str(x.p) if x.q == 1 else f"({x})"
 
     def root(self, radicand: str, index: int) -> str:
-        # the principal root of a negative number is no real one
+        # the principal root of a negative number is not real
         return f"Sqrt[{radicand}]" if index == 2 else f"Surd[{radicand}, {index}]"
 
     def algebraic(self, root: AlgebraicRoot) -> str:
-        """Real roots come first there, in ascending order."""
+        """Mathematica numbers real roots first, in ascending order."""
         powers = [f"({a})*#^{k}" if k else f"({a})" for k, a in enumerate(root.coefficients) if a]
         return f"Root[{' + '.join(powers)} &, {root.number + 1}]"
 
 
 MATHEMATICA = Style(
-    digits=60,  # of numbers that have no radicals
+    digits=60,  # of numbers without radicals
     fraction="{p}/{q}",
     is_fraction_first=True,
     largest=10**4000,
@@ -36,11 +36,11 @@ MATHEMATICA = Style(
     exponent="*^",
     point=False,
 )
-"""Exact, so that N makes as many digits of them as it is requested."""
+"""Exact, so that N gives any number of digits."""
 
 
 class _Rationals(Radicals):
-    """Roots as SymPy has them."""
+    """Roots in SymPy."""
 
     POWER = "**"
 
@@ -48,11 +48,11 @@ class _Rationals(Radicals):
         return f"Rational({x.p}, {x.q})"
 
     def root(self, radicand: str, index: int) -> str:
-        # the principal root of a negative number is no real one
+        # the principal root of a negative number is not real
         return f"sqrt({radicand})" if index == 2 else f"real_root({radicand}, {index})"
 
     def algebraic(self, root: AlgebraicRoot) -> str:
-        """Real roots come first there, in ascending order."""
+        """SymPy numbers real roots first, in ascending order."""
         terms = [f"{a}*x**{k}" for k, a in enumerate(root.coefficients) if a]
         return f"rootof({' + '.join(terms)}, {root.number})"
 
