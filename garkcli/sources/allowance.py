@@ -1,5 +1,5 @@
-"""How much one source may become: names that stand for lists, zeros, and tables are counted before
-they are written out.
+"""Limits on the size of one source: names that stand for lists, zeros, and tables are counted
+before they are expanded.
 """
 
 from __future__ import annotations
@@ -7,21 +7,21 @@ from __future__ import annotations
 from garkcli.sources.found import MAX_TABLES, FoundTable, Row, TooLarge
 
 MAX_WRITTEN = 10_000_000
-"""Most characters of the numbers of a source, its names and zeros written out."""
+"""Most characters of the numbers of a source after expansion of its names and zeros."""
 FREE = 1_000_000
-"""So many are written out of the shortest source."""
+"""Characters allowed for the shortest source."""
 TIMES = 20
-"""And so many times as many as it has itself."""
+"""Further characters allowed for each character of the source."""
 
 
 class Allowance:
-    """What is left of it for one source.
+    """The remaining allowance of one source.
 
     Args:
-        length: of the source, in characters; 0 for one that gives no names to what it says.
+        length: of the source, in characters; 0 for a source without names.
 
     Attributes:
-        line: of what is read, from 1.
+        line: the current line, from 1.
     """
 
     def __init__(self, length: int) -> None:
@@ -31,10 +31,10 @@ class Allowance:
         self._tables = 0
 
     def spend(self, characters: int) -> None:
-        """Write out so many characters.
+        """Counts characters to be written out.
 
         Raises:
-            TooLarge: that is too many.
+            TooLarge: there are too many.
         """
         self._written += characters
         if self._written > self._most:
@@ -42,10 +42,10 @@ class Allowance:
             raise TooLarge(f"the source has more than {self._most} {what}", self.line)
 
     def table(self, table: FoundTable, is_kept: bool = True) -> FoundTable:
-        """A table that was made.
+        """Counts a table and returns it.
 
         Raises:
-            TooLarge: it is one too many to be kept, or too large.
+            TooLarge: it is one too many, or too large.
         """
         self._tables += is_kept
         if self._tables > MAX_TABLES:

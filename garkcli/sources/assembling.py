@@ -1,4 +1,4 @@
-"""From values with their roles to a table: shapes, embedded weights, two parts, several colours."""
+"""Tables from values with their roles: shapes, embedded weights, two parts, several colours."""
 
 from __future__ import annotations
 
@@ -46,30 +46,30 @@ from garkcli.sources.values import (
 from garkcli.sources.values import is_zero as is_nought
 
 Roles: TypeAlias = dict[str, Value]
-"""What is known of a table, by role: A, b, c, embedded, error, dense, order, …"""
+"""The values of a table by role: A, b, c, embedded, error, dense, order, …"""
 
 
 CLOSE = 0.01
-"""Sums of combinations are nearer to 1."""
+"""Largest distance from 1 of row sums of combinations."""
 FAR = 1
-"""Embedded weights have a sum that is nearer to 1, and their differences one nearer to 0, misprints
-included.
+"""Largest distance from 1 of the sum of embedded weights, and from 0 of the sum of their
+differences, misprints included.
 """
 
 
 class NoTable(Exception):
-    """These arrays are no table, whatever they are called."""
+    """These arrays are no table, in spite of their names."""
 
 
 class Meant(Frozen):
-    """What may be a table.
+    """A candidate for a table.
 
     Attributes:
-        table: what is known of it before its coefficients are.
-        roles: its values.
-        signature: of the call that makes it; ``NAMED`` where names alone speak for it.
-        maker: that call, or what else makes it; empty for names.
-        bases: of the class that it is in.
+        table: without coefficients yet.
+        roles: its values by role.
+        signature: of the call that makes it; ``NAMED`` if only its names are evidence.
+        maker: the call or other construct that makes it; empty for names.
+        bases: of the class around it.
     """
 
     table: FoundTable
@@ -83,7 +83,7 @@ def plain(value: Value | None) -> Texts:
     """A value as texts.
 
     Raises:
-        Unreadable: something in it is not known.
+        Unreadable: a part of it is unknown.
     """
     match value:
         case None | Null():
@@ -100,24 +100,24 @@ def plain(value: Value | None) -> Texts:
 
 
 def table_of(meant: Meant) -> FoundTable:
-    """The table, or what keeps it from being read.
+    """The table, or a table with the reason why it cannot be read.
 
     Raises:
-        NoTable: it is none.
+        NoTable: the candidate is no table.
     """
-    signature, roles, told = meant.signature, meant.roles, meant.table
+    signature, roles, place = meant.signature, meant.roles, meant.table
     title = roles.get("title")
-    name = title.text if isinstance(title, Word) else told.name
+    name = title.text if isinstance(title, Word) else place.name
     order, low = _orders(roles)
-    format = signature.format or told.format
-    empty = replace(told, format=format, name=name, order=order, embedded_order=low)
-    is_sure = told.is_sure or told.is_assembled
+    format = signature.format or place.format
+    empty = replace(place, format=format, name=name, order=order, embedded_order=low)
+    is_sure = place.is_sure or place.is_assembled
     if signature is NAMED and not is_sure:
         _refuse_uses(roles)
     try:
         table = _told(roles, _built(meant, roles, empty))
         if not is_sure and not 0 < (order or 1) <= 2 * table.stages:
-            # no method has it: it is the order of something else
+            # no method has this order, so it is of something else
             table = replace(table, order=None)
         return replace(table, is_sure=True) if signature.is_guess else table
     except Unreadable as error:
@@ -128,30 +128,30 @@ def table_of(meant: Meant) -> FoundTable:
         if not (is_sure or is_unread or (is_close and _has_weights(roles))):
             trouble = f"arrays called A and b do not fit together: {trouble}"
             return replace(troubled(empty, trouble), is_sure=False)
-        return troubled(empty, trouble, told.is_sure and is_misshapen)
+        return troubled(empty, trouble, place.is_sure and is_misshapen)
 
 
 def _refuse_uses(roles: Roles) -> None:
-    """Refuse arrays that other code has made: nothing of them is written here."""
+    """Raises NoTable for arrays that other code has made: the source contains none of their
+    numbers.
+    """
     matrix = roles.get("A", roles.get("A_q"))
     others = [x for x in ("b", "c", "delta") if isinstance(roles.get(x), Array)]
     entries = list(matrix.flat()) if isinstance(matrix, Array) else []
     unknown = [x.was_written for x in entries if isinstance(x, Unknown)]
-    given = [x.is_given for x in entries if isinstance(x, Number)]
-    is_only_made = not any(unknown + given) and (unknown or len(items_of(matrix)) > 1)
+    given_flags = [x.is_given for x in entries if isinstance(x, Number)]
+    is_only_made = not any(unknown + given_flags) and (unknown or len(items_of(matrix)) > 1)
     if not isinstance(matrix, Array) or not others or is_only_made:
         raise NoTable
 
 
 def _is_unread(roles: Roles) -> bool:
-    """Whether it is for an entry that is not known that a table cannot be read."""
+    """Whether an unknown entry keeps a table from being read."""
     return any(first_unknown(roles[x]) is not None for x in ("A", "b") if x in roles)
 
 
 def may_be_coefficients(roles: Roles) -> bool:
-    """Whether arrays called A and b are more than those of linear algebra: there are nodes, or
-    fractions.
-    """
+    """Whether arrays called A and b are more than linear algebra: there are nodes, or fractions."""
     A, b, c = (items_of(roles.get(x)) for x in "Abc")
     numbers = Array([x for x in roles.values() if isinstance(x, Array)]).flat()
     fractions = sum(isinstance(x, Number) and (x.value is None or x.value.q != 1) for x in numbers)
@@ -159,21 +159,21 @@ def may_be_coefficients(roles: Roles) -> bool:
 
 
 def _has_weights(roles: Roles) -> bool:
-    """Whether b has the sum 1, which is that of weights."""
+    """Whether b has the sum 1, as weights have."""
     b = roles.get("b")
     return len(items_of(b)) > 1 and abs(near(b) - 1) < _SAME
 
 
 def _told(roles: Roles, table: FoundTable) -> FoundTable:
-    """The table with what data say besides: what colours drive, the rounding."""
-    told = {role: x.text for role, x in roles.items() if isinstance(x, Word)}
+    """The table with further data: the parts that colours drive, the rounding."""
+    words = {role: x.text for role, x in roles.items() if isinstance(x, Word)}
     return replace(
         table,
-        tolerance=told.get("tolerance", table.tolerance),
-        parts=tuple(told["parts"].split()) if "parts" in told else table.parts,
-        structure=told.get("structure", table.structure).replace("general", ""),
+        tolerance=words.get("tolerance", table.tolerance),
+        parts=tuple(words["parts"].split()) if "parts" in words else table.parts,
+        structure=words.get("structure", table.structure).replace("general", ""),
         linear=tuple(n for x in items_of(roles.get("linear")) if (n := whole(x)) is not None),
-        flags={"fsal": told["fsal"] == "true"} if told.get("fsal") in {"true", "false"} else {},
+        flags={"fsal": words["fsal"] == "true"} if words.get("fsal") in {"true", "false"} else {},
     )
 
 
@@ -190,8 +190,8 @@ _WHOLE = ({"A", "b"}, {"drifts"}, {"A_q", "b_q", "b"}, {"A", "delta", "gamma1", 
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     form = meant.signature.form
     if form in ROSENBROCK:
-        told = ("A", "b", "c", "d", "embedded", "error", "gamma", "C", "dense")
-        texts = {role: plain(roles.get(role)) for role in told}
+        role_names = ("A", "b", "c", "d", "embedded", "error", "gamma", "C", "dense")
+        texts = {role: plain(roles.get(role)) for role in role_names}
         return rosenbrock_table(texts, empty, form, roles)
     if form == COUPLING:
         texts = {role: plain(roles.get(role)) for role in ("c", "omega", "gamma")}
@@ -201,8 +201,10 @@ def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         return replace(empty, base=base.text, is_slow=True, c=())
     if form == "slow":
         has_estimate = empty.embedded_order is not None
-        made = roles if has_estimate else {x: y for x, y in roles.items() if x != "embedded"}
-        return replace(_single(replace(meant, signature=NAMED), made, empty), is_slow=True)
+        with_estimate = (
+            roles if has_estimate else {x: y for x, y in roles.items() if x != "embedded"}
+        )
+        return replace(_single(replace(meant, signature=NAMED), with_estimate, empty), is_slow=True)
     A = items_of(roles.get("A"))
     if form == "ark":
         return _two_parts(meant, roles, empty)
@@ -224,8 +226,8 @@ MAX_COLOURS = 60
 
 
 def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
-    """The method whose blocks are ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``; blocks in like
-    rows share their stages, and one row of weights is that of all.
+    """The method with blocks ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``; blocks in equal rows
+    share their stages, and a single row of weights is for all.
     """
     rows = [items_of(row) or [row] for row in items_of(roles.get("A"))]
     colours = max(map(len, rows), default=0)
@@ -252,8 +254,8 @@ def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
 
 
 def _block(value: Value) -> Value:
-    """A block of one row or one entry, which MATLAB has as a list or a number, as a matrix; one
-    without entries is none.
+    """A block of one row or one entry, a list or a number in MATLAB, as a matrix; Null for one
+    without entries.
     """
     if isinstance(value, Number):
         return Array([Array([value])]) if value.is_given else Null()
@@ -263,7 +265,7 @@ def _block(value: Value) -> Value:
 
 
 def _row_each(value: Texts, colours: int) -> Rows | None:
-    """A row for each vector field, or the one that all share."""
+    """A row for each vector field, or the single row for all."""
     if not isinstance(value, list) or not value:
         return None
     is_each = all(isinstance(x, list) for x in value)
@@ -290,24 +292,24 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         stages = _stages(roles)
     elif empty.is_sure:
         stages = whole(roles.get("stages")) or 0
-    found = _of_registers(meant, roles)
-    if found is None:
-        given = _given(roles, "b", stages if meant.maker else 0)
-        if given is None and meant.signature.has_default_weights:
-            given = _square(roles, "A", stages)[-1]
-        b = _row(roles, "b") if given is None else given
+    registers = _of_registers(meant, roles)
+    if registers is None:
+        own_weights = _given(roles, "b", stages if meant.maker else 0)
+        if own_weights is None and meant.signature.has_default_weights:
+            own_weights = _square(roles, "A", stages)[-1]
+        b = _row(roles, "b") if own_weights is None else own_weights
         if stages and len(b) != stages:
             raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
         if meant.maker and _has_weights(roles):
             roles = {**roles, "A": _without_zeros(roles.get("A"), len(b))}
         A = _square(roles, "A", len(b))
     else:
-        form, made = found
-        A, b = made.A, made.b
+        form, converted_form = registers
+        A, b = converted_form.A, converted_form.b
         note = f"the coefficients are those of the form {form}"
         is_guess = meant.signature is NAMED and "c" not in roles
         is_told = {"notes": (*empty.notes, note), "is_assembled": is_guess, "is_sure": True}
-        empty = replace(empty, **is_told, units=made.units)
+        empty = replace(empty, **is_told, units=converted_form.units)
         if form == "Shu–Osher":
             roles = {**roles, "c": roles.get("nodes", Null())}
     notes = (*empty.notes, *not_read(roles))
@@ -323,11 +325,11 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
 
 
 BESIDE = {"c": "nodes are", "embedded": "embedded weights are", "error": "error weights are"}
-"""What a table may be without."""
+"""Arrays that a table may lack."""
 
 
 def not_read(roles: Roles) -> tuple[str, ...]:
-    """What is written beside a matrix and its weights, and is not known."""
+    """Notes on the arrays beside a matrix and its weights that are written but unknown."""
     unknown = {role: first_unknown(roles[role]) for role in BESIDE if role in roles}
     return tuple(
         f"{BESIDE[role]} not read: {x.reason}"
@@ -337,7 +339,7 @@ def not_read(roles: Roles) -> tuple[str, ...]:
 
 
 def _with_both_rows(roles: Roles) -> Roles:
-    """Weights and embedded weights apart, where they are the rows of one matrix."""
+    """Separates weights and embedded weights if they are the rows of one matrix."""
     rows = items_of(roles.get("b"))
     if len(rows) != 2 or any(len(items_of(x)) < 2 for x in rows):
         return roles
@@ -345,8 +347,8 @@ def _with_both_rows(roles: Roles) -> Roles:
 
 
 def _orders(roles: Roles) -> tuple[int | None, int | None]:
-    """The declared orders; a pair of them, or the lower and the higher one, are those of weights
-    and embedded weights that are rows of one matrix.
+    """The declared orders; a pair of them, or the lower and the higher one, belong to weights and
+    embedded weights that are rows of one matrix.
     """
     order, embedded = roles.get("order"), roles.get("embedded_order")
     if order is None and whole(roles.get("order1")) == whole(roles.get("order2")):
@@ -359,20 +361,22 @@ def _orders(roles: Roles) -> tuple[int | None, int | None]:
 
 
 def _with_ends(roles: Roles) -> Roles:
-    """The rows whole, where their first or last number is apart."""
-    found = dict(roles)
+    """The rows completed if their first or last numbers are separate."""
+    completed = dict(roles)
     for role in ("A", "b", "embedded"):
         first, last = ([roles[x]] if (x := f"{role}_{end}") in roles else [] for end in _ENDS)
         if first or last:
-            found[role] = Array([*first, *items_of(roles.get(role)), *last])
-    return found
+            completed[role] = Array([*first, *items_of(roles.get(role)), *last])
+    return completed
 
 
 _ENDS = ("first", "last")
 
 
 def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
-    """The form of low-storage and Shu–Osher coefficients, and what they are; None of others."""
+    """The form of low-storage and Shu–Osher coefficients, and the converted method; None for
+    others.
+    """
     form = meant.signature.form
     A, b, c = map(roles.get, "Abc")
     if "gamma1" in roles:
@@ -393,19 +397,19 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
         return None
     row, b_row = plain(A), weights(plain(b))
     if is_row(row) and _is_pair_of_rows(row_of(row), len(b_row)):
-        # numbers of registers, which say themselves of which form
+        # numbers of registers without a statement of their form
         raise NoTable
     return None
 
 
 def _are_combinations(alpha: Value | None) -> bool:
-    """Whether most rows have the sum 1, but for those of zeros."""
+    """Whether most nonzero rows have the sum 1."""
     sums = [near(*items_of(row)) for row in items_of(alpha) if any(near(x) for x in items_of(row))]
     return 2 * sum(abs(x - 1) < CLOSE for x in sums) > len(sums)
 
 
 def _is_pair_of_rows(row: Row, stages: int) -> bool:
-    """Whether a row has a number per stage, and is no matrix that is written out flat."""
+    """Whether a row has one number per stage, and is no flattened matrix."""
     if stages == 3 and len(row) == 3:
         return is_zero(row[0])
     return stages > 2 - (len(row) == stages) and len(row) in (stages - 1, stages)
@@ -421,7 +425,7 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     c = _nodes(roles, A)
     if c is None:
         raise Unreadable("the nodes of a Nyström method are not written out")
-    made = converted("Nyström", A, b_q, c)
+    of_positions = converted("Nyström", A, b_q, c)
     units = [tuple("1" if i == j else ZERO for j in range(stages)) for i in range(stages)]
     embedded = None
     if all(len(items_of(roles.get(x))) == stages for x in ("error_q", "error")):
@@ -429,18 +433,18 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
         embedded = (low, changed("-", b, _row(roles, "error")))
     return replace(
         empty,
-        A=((None, ((ZERO,) * stages, *units)), (made.A, None)),
-        b=(made.b, b),
+        A=((None, ((ZERO,) * stages, *units)), (of_positions.A, None)),
+        b=(of_positions.b, b),
         c=(None, None),
         embedded=embedded,
         parts=("q", "p"),
         structure="nystrom",
-        units=made.units,
+        units=of_positions.units,
     )
 
 
 def _square(roles: Roles, role: str, stages: int) -> Rows:
-    """A matrix; of one whose rows are assigned one by one, those that nobody wrote are empty."""
+    """A matrix; if its rows are assigned one by one, those never written are empty."""
     value = roles.get(role)
     rows = items_of(value)
     if any(isinstance(x, Array) for x in rows):
@@ -468,25 +472,25 @@ def _given(roles: Roles, role: str, stages: int = 0) -> Row | None:
 
 def _nodes(roles: Roles, A: Rows) -> Row | None:
     stages = len(A)
-    given = roles.get("c")
-    if not isinstance(given, Array) or first_unknown(given) is not None:
+    nodes = roles.get("c")
+    if not isinstance(nodes, Array) or first_unknown(nodes) is not None:
         return None
-    row = weights(plain(given))
+    row = weights(plain(nodes))
     if len(row) == stages - 1:
-        # c2 … cs, as some codes have it
+        # c2 … cs, as in some codes
         return ("0", *row)
     if len(row) != stages:
         raise Misshapen(f"{len(row)} nodes for {stages} stages")
     is_from_the_second = is_zero(row[-1]) and not is_zero(row[0])
     if is_from_the_second and all(map(is_zero, A[0])) and not all(map(is_zero, A[-1])):
-        # c2 … cs, and a number that nothing uses
+        # c2 … cs, and an unused number
         return ("0", *row[:-1])
     return row
 
 
 def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
-    """The table with embedded weights, or with what they are where b has an error, by either sign;
-    one weight more is that of f at the end of the step.
+    """The table with embedded weights, from an array of weights or of an error with either sign; a
+    further weight is for f at the end of the step.
     """
     role = next((x for x in ("embedded", "error") if isinstance(roles.get(x), Array)), "")
     if not role or first_unknown(roles[role]) is not None:
@@ -500,7 +504,7 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     is_error = abs(total) < 0.05 or (role == "error" and meant.table.is_assembled)
     off = total if role == "error" else total - 1
     if not (meant.table.is_sure or meant.table.is_assembled or is_error) and abs(off) > FAR:
-        # an array of that name which is something else
+        # another array with that name
         return table
     if len(row) == len(b) + 1 and is_zero(row[-1]):
         row = row[:-1]
@@ -526,12 +530,12 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
 
 
 def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
-    """An explicit part, 1, and an implicit one, 2; what names no part is of both, or of the one
-    that lacks it. Missing weights are the last row of the matrix, those of PETSc's explicit part
-    the implicit ones.
+    """An explicit part, 1, and an implicit one, 2; an array without a part in its name is for both,
+    or for the one that lacks it. Missing weights are the last row of the matrix; those of PETSc's
+    explicit part are the implicit ones.
     """
     if "A2" not in roles and "embedded" in roles:
-        # the hat is that of the explicit part
+        # the hat marks the explicit part
         roles = {**roles, "b1": roles["embedded"]}
         del roles["embedded"]
     of: Roles = {
@@ -562,7 +566,7 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     low1, low2 = (_given_low(of, part, b) for part, b in (("1", b1), ("2", b2)))
     c1, c2 = (_given(of, x, stages) for x in ("c1", "c2"))
     if all(is_zero(x) for row in (*A1, b1) for x in row):
-        # nothing is explicit: the way to register an implicit method
+        # no explicit part: this is how implicit methods are registered
         return replace(empty, A=((A2,),), b=(b2,), c=(c2,), embedded=low2 and (low2,))
     sums = [[near(*items_of(x)) for x in items_of(of[role])] for role in ("A1", "A2")]
     are_same = all(abs(x - y) <= _SAME for x, y in zip(*sums, strict=False))
@@ -579,7 +583,7 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
 
 
 def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
-    """The embedded weights of a part, or what they are with b an error of."""
+    """The embedded weights of a part, or those from b and an error."""
     error = roles.get(f"error{part}")
     if isinstance(error, Array) and error.items:
         return changed("-", b, weights(plain(error), len(b)))
@@ -587,4 +591,4 @@ def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
 
 
 _SAME = 1e-9
-"""Sums that differ by less are the same."""
+"""Sums that differ by less are equal."""

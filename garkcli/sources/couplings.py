@@ -10,24 +10,24 @@ from garkcli.sources.shaping import Texts, is_zero, weights
 from garkcli.sources.values import Value, Word, whole
 
 FORM = "coupling"
-"""The signature of a coupling whose matrices are written out."""
+"""The signature of a coupling with explicit matrices."""
 _RESTARTS = {"MRISTEP_MERK": "merk", "MRISTEP_SR": "sr"}
 
 
 def coupling_table(
     texts: Mapping[str, Texts], empty: FoundTable, roles: Mapping[str, Value]
 ) -> FoundTable:
-    """The table of a coupling, whose matrices ``W`` and ``G`` have a row for each stage, and one
-    more for the embedded value.
+    """The table of a coupling with matrices ``W`` and ``G``, each with a row for every stage and
+    one for the embedded value.
 
     Args:
         texts: its arrays by their roles.
-        empty: what else is known of it.
+        empty: the table without coefficients.
         roles: the values, for whole numbers.
 
     Raises:
-        Unreadable: an array is missing, or none.
-        Misshapen: it has another size than the nodes.
+        Unreadable: an array is missing, or is no array.
+        Misshapen: it does not fit the nodes.
     """
     c = weights(texts.get("c"))
     stages = whole(roles.get("stages"))
@@ -52,12 +52,12 @@ def coupling_table(
     restart = _RESTARTS.get(kind.text, "") if isinstance(kind, Word) else ""
     if restart == "sr" and "gamma" in embedded:
         embedded["gamma"] = embedded["gamma"][:1]
-    found = FoundCoupling(c, parts, embedded if is_embedded else {}, restart)
-    return replace(empty, coupling=found, is_sure=True)
+    coupling = FoundCoupling(c, parts, embedded if is_embedded else {}, restart)
+    return replace(empty, coupling=coupling, is_sure=True)
 
 
 def _powers(value: Texts, stages: int, is_embedded: bool) -> list[Rows]:
-    """The matrices of τ⁰, τ¹, …, with the row of the embedded value; also flat in one list."""
+    """The matrices of τ⁰, τ¹, …, with the row of the embedded value; also from one flat list."""
     if value is None:
         return []
     if not isinstance(value, list):

@@ -1,8 +1,8 @@
-"""What sources say, evaluated: exact constants, unknown where anything is, nothing executed.
+"""The exact values in sources, unknown if any part is unknown; nothing is executed.
 
 Every scope is walked once, with a budget of steps; calls of functions with several statements are
-not followed. Each arm of a branch is walked with names of its own, and ends as a scope does; behind
-the branch what it assigns is unknown.
+not followed. Each arm of a branch is walked with its own copies of names, and ends like a scope;
+after the branch the names assigned in it are unknown.
 """
 
 from __future__ import annotations
@@ -49,26 +49,26 @@ from garkcli.sources.values import (
 MAX_STEPS = 60_000
 """Most steps for one function."""
 MAX_TURNS = 4_000
-"""Most turns of a loop."""
+"""Most iterations of a loop."""
 MAX_DEPTH = 80
 """Deepest nesting of expressions."""
 PER_NAME = 10
-"""Characters that a name counts for which an arm of a branch copies."""
+"""Characters counted for each name that an arm of a branch copies."""
 MAX_INLINED = 3
-"""Deepest nesting of calls of functions of one expression: the work may double each time."""
+"""Deepest nesting of calls of functions of one expression, as the work may double each time."""
 _GROWING = frozenset({"push_back", "append", "emplace_back"})
 _GROWN = frozenset({"push!", "append!", "pushfirst!", "prepend!"})
-"""Functions that make their first argument longer, by the others or by what is in them."""
+"""Functions that append their further arguments, or the items in them, to their first one."""
 _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
-"""Methods that give the array or the number itself."""
+"""Methods that return the array or the number itself."""
 _OF_ARRAYS = frozenset({"reshape", "transpose", "sum", "flatten", "ravel"})
 """Methods that are functions of the array."""
 _GETTERS = frozenset({"get_index", "get", "getEntry", "coeff"})
-"""Methods that give an entry."""
+"""Methods that return an entry."""
 _SETTERS = frozenset({"set_index", "set", "setEntry"})
-"""Methods that assign to an entry: its indices come before the number."""
+"""Methods that assign to an entry, with its indices before the number."""
 _EMPTYING = frozenset({"resize", "clear", "reinit"})
-"""Methods after which an array has what is assigned from then on."""
+"""Methods after which an array has only later entries."""
 _METHODS = _GROWING | _EMPTYING | {"reserve", "fill"}
 
 
@@ -85,9 +85,9 @@ class Space(dict[str, Value]):
 
     Attributes:
         up: the scope around it, which is only read.
-        calls: records that were made.
-        lines: where names were assigned first.
-        returned: the value of the function; None before it is known.
+        calls: records made so far.
+        lines: of the first assignments to names.
+        returned: the value of the function; None before its return.
     """
 
     def __init__(self, up: Space | None = None) -> None:
@@ -98,7 +98,7 @@ class Space(dict[str, Value]):
         self.returned: Value | None = None
 
     def find(self, name: str) -> Value | None:
-        """The value of a name, here or around."""
+        """The value of a name, here or in a scope around."""
         space: Space | None = self
         while space is not None:
             if name in space:
@@ -107,7 +107,7 @@ class Space(dict[str, Value]):
         return None
 
     def fork(self) -> Space:
-        """The same names with values of their own."""
+        """A copy with its own values."""
         other = Space(self.up)
         other.update({name: copied(value) for name, value in self.items()})
         other.calls, other.lines = list(self.calls), dict(self.lines)
@@ -115,7 +115,7 @@ class Space(dict[str, Value]):
 
 
 Place: TypeAlias = tuple[Any, Any]
-"""What holds a value, and under which name or at which place."""
+"""A container of a value, and the name or index of the value in it."""
 Made = TypeVar("Made", Array, Record)
 
 
@@ -129,17 +129,17 @@ class Evaluator:
         has_whole_quotients: whether ``1/2`` is 0.
 
     Attributes:
-        lost: why scopes are not read, by their kinds and lines.
+        lost: reasons why scopes are not read, by their kinds and lines.
     """
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
-        """A scope ends, or an arm of a branch in it."""
+        """Called when a scope ends, or an arm of a branch in it."""
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
-        """An array is about to be assigned anew."""
+        """Called before an array is assigned anew."""
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
-        """A field is about to be assigned anew."""
+        """Called before a field is assigned anew."""
 
     def __init__(
         self,
@@ -164,7 +164,7 @@ class Evaluator:
         self._gives: dict[str, Value | None] = {}
 
     def module(self, body: ir.Body) -> None:
-        """The whole source."""
+        """Walks over the whole source."""
         self._walked(ir.Scope("module", "", body, 1), Space())
 
     def array(self, items: Iterable[Value]) -> Array:
@@ -172,7 +172,7 @@ class Evaluator:
         return Array(list(items), self._is_growing)
 
     def unknown(self, reason: str) -> Unknown:
-        """The unknown parts of the line that is walked."""
+        """An unknown value at the current line."""
         return Unknown(reason, self.line)
 
     # statements
@@ -213,7 +213,7 @@ class Evaluator:
 
     def _scope(self, scope: ir.Scope, space: Space) -> None:
         if scope.name.startswith("_") and self._scopes[-1].kind == "class":
-            # __init__, _step: the class is what people call
+            # for __init__, _step the class has the public name
             scope = replace(scope, name=self._scopes[-1].name)
         inner = Space(space)
         for name in scope.parameters:
@@ -235,7 +235,7 @@ class Evaluator:
                 ir.Name(scope.name if is_class else "this"), inner["this"], space, scope.line
             )
         if scope.name == "order" and isinstance(inner.returned, Number):
-            # a method of a class, which gives the order
+            # a method of a class that returns the order
             space[scope.name] = inner.returned
         elif scope.gives not in {"", *space} and isinstance(inner.returned, Array | Number):
             self._store(ir.Name(scope.gives), inner.returned, space, scope.line)
@@ -243,8 +243,8 @@ class Evaluator:
             self._remember(scope, inner)
 
     def _remember(self, scope: ir.Scope, space: Space) -> None:
-        """The numbers of a case, which are those of the case of the same title in other functions,
-        and of the cases in it.
+        """Remembers the numbers of a case for cases of the same title in other functions, and for
+        the cases in it.
         """
         inside = (x for x in ir.statements(scope.body) if isinstance(x, ir.Scope))
         for title in {scope.name, *(x.name for x in inside if x.kind == "entry")}:
@@ -275,7 +275,7 @@ class Evaluator:
             self.spoil(target, space, "assigned in a loop", line)
 
     def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
-        """All entries of an array, or a name, become unknown."""
+        """Makes all entries of an array, or a name, unknown."""
         unknown = Unknown(reason, line)
         written = replace(unknown, was_written=True)
         for name in names_of(target):
@@ -284,7 +284,7 @@ class Evaluator:
             if isinstance(old, Array) and (old.items or old.fill is not None):
                 space[name] = old.map(lambda x: written if _was_written(x) else unknown)
             elif isinstance(old, Number) and old.is_zero and isinstance(target, ir.Index):
-                # A = 0, of which other branches fill other entries
+                # A = 0, with entries filled in several branches
                 space[name] = Array([], is_growing=True, fill=unknown)
 
     def _assign(self, statement: ir.Assign, space: Space) -> None:
@@ -324,7 +324,7 @@ class Evaluator:
             self._store(each, item, space, line)
 
     def _extended(self, value: Value, sizes: Sequence[Value | None], is_filled: bool) -> Value:
-        """An array with declared extents, as C fills it."""
+        """An array with declared extents, filled as in C."""
         counts = [None if x is None else whole(x) for x in sizes]
         for size_, count in zip(sizes, counts, strict=True):
             if size_ is not None and (count is None or not 0 <= count <= MAX_STAGES**2):
@@ -333,9 +333,9 @@ class Evaluator:
         if math.prod(filter(None, counts)) > MAX_STAGES**2:
             return self.unknown(f"an array of more than {MAX_STAGES**2} entries")
         fill: Value = FILL if is_filled else self.unknown("never assigned")
-        found = self._shaped(value if is_filled else None, counts, fill)
-        self.allowance.spend(size(found))
-        return found
+        shaped = self._shaped(value if is_filled else None, counts, fill)
+        self.allowance.spend(size(shaped))
+        return shaped
 
     def _shaped(self, value: Value | None, counts: Sequence[int | None], fill: Value) -> Value:
         if not counts:
@@ -351,15 +351,15 @@ class Evaluator:
             items = [Array(items[i : i + columns]) for i in rows]
         count = len(items) if counts[0] is None else counts[0]
         self.allowance.spend(count)
-        given: list[Value | None] = [*items, *[None] * (count - len(items))]
-        return self.array(self._shaped(x, counts[1:], fill) for x in given)
+        padded: list[Value | None] = [*items, *[None] * (count - len(items))]
+        return self.array(self._shaped(x, counts[1:], fill) for x in padded)
 
-    # places that are assigned to
+    # places of assignments
 
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
         self.allowance.spend(size(value))
         if isinstance(value, Array) or not isinstance(target, ir.Name):
-            # no array is in two places, and no record in itself
+            # arrays are never shared, and no record contains itself
             value = copied(value)
         name = _plain_name(target)
         if not name:
@@ -373,7 +373,7 @@ class Evaluator:
         space.lines[name] = line
 
     def _places(self, target: ir.Expr, space: Space) -> list[Place]:
-        """The places that an expression names; none where they are not known."""
+        """The places of an expression; none if unknown."""
         name = _plain_name(target)
         if name:
             outer = None if name in space else space.find(name)
@@ -390,7 +390,7 @@ class Evaluator:
         return []
 
     def _changed(self, of: ir.Expr, space: Space, made: Made) -> Made | None:
-        """The array or the record that is changed, made where there is none."""
+        """The array or record that is changed, made if there is none."""
         places = self._places(of, space)
         if len(places) != 1:
             return None
@@ -400,10 +400,10 @@ class Evaluator:
             return old
         is_free = old is None or isinstance(old, Unknown)
         if isinstance(made, Array) and _is_an_argument(old, str(key)):
-            # what a caller has is filled: the other entries are those of the caller
+            # an argument is filled: the other entries are those of the caller
             made.fill = old
         elif isinstance(made, Array) and isinstance(old, Number):
-            # A = 0, where nothing is known of the array so far
+            # A = 0, if nothing is known of the array so far
             is_free, made.fill = True, FILL if old.is_zero else old
         elif isinstance(made, Array) and isinstance(old, Unknown) and old.reason == _NO_EXTENT:
             made.fill = self.unknown("never assigned")
@@ -419,7 +419,7 @@ class Evaluator:
         return made
 
     def _put(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
-        """Assign to fields and entries; an entry that is not known spoils its array."""
+        """Assigns to fields and entries; an unknown index spoils its array."""
         places = self._places(target, space)
         items: Sequence[Value] = [value] * len(places)
         match target:
@@ -439,7 +439,7 @@ class Evaluator:
             self.spoil(target.of, space, "an entry at an unknown place", line)
 
     def _entries(self, array: Array, at: Sequence[ir.Expr], space: Space) -> list[Place]:
-        """The entries that indices name."""
+        """The entries at indices."""
         places: list[Place] = []
         for i in self._numbers(at[0], array, space) if at else ():
             if array.is_growing and len(array.items) <= i < MAX_STAGES:
@@ -460,22 +460,22 @@ class Evaluator:
         return places
 
     def _numbers(self, at: ir.Expr, box: Array, space: Space) -> Sequence[int]:
-        """The indices from 0 that an expression names; none where they are not known."""
+        """The indices from 0 of an expression; none if unknown."""
         count = len(box.items)
         self._lengths.append(count)
         ends = [at.first, at.last] if isinstance(at, ir.Range) else [at, at]
-        given = [None if x is None else self.value(x, space) for x in ends]
+        values = [None if x is None else self.value(x, space) for x in ends]
         self._lengths.pop()
         first, last = (
             default if x is None else self._from_0(whole(x), count)
-            for x, default in zip(given, (0, count - 1), strict=True)
+            for x, default in zip(values, (0, count - 1), strict=True)
         )
         if first is None or last is None or last - first > MAX_TURNS:
             return ()
         return range(first, last + 1)
 
     def _from_0(self, i: int | None, count: int) -> int | None:
-        """An index from 0; in languages that begin with 0 negative ones are from the end."""
+        """An index from 0; in languages that begin with 0 negative ones count from the end."""
         return i if i is None else i + count if i < 0 == self.base else i - self.base
 
     # expressions
@@ -486,9 +486,9 @@ class Evaluator:
         if self._depth > MAX_DEPTH or self._steps > 50 * MAX_STEPS:
             return self.unknown("an expression that is too deep")
         self._depth += 1
-        found = self._value(expr, space)
+        evaluated = self._value(expr, space)
         self._depth -= 1
-        return found
+        return evaluated
 
     def _value(self, expr: ir.Expr, space: Space) -> Value:
         match expr:
@@ -534,7 +534,7 @@ class Evaluator:
                 return self.unknown(reason)
 
     def _kept(self, value: Value) -> Value:
-        """A value that is in another: with arrays of its own."""
+        """A copy of a value for another one to hold, with its own arrays."""
         if isinstance(value, Array):
             self.allowance.spend(size(value))
             return copied(value)
@@ -545,17 +545,17 @@ class Evaluator:
             return self.unknown(name)
         if name == "end" and self._lengths:
             return integer(self._lengths[-1] - 1 + self.base)
-        found = space.find(name)
-        if found is not None:
-            return found
+        named_value = space.find(name)
+        if named_value is not None:
+            return named_value
         for scope in reversed(self._scopes):
             if scope.kind == "entry" and name in self._of_cases.get(scope.name, {}):
                 return self._of_cases[scope.name][name]
         for owner in (self._owner, *(x.name.rpartition("::")[0] for x in reversed(self._scopes))):
-            # members of the class that a member or a function is of
-            found = space.find(f"{owner}::{name}") if owner else None
-            if found is not None:
-                return found
+            # members of the class of a member or a function
+            named_value = space.find(f"{owner}::{name}") if owner else None
+            if named_value is not None:
+                return named_value
         plain = name.rpartition("::")[2]
         if plain in CONSTANTS:
             return CONSTANTS[plain]
@@ -578,7 +578,7 @@ class Evaluator:
         return self._blocks(values)
 
     def _blocks(self, values: Sequence[Sequence[Value]]) -> Value:
-        """Blocks beside and below one another; a list is a column, unless it can be but a row."""
+        """Blocks beside and below one another; a list is a column, unless only a row fits."""
         if len(values) == 1 and len(values[0]) == 1:
             return values[0][0]
         if all(len(row) == 1 for row in values):
@@ -609,9 +609,9 @@ class Evaluator:
         if isinstance(of, Array) and expr.name == "length":
             return integer(len(of.items))
         if isinstance(of, Unknown):
-            # np.pi, math.sqrt: what a module has
-            found = self._named(expr.name, Space())
-            return of if isinstance(found, Unknown) else found
+            # np.pi, math.sqrt: members of a module
+            member = self._named(expr.name, Space())
+            return of if isinstance(member, Unknown) else member
         return self.unknown(f"the field {expr.name}")
 
     def _entry(self, expr: ir.Index, space: Space) -> Value:
@@ -637,15 +637,15 @@ class Evaluator:
             return self.unknown("an entry at an unknown place")
         if any(not 0 <= i < len(of.items) for i in numbers):
             return self.unknown("an entry that is not there")
-        found: list[Value] = []
+        items: list[Value] = []
         for i in numbers:
             item = of.items[i]
             if len(at) > 1:
                 if not isinstance(item, Array):
                     return item if isinstance(item, Unknown) else self.unknown("a slice")
                 item = self._sliced(item, at[1:], space)
-            found.append(item)
-        return self.array(found) if is_slice else found[0]
+            items.append(item)
+        return self.array(items) if is_slice else items[0]
 
     def negated(self, value: Value) -> Value:
         """The value with the other sign."""
@@ -666,16 +666,18 @@ class Evaluator:
                 return self._product(x, y)
             if len(x.items) != len(y.items):
                 return self.unknown("arrays of different lengths")
-        found = self.array(())
+        combined = self.array(())
         left, right = (z.items if isinstance(z, Array) else repeat(z) for z in (x, y))
         for a, b in zip(left, right, strict=False):
             item = self.combined(sign, a, b)
             self.allowance.spend(0 if isinstance(item, Array) else size(item))
-            found.items.append(item)
-        return found
+            combined.items.append(item)
+        return combined
 
     def _product(self, x: Array, y: Array) -> Value:
-        """A product of matrices in MATLAB and Julia; a list is a row on the left, else a column."""
+        """A product of matrices in MATLAB and Julia; a list is a row on the left, a column on the
+        right.
+        """
         rows = [items_of(row) for row in x.items] if x.is_matrix else [x.items]
         turned = transposed(y, self.line) if y.is_matrix else y
         columns = [*map(items_of, items_of(turned))] if is_matrix(turned) else [items_of(turned)]
@@ -683,10 +685,10 @@ class Evaluator:
         if not is_known or {*map(len, rows)} != {*map(len, columns)} or not rows[0]:
             return self.unknown("a product of matrices")
         self.allowance.spend(len(rows) * len(columns) * len(rows[0]))
-        found = [[self._dot(row, column) for column in columns] for row in rows]
+        entries = [[self._dot(row, column) for column in columns] for row in rows]
         if not y.is_matrix:
-            return self.array(row[0] for row in found)
-        return self.array(map(self.array, found)) if x.is_matrix else self.array(found[0])
+            return self.array(row[0] for row in entries)
+        return self.array(map(self.array, entries)) if x.is_matrix else self.array(entries[0])
 
     def _dot(self, x: Sequence[Value], y: Sequence[Value]) -> Value:
         first, *others = (self.combined("*", a, b) for a, b in zip(x, y, strict=True))
@@ -732,9 +734,9 @@ class Evaluator:
         if isinstance(callee, ir.Field) and plain in _OF_ARRAYS:
             owner = self.value(callee.of, space)
             args = [owner, *args] if isinstance(owner, Array) else args
-        made = result(Call(plain, call, named, self), args)
-        if made is not None:
-            return made
+        built = result(Call(plain, call, named, self), args)
+        if built is not None:
+            return built
         has_none = target is None and not named and all(isinstance(x, Type) for x in args)
         if has_none and isinstance(given := self._gives.get(name), Array | Number):
             return copied(given)
@@ -748,23 +750,23 @@ class Evaluator:
                 return copied(items[-1])
         if plain.endswith("!"):
             for arg in call.args:
-                found = space.find(arg.name) if isinstance(arg, ir.Name) else None
-                # what is changed comes first
-                if isinstance(found, Array) and not (arg != call.args[0] and is_written(found)):
+                changed = space.find(arg.name) if isinstance(arg, ir.Name) else None
+                # the changed argument comes first
+                if isinstance(changed, Array) and not (arg != call.args[0] and is_written(changed)):
                     self.spoil(arg, space, f"changed by {plain}", self.line)
         if not _may_make_a_table(plain, args, named):
             return self.unknown(f"the call {plain}")
         are_halves = plain in SIGNATURES and SIGNATURES[plain].form == "halves"
-        # another record in it is one of its own
-        alone: list[Value] = [
+        # another record in it is a table of its own
+        separate: list[Value] = [
             self.unknown(described(x)) if isinstance(x, Record) and not are_halves else x
             for x in (*args, *named.values())
         ]
-        fields = dict(zip(named, alone[len(args) :], strict=True))
+        fields = dict(zip(named, separate[len(args) :], strict=True))
         if not args and plain in SIGNATURES and SIGNATURES[plain].counts:
-            # the call that is known takes its arguments by place: names speak for themselves
+            # the known call takes its arguments by place, so the names of arguments decide
             plain = ""
-        record = Record(plain, fields, alone[: len(args)], line)
+        record = Record(plain, fields, separate[: len(args)], line)
         space.calls.append(record)
         return record
 
@@ -773,21 +775,21 @@ class Evaluator:
         if self._inlined >= MAX_INLINED:
             return self.unknown("calls that are nested too deep")
         if len(args) == 1 < len(function.parameters) and isinstance(args[0], Array):
-            # each (x, y) of pairs
+            # for each (x, y) of pairs
             args = args[0].items
         if len(args) != len(function.parameters):
             return self.unknown("a call with other arguments")
         inner = Space(function.space)
         inner.update(zip(function.parameters, args, strict=True))
         self._inlined += 1
-        found = self.value(function.body, inner)
+        value = self.value(function.body, inner)
         self._inlined -= 1
-        return found
+        return value
 
     def _with_entries(
         self, of: ir.Expr, at: Sequence[ir.Expr], given: Sequence[ir.Expr], space: Space
     ) -> Value:
-        """``A.at[1, 0].set(x)``: another array with other entries."""
+        """``A.at[1, 0].set(x)``: a copy of an array with other entries."""
         inner = Space(space)
         name = ir.Name("the array")
         inner[name.name] = copied(self.value(of, space))
@@ -797,7 +799,7 @@ class Evaluator:
         return inner[name.name]
 
     def _method(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
-        """What changes an array in place."""
+        """Changes an array in place by a method."""
         if name in _EMPTYING:
             self._store(of, Array([], is_growing=True), space, self.line)
         box = self._changed(of, space, Array([], is_growing=True))
@@ -811,7 +813,7 @@ class Evaluator:
         return NULL
 
     def _grown(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
-        """An array that a function makes longer."""
+        """An array extended by a function."""
         box = self._changed(of, space, Array([], is_growing=True))
         values: list[Value] = [self.value(x, space) for x in args]
         if name in {"append!", "prepend!"} and all(isinstance(x, Array) for x in values):
@@ -833,13 +835,13 @@ def _is_unset(value: Value) -> bool:
 
 
 def _was_written(value: Value) -> bool:
-    """Whether a number was written there, be it known or no longer."""
+    """Whether a number was written there, known or no longer known."""
     is_lost = isinstance(value, Unknown) and value.was_written
     return is_lost or (isinstance(value, Number) and value.is_given)
 
 
 def _plain_name(expr: ir.Expr) -> str:
-    """The name that an expression is, also as ``self.name``; empty for others."""
+    """The name in an expression, also as ``self.name``; empty for others."""
     match expr:
         case ir.Name(name=name) | ir.Field(of=ir.Name(name="self" | "this" | "cls"), name=name):
             return name
@@ -847,7 +849,7 @@ def _plain_name(expr: ir.Expr) -> str:
 
 
 def names_of(target: ir.Expr) -> Iterator[str]:
-    """The names whose values change where something is assigned."""
+    """The names with values that an assignment changes."""
     while not _plain_name(target):
         match target:
             case ir.Index(of=of) | ir.Field(of=of) | ir.Call(callee=ir.Field(of=of)):
@@ -866,7 +868,7 @@ def _is_range(at: ir.Expr) -> TypeGuard[ir.Range]:
 
 
 def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Value]) -> bool:
-    """Whether a call is given arrays, or several numbers, or makes tables by its name."""
+    """Whether a call gets arrays or several numbers, or makes tables by its name."""
     values = [*args, *named.values()]
     if name in SIGNATURES or any(isinstance(x, Array) for x in values):
         return True
@@ -876,12 +878,12 @@ def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Valu
 
 
 def _is_an_argument(value: Value | None, name: str) -> bool:
-    """Whether a function is one that is given: ``T(0.5)`` converts."""
+    """Whether a function is an argument: ``T(0.5)`` converts."""
     return isinstance(value, Unknown) and value.reason == f"the argument {name}"
 
 
 def _has_numbers(body: ir.Body) -> bool:
-    """Whether fractions, decimals, lists or entries are assigned or given to calls."""
+    """Whether fractions, decimals, lists or entries are assigned or passed to calls."""
     return any(
         _is_numeric(x)
         for statement in ir.statements(body)
@@ -902,12 +904,12 @@ def _is_numeric(expr: object) -> bool:
 
 
 def _is_plain(body: ir.Body) -> bool:
-    """Whether a body has one way through it."""
+    """Whether a body has no branches."""
     return not any(isinstance(x, ir.Branch | ir.Scope | ir.Return) for x in body)
 
 
 def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:
-    """What is assigned in some statements, and where."""
+    """The targets of assignments in statements, with their lines."""
     for statement in ir.statements(body):
         match statement:
             case ir.Assign(target=target, line=line):
@@ -921,7 +923,7 @@ def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:
 
 
 def shown(value: Value) -> object:
-    """What values have in common whose texts are the same."""
+    """A key that is equal for values with equal texts."""
     match value:
         case Number():
             return value.scalar.text
@@ -935,7 +937,7 @@ def shown(value: Value) -> object:
 
 
 def _lines(value: Value, height: int) -> list[list[Value]]:
-    """A block as rows: a list is a row where one is wanted, and else a column."""
+    """A block as rows: a list is a row if one row is wanted, otherwise a column."""
     if not isinstance(value, Array):
         return [[value]]
     if value.is_matrix:

@@ -1,4 +1,4 @@
-"""Tables among the values of a source: by the calls that make them, by records, by names."""
+"""Tables among the values of a source: by calls that make them, by records, by names."""
 
 from __future__ import annotations
 
@@ -80,9 +80,9 @@ _PARTS = " "
 """The stem of the arrays of an explicit and an implicit part."""
 _RANKS = {word: i for i, word in enumerate(ROLES)}
 _OBJECT = re.compile("the call [A-Z][a-z]")
-"""What makes an object of a class, which is no array of nodes or weights."""
+"""A call that makes an object of a class, not an array of nodes or weights."""
 _ORDERS = ("order", "embedded_order")
-"""What a structure tells of the arrays beside it."""
+"""Numbers of a structure that belong to the arrays beside it."""
 _COUPLINGS = frozenset({"MRIStepCoupling_Alloc", "MRIStepCoupling_MIStoMRI"})
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc", *_COUPLINGS})
 """Records that are filled after they are made."""
@@ -91,19 +91,19 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc", *_COUPLINGS})
 NUMBERED = "A and b have numbers: methods of their own, or parts of one"
 ANEW = "A is assigned anew without b, or b without A"
 A_STEP = "a step"
-"""What makes the table of a step that is written out."""
+"""The maker of the table of a written-out step."""
 SURELY = 100.0
-"""Bits of what links the matrix and the weights of a step: all of it is one computation."""
+"""Bits of evidence that link the matrix and weights of a step: all of it is one computation."""
 STEP = "the coefficients are those of a step that is written out"
 UNRECOGNISED = "it looks like a tableau, but A, b and c could not be identified"
 
 
 class _Group(Mutable):
-    """Values whose names belong together.
+    """Values with related names.
 
     Attributes:
         roles: the values by their roles.
-        ranks: which of several names has each role; the least counts.
+        ranks: the rank of the name of each role; the lowest counts.
         places: their names, with lines.
         taken: whether A and b are in a table already.
         unread: nodes and embedded weights with unknown entries.
@@ -117,15 +117,15 @@ class _Group(Mutable):
 
 
 class TableFinder(Harvester):
-    """Evaluates one source, and collects its tables.
+    """Evaluates one source and collects its tables.
 
     Args:
-        source: what it is called.
+        source: its name.
         format: of its language.
-        base, allowance, is_growing, has_whole_quotients: as those of an evaluator.
+        base, allowance, is_growing, has_whole_quotients: as for an evaluator.
 
     Attributes:
-        told: the values of each table, by its ``id``.
+        told: the values of each table by its ``id``.
     """
 
     def __init__(
@@ -142,8 +142,8 @@ class TableFinder(Harvester):
         self.told: dict[int, Roles] = {}
 
     def tables(self, body: ir.Body, text: str) -> list[FoundTable]:
-        """All of a source, each once; arrays that a call takes are found with it."""
-        found: dict[object, FoundTable] = {}
+        """The distinct tables of a source; arrays passed to a call are found with it."""
+        by_content: dict[object, FoundTable] = {}
         used: set[str] = set()
         read: set[object] = set()
         doubtful: dict[object, object] = {}
@@ -157,7 +157,7 @@ class TableFinder(Harvester):
             except NoTable:
                 continue
             if meant.maker == A_STEP and "embedded" in meant.roles and table.embedded:
-                # either may be the step
+                # either array may be the step
                 other = replace(table, b=table.embedded, embedded=table.b, linked=SURELY)
                 table = replace(table, rivals=(other,))
             if table.name.startswith("_") and len(users) == 1:
@@ -166,23 +166,23 @@ class TableFinder(Harvester):
             used |= {sized(x.near) for x in entries if isinstance(x, Number)}
             self.told[id(table)] = meant.roles
             key = (table.A, table.b, table.c, table.line, table.name)
-            self.allowance.table(table, is_kept=key not in found)
-            found.setdefault(key, table)
+            self.allowance.table(table, is_kept=key not in by_content)
+            by_content.setdefault(key, table)
             if {"A", "b"} <= set(meant.roles):
                 numbers = shown(meant.roles["A"]), shown(meant.roles["b"])
                 if table.trouble:
                     doubtful[key] = numbers
                 else:
                     read.add(numbers)
-        # a call that takes the arrays of a table which is read
-        found = {key: x for key, x in found.items() if doubtful.get(key) not in read}
-        told = [x.line for x in (*found.values(), *self._other.values())]
-        for scope in overlooked(body, text, self.source, told, used, self.lost):
+        # a call that takes the arrays of another table
+        by_content = {key: x for key, x in by_content.items() if doubtful.get(key) not in read}
+        lines_of_tables = [x.line for x in (*by_content.values(), *self._other.values())]
+        for scope in overlooked(body, text, self.source, lines_of_tables, used, self.lost):
             trouble = self.lost.get((scope.kind, scope.line), UNRECOGNISED)
             self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
-        # behind a branch that assigns the nodes the table is without them
-        with_nodes = {(x.A, x.b, x.line) for x in found.values() if any(x.c)}
-        kept = [x for x in found.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
+        # after a branch that assigns the nodes there is the table without them
+        with_nodes = {(x.A, x.b, x.line) for x in by_content.values() if any(x.c)}
+        kept = [x for x in by_content.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
         tables = [*kept, *self._other.values()]
         sure = {(x.A, x.b, order) for x in tables if x.is_sure and x.b for order in (x.order, None)}
         kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b, x.order) not in sure]
@@ -193,8 +193,8 @@ class TableFinder(Harvester):
     # a scope
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
-        """The tables of a scope: by calls and records, by the names of arrays, as a step that is
-        written out, by the names of numbers.
+        """Collects the tables of a scope: by calls and records, by the names of arrays, as a
+        written-out step, by the names of numbers.
         """
         super().ended(scope, space)
         records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
@@ -203,16 +203,16 @@ class TableFinder(Harvester):
         if packed is not None:
             self._of_kpp(packed, scope)
             return
-        made = list(space.calls)
-        if isinstance(space.returned, Record) and space.returned not in made:
-            made.append(space.returned)
-        made += [x for x in space.values() if isinstance(x, Record) and x.kind in _MADE]
+        records_made = list(space.calls)
+        if isinstance(space.returned, Record) and space.returned not in records_made:
+            records_made.append(space.returned)
+        records_made += [x for x in space.values() if isinstance(x, Record) and x.kind in _MADE]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count, first = self._count(), len(self._meant)
-        halves = (x for each in made for x in _halves_of(each.args))
+        halves = (x for each in records_made for x in _halves_of(each.args))
         self._halves |= {(x.kind, x.line) for x in halves}
-        for record in made:
+        for record in records_made:
             if (record.kind, record.line) not in self._halves:
                 self._of_record(record, scope)
         stored = roles_by_sums(space) if self._count() == count else None
@@ -243,12 +243,12 @@ class TableFinder(Harvester):
             self.lost[scope.kind, scope.line] = "a step that is not followed"
 
     def _of_kpp(self, roles: Mapping[str, Value], scope: ir.Scope) -> None:
-        """The Rosenbrock method of a scope as programs store it."""
+        """Adds the Rosenbrock method of a scope in stored form."""
         place = self._place(scope.title, scope.line)
         self._meant.append(Meant(place, dict(roles), SIGNATURES[KPP], KPP))
 
     def _told_lost(self, scope: ir.Scope, space: Space) -> None:
-        """Tell of a matrix of one way through a program that has entries which are not known."""
+        """Reports a matrix with unknown entries in a program without branches."""
         for name, value in space.items():
             is_named = speaks(f"{name} {scope.title}") and MATRIX.search(name)
             line = space.lines.get(name, 0)
@@ -263,9 +263,9 @@ class TableFinder(Harvester):
     def _of_rosenbrock(self, scope: ir.Scope, space: Space) -> bool:
         """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method."""
         kinds: tuple[dict[str, Value], ...] = ({}, {}, {})
-        made = {x.name: self.harvest.value(x) for x in self.made if not x.is_matrix}
+        lists = {x.name: self.harvest.value(x) for x in self.made if not x.is_matrix}
         blocks = {x.name: self.harvest.value(x) for x in self.made if x.is_matrix}
-        for name, value in (*space.items(), *made.items(), *blocks.items()):
+        for name, value in (*space.items(), *lists.items(), *blocks.items()):
             plain = name.rpartition("::")[2].rpartition(".")[2].strip("_")
             if is_matrix(value) and all(len(items_of(x)) == 1 for x in value.items):
                 value = Array([items_of(x)[0] for x in value.items])
@@ -282,17 +282,17 @@ class TableFinder(Harvester):
         return len(self._meant) + len(self._other)
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
-        """Arrays that are complete are a table before one of them is assigned anew; one that is in
-        such a table already is not with those that were assigned since.
+        """Makes a table of complete arrays before one of them is assigned anew; an array of such a
+        table does not combine with later ones.
         """
         super().replaced(scope, space, name)
-        told = role_of(name)
-        is_one = told is not None and told[1] in {"A", "b", "c", "embedded"}
+        stem_and_role = role_of(name)
+        is_one = stem_and_role is not None and stem_and_role[1] in {"A", "b", "c", "embedded"}
         is_taken = (name, space.lines.get(name, 0)) in self._taken
-        if told is None or not is_one or is_taken or _is_general_linear(space):
+        if stem_and_role is None or not is_one or is_taken or _is_general_linear(space):
             return
         self.allowance.spend(len(space))
-        roles = {x: each[1] for x in space if (each := role_of(x)) and each[0] == told[0]}
+        roles = {x: each[1] for x in space if (each := role_of(x)) and each[0] == stem_and_role[0]}
         if not {"A", "b"} <= set(roles.values()):
             return
         # calls take arrays of this scope
@@ -303,7 +303,7 @@ class TableFinder(Harvester):
         self._taken |= {(x, space.lines.get(x, 0)) for x in roles}
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
-        """As for arrays: a structure is a table before its matrix or its weights are new."""
+        """Makes a table of a structure before its matrix or weights are replaced."""
         super().refilled(scope, record, name)
         both = _matrix_and_weights(record)
         is_one = ROLES.get(name) in {"A", "b"} and name in record.fields
@@ -313,8 +313,8 @@ class TableFinder(Harvester):
             self._refilled |= both
 
     def _declared_by_class(self, scope: ir.Scope, space: Space) -> None:
-        """The order of a class is that of the table which it uses; a table whose name is private
-        has that of the only class which uses it.
+        """The order of a class is for the table that it uses; a table with a private name gets the
+        name of its only user.
         """
         order = space.get("order", space.get("ORDER"))
         for record in space.values():
@@ -330,12 +330,12 @@ class TableFinder(Harvester):
             return
         signature = SIGNATURES.get(record.kind, NAMED)
         if signature is PARTS and record.args and len(record.args) != len(PARTS.roles):
-            # a call of that name which takes something else
+            # a call of that name with other arguments
             signature = NAMED
         # its arrays may change after it is a table
         fields = {name: copied(x) for name, x in record.fields.items()}
         name = self._name(record, scope)
-        # of Rosenbrock methods those are read whose numbers are all written
+        # Rosenbrock methods are read only if all numbers are written
         is_known = not any(map(first_unknown, record.args[3:6]))
         is_named = signature is NAMED or (signature.form == "rosenbrock" and not is_known)
         kind = other_kind(record.kind) if is_named else ""
@@ -344,8 +344,8 @@ class TableFinder(Harvester):
         if kind == "Rosenbrock" and not record.args:
             of_arguments, form = roles_of_arguments(fields)
             if form:
-                place, made = self._place(name, line, is_sure=True), Signature([], form)
-                self._meant.append(Meant(place, dict(of_arguments), made, record.kind))
+                place, computed = self._place(name, line, is_sure=True), Signature([], form)
+                self._meant.append(Meant(place, dict(of_arguments), computed, record.kind))
                 return
         if kind:
             values = [*record.args, *fields.values()]
@@ -373,8 +373,10 @@ class TableFinder(Harvester):
             roles, signature = {role: fields[name] for name, role in parts.items()}, PARTS
         if any(map(_is_given, roles.values())):
             return
-        told = {x: x for x in fields} if record.kind == PRINTED else {**ROLES, **signature.named}
-        roles = _roles_of({} if parts else fields, told) | roles
+        role_names = (
+            {x: x for x in fields} if record.kind == PRINTED else {**ROLES, **signature.named}
+        )
+        roles = _roles_of({} if parts else fields, role_names) | roles
         if signature is NAMED and _have_hats(roles):
             signature = PARTS
         is_coupling = signature.form in {COUPLING, "slow"}
@@ -391,7 +393,7 @@ class TableFinder(Harvester):
         self._meant.append(Meant(place, roles, signature, record.kind or "record"))
 
     def _name(self, record: Record, scope: ir.Scope) -> str:
-        """What people call a table: a title, a constant, the function that makes it."""
+        """The name of a table: a title, a constant, or the function that makes it."""
         signature = SIGNATURES.get(record.kind, NAMED)
         first = record.args[0] if record.args else None
         if isinstance(first, Word):
@@ -413,7 +415,7 @@ class TableFinder(Harvester):
         scope: ir.Scope,
         known: Collection[object] = (),
     ) -> None:
-        """Tables of arrays, but for those whose matrix is known from a record."""
+        """Adds tables of arrays, except those with a matrix known from a record."""
         if _is_general_linear(values):
             self._unread(scope.title, scope.line, kind="general linear")
             return
@@ -457,8 +459,8 @@ class TableFinder(Harvester):
                 continue
             notes = not_read(group.unread)
             is_made = isinstance(roles.get("A"), Array) and id(roles["A"]) in self._made
-            told = {"is_assembled": is_made, "notes": notes}
-            place = self._place(name, begin, is_sure=is_sure, **told)
+            remarks = {"is_assembled": is_made, "notes": notes}
+            place = self._place(name, begin, is_sure=is_sure, **remarks)
             signature = PARTS if are_parts else DRIFT_FIRST if "drifts" in roles else NAMED
             self._meant.append(Meant(place, roles, signature, bases=bases))
 
@@ -469,34 +471,34 @@ class TableFinder(Harvester):
         scope: ir.Scope,
         beside: Mapping[str, tuple[str, str]],
     ) -> Mapping[str, _Group]:
-        """The values whose names tell their roles, by what these names have in common; ``beside``
-        has roles that names alone do not tell.
+        """The values with roles told by their names, grouped by the common parts of the names;
+        ``beside`` has further roles.
         """
         parts = {x: (_PARTS, role) for x, role in roles_of_parts(values).items()}
-        # behind a branch zeros may get numbers
+        # after the branch zeros may get numbers
         is_arm = scope is not self._scopes[-1]
         groups: dict[str, _Group] = defaultdict(_Group)
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
             numbered = _NUMBERED.fullmatch(plain) if isinstance(value, Array) else None
-            told = parts.get(name) or beside.get(name) or role_of(plain.lstrip("_"))
+            stem_and_role = parts.get(name) or beside.get(name) or role_of(plain.lstrip("_"))
             if numbered and name not in parts:
                 stem, role = numbered["stem"] or "", f"{ROLES[numbered['word']]} {numbered['at']}"
-            elif told is not None and _fits(told[1], value):
+            elif stem_and_role is not None and _fits(stem_and_role[1], value):
                 # RK6Solver::a belongs to its class
-                stem, role = told[0] or owner, told[1]
+                stem, role = stem_and_role[0] or owner, stem_and_role[1]
                 if is_arm and role in {"c", "c1", "c2"} and not is_written(value):
                     continue
             else:
                 is_made = isinstance(value, Unknown) or (isinstance(value, Record) and value.kind)
                 is_array = is_made and not _OBJECT.match(described(value))
-                if told is not None and told[1] in BESIDE and is_array:
-                    groups[told[0] or owner].unread[told[1]] = value
+                if stem_and_role is not None and stem_and_role[1] in BESIDE and is_array:
+                    groups[stem_and_role[0] or owner].unread[stem_and_role[1]] = value
                 continue
             group, place = groups[stem], (name, lines.get(name, scope.line))
             rank = _RANKS.get(plain, -1)
             is_old = role in _ORDERS and place in self._taken
-            # q and p are the orders of structures, and elsewhere anything
+            # q and p are orders in structures, and anything elsewhere
             is_other = role in _ORDERS and len(plain) == 1
             if is_old or is_other or rank > group.ranks.setdefault(role, rank):
                 # the order of the table before; A beside β is the matrix
@@ -509,7 +511,9 @@ class TableFinder(Harvester):
         return groups
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:
-        """The method of a function that is a step; whether another one looks like a step."""
+        """Adds the method of a function that is a step; whether another function looks like a
+        step.
+        """
         if scope.kind not in {"function", "module"}:
             return False
         try:
@@ -530,42 +534,48 @@ class TableFinder(Harvester):
         return FoundTable(self.source, line, self.format, name, (), (), around=around, **told)
 
     def _unread(self, name: str, line: int, trouble: str = "", kind: str = "") -> None:
-        """A place with a table that is of another kind, or else not read."""
-        found = replace(self._place(name, line), c=(), kind=kind)
-        self.allowance.table(found, is_kept=(name, line) not in self._other)
-        self._other[name, line] = found if kind else troubled(found, trouble)
+        """Adds a place with a table of another kind, or one that is not read."""
+        place = replace(self._place(name, line), c=(), kind=kind)
+        self.allowance.table(place, is_kept=(name, line) not in self._other)
+        self._other[name, line] = place if kind else troubled(place, trouble)
 
 
 def _is_matrix_of_stages(name: str) -> bool:
-    """Whether the name is one of A, or of a block of it: it is no whole tableau then."""
+    """Whether the name is of A, or of a block of it, so it is no whole tableau."""
     plain = name.rpartition("::")[2]
-    told = role_of(plain)
-    return (told is not None and told[1] == "A") or _NUMBERED.fullmatch(plain) is not None
+    stem_and_role = role_of(plain)
+    return (stem_and_role is not None and stem_and_role[1] == "A") or _NUMBERED.fullmatch(
+        plain
+    ) is not None
 
 
 def _matrices_beside_weights(values: Mapping[str, Value]) -> Mapping[str, tuple[str, str]]:
-    """Matrices called tableaus that have a row per weight, with what their names tell."""
+    """Matrices called tableaus with one row per weight, with stems and roles."""
     counts = {
         role_of(name): len(x.items)
         for name, x in values.items()
         if isinstance(x, Array) and not x.is_matrix
     }
     return {
-        name: (told["stem"] or "", "A")
+        name: (match["stem"] or "", "A")
         for name, value in values.items()
         if is_matrix(value)
-        and (told := _WHOLE.fullmatch(name)) is not None
-        and counts.get((told["stem"] or "", "b")) == len(value.items)
+        and (match := _WHOLE.fullmatch(name)) is not None
+        and counts.get((match["stem"] or "", "b")) == len(value.items)
     }
 
 
 def _have_hats(roles: Roles) -> bool:
-    """Whether matrix and weights are there with and without a hat, which the explicit part has."""
+    """Whether matrix and weights are there with and without a hat, which marks the explicit
+    part.
+    """
     return {"A", "b", "A1", "embedded"} <= set(roles)
 
 
 def _matrix_and_weights(record: Record) -> dict[int, Value]:
-    """A and b of a record, by what tells them from others with the same numbers."""
+    """A and b of a record by their identities, which distinguish them from others with equal
+    numbers.
+    """
     return {id(x): x for key, x in record.fields.items() if ROLES.get(key) in {"A", "b"}}
 
 
@@ -576,12 +586,12 @@ def _is_general_linear(values: Mapping[str, Value]) -> bool:
 
 
 def _is_given(value: Value) -> bool:
-    """Whether a value is an argument, or a part of one: then a table is used, and none is made."""
+    """Whether a value is an argument, or a part of one: then a table is used, not made."""
     return isinstance(value, Unknown) and "the argument" in value.reason
 
 
 def _fits(role: str, value: Value) -> bool:
-    """Whether a value may be what its name says."""
+    """Whether a value fits its role."""
     if role in {"order", "order1", "order2", "embedded_order", "stages"}:
         return isinstance(value, Number)
     if role in {"title", "fsal"}:
@@ -589,12 +599,14 @@ def _fits(role: str, value: Value) -> bool:
     return isinstance(value, Array) and bool(value.items)
 
 
-def _with_grid(given: Roles) -> Roles:
-    """Blocks ``A1_2`` and weights ``b1`` as nested arrays; b1 and b2 beside one A are the weights
-    and the embedded ones.
+def _with_grid(numbered: Roles) -> Roles:
+    """Blocks ``A1_2`` and weights ``b1`` as nested arrays; b1 and b2 beside a single A are the
+    weights and the embedded ones.
     """
-    of = {tuple(role.replace("_", " ").split(" ")): x for role, x in given.items() if " " in role}
-    roles = {role: x for role, x in given.items() if " " not in role}
+    of = {
+        tuple(role.replace("_", " ").split(" ")): x for role, x in numbered.items() if " " in role
+    }
+    roles = {role: x for role, x in numbered.items() if " " not in role}
     blocks = [at[1:] for at in of if at[0] == "A"]
     if blocks and all(len(at) == 2 for at in blocks):
         count = max(int(x) for at in blocks for x in at)
@@ -609,13 +621,15 @@ def _with_grid(given: Roles) -> Roles:
 
 
 def _halves_of(values: Sequence[Value]) -> Sequence[Record]:
-    """The two tables that a call makes one of; none where it is given anything else."""
-    found = [x for x in values if isinstance(x, Record)]
-    return found if len(found) == len(values) == 2 else ()
+    """The two tables combined by a call; empty if it has other arguments."""
+    tables = [x for x in values if isinstance(x, Record)]
+    return tables if len(tables) == len(values) == 2 else ()
 
 
 def _roles_of(fields: Mapping[str, Value], told: Mapping[str, str]) -> Roles:
-    """The roles of values with names; a first node and a diagonal that are apart are put in."""
+    """The roles of values with names; a separate first node and a separate diagonal are
+    inserted.
+    """
     roles: Roles = {}
     for key, value in fields.items():
         if key in told and not isinstance(value, Null):

@@ -1,4 +1,4 @@
-"""Formulas with brackets as expressions: those of Mathematica, of LaTeX, of numbers in texts."""
+"""Formulas with brackets as expressions: of Mathematica, of LaTeX, of numbers in texts."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MAX_TOKENS = 1_000_000
 SLOT = ir.Name("#")
 """The variable of a polynomial."""
 _JOINING = frozenset({"=", ":=", "+", "-", "*", "/", "^", ",", "->", "\n"})
-"""What a line that goes on may end with."""
+"""Signs after which a line continues."""
 CLOSERS = {"(": ")", "[": "]", "{": "}", "<|": "|>"}
 _LEVELS = {"->": 1, "+": 2, "-": 2, "*": 3, "/": 3, "^": 5, "**": 5}
 _SIGN_LEVEL = 4
@@ -35,7 +35,7 @@ class Token(Frozen):
 
     Attributes:
         kind: ``number``, ``name``, ``text``, ``sign`` or ``line``, the end of a line in no bracket.
-        text: as it is written; of a text what is between its quotes.
+        text: as written; for a text without its quotes.
         line: from 1.
     """
 
@@ -45,9 +45,9 @@ class Token(Frozen):
 
 
 class Formulas:
-    """The tokens of a source, and the expressions that ranges of them are.
+    """The tokens of a source, and the expressions of ranges of them.
 
-    Brackets are matched once; what cannot be read between two of them is unknown, and the rest is
+    Brackets are matched once; an unreadable part between two brackets is unknown, and the rest is
     read.
 
     Args:
@@ -58,7 +58,7 @@ class Formulas:
     def __init__(self, text: str, call: str = "(") -> None:
         self.tokens: list[Token] = []
         self.closes: dict[int, int] = {}
-        """The place of the bracket that closes each; the end for one that nothing closes."""
+        """The place of the closing bracket of each; the end of the source if it is never closed."""
         self._call = call
         self._called_kinds = (ir.Name,) if call == "(" else (ir.Name, ir.Call, ir.Index)
         self._depth = 0
@@ -82,14 +82,14 @@ class Formulas:
         self.closes |= dict.fromkeys(waiting, len(self.tokens))
 
     def sign(self, at: int, end: int | None = None) -> str:
-        """The sign at a place; empty for what is none."""
+        """The sign at a place; empty for other tokens."""
         if not at < (len(self.tokens) if end is None else end):
             return ""
         token = self.tokens[at]
         return token.text if token.kind == "sign" else ""
 
     def parts(self, start: int, end: int, *signs: str) -> Iterator[tuple[int, int]]:
-        """The ranges between signs that are in no bracket."""
+        """The ranges between signs outside all brackets."""
         first = at = start
         while at < end:
             token = self.tokens[at]
@@ -101,20 +101,20 @@ class Formulas:
             yield first, end
 
     def expression(self, start: int = 0, end: int | None = None) -> ir.Expr:
-        """What a range of tokens is; without meaning where it cannot be read."""
+        """The expression of a range of tokens; Opaque if it cannot be read."""
         end = len(self.tokens) if end is None else end
         depth = self._depth
         try:
-            found, at = self._sum(start, end, 0)
+            value, at = self._sum(start, end, 0)
             if at < end:
                 raise Unreadable(f"{self.tokens[at].text[:20]!r} behind a value")
         except Unreadable as error:
             self._depth = depth
             return ir.Opaque(error.message)
-        return found
+        return value
 
     def _sum(self, at: int, end: int, level: int) -> tuple[ir.Expr, int]:
-        """The value that begins at a place, with signs that hold at least so tightly."""
+        """The value that begins at a place, with operators of at least a precedence."""
         self._depth += 1
         if self._depth > MAX_NESTING:
             raise Unreadable("an expression that is nested too deep")
@@ -140,30 +140,30 @@ class Formulas:
         if not at < end:
             raise Unreadable("a number is expected")
         token, place = self.tokens[at], self.closes.get(at, at)
-        found: ir.Expr
+        atom: ir.Expr
         match token.kind, token.text:
             case "number", text:
-                found = ir.Literal(f"0{text}" if text[0] == "." else text)
+                atom = ir.Literal(f"0{text}" if text[0] == "." else text)
             case "text", text:
-                found = ir.Text(text)
+                atom = ir.Text(text)
             case ("sign", "#") | ("name", "x") if token.text == "#" or self._call == "(":
-                found = SLOT
+                atom = SLOT
             case "name", text:
-                found = ir.Name(text)
+                atom = ir.Name(text)
             case "sign", "(":
-                found = self.expression(at + 1, place)
+                atom = self.expression(at + 1, place)
             case "sign", "{" | "<|":
-                found = self._items(at)
+                atom = self._items(at)
             case _:
                 raise Unreadable("a number is expected")
         at = place + 1
-        while self.sign(at, end) == self._call and isinstance(found, self._called_kinds):
-            found = self._called(found, at)
+        while self.sign(at, end) == self._call and isinstance(atom, self._called_kinds):
+            atom = self._called(atom, at)
             at = self.closes[at] + 1
-        return found, min(at, end)
+        return atom, min(at, end)
 
     def arguments(self, at: int) -> tuple[ir.Expr, ...]:
-        """What is between two brackets, with commas between."""
+        """The arguments between two brackets, separated by commas."""
         return tuple(self.expression(*part) for part in self.parts(at + 1, self.closes[at], ","))
 
     def _called(self, callee: ir.Expr, at: int) -> ir.Expr:
@@ -177,7 +177,7 @@ class Formulas:
         return ir.Call(callee, args)
 
     def _items(self, at: int) -> ir.Expr:
-        """A list; one with rules in it is values by their names."""
+        """A list; with rules in it, values by their names."""
         items = self.arguments(at)
         pairs = []
         for x in items:
@@ -188,5 +188,5 @@ class Formulas:
 
 
 def formula(text: str) -> ir.Expr:
-    """The number that a text is, as method files write it: ``1/2 - sqrt(3)/6``."""
+    """The number in a text in the notation of method files: ``1/2 - sqrt(3)/6``."""
     return Formulas(text).expression()

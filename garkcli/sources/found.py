@@ -1,4 +1,4 @@
-"""A table as it is found in a source: coefficients as text, and what the source says of them."""
+"""A table in a source: coefficients as text, and the declarations around them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Row: TypeAlias = tuple[str, ...]
 """Numbers as texts of ``garkcli.exact.expression``."""
 Rows: TypeAlias = tuple[Row, ...]
 Units: TypeAlias = tuple[tuple[str, fmpq], ...]
-"""By how much texts of numbers may be off."""
+"""Bounds on the errors of numbers by their texts."""
 Grid: TypeAlias = tuple[tuple[Rows | None, ...], ...]
 
 MAX_STAGES = 200
@@ -28,15 +28,15 @@ MAX_CHARACTERS = 4_000_000
 
 
 class Unreadable(GarkError):
-    """What is at a place in a source is no value that a reader knows."""
+    """A place in a source has no value that a reader knows."""
 
 
 class Misshapen(Unreadable):
-    """Numbers that are written out, and are too many or too few for a method."""
+    """Explicit numbers that are too many or too few for a method."""
 
 
 class TooLarge(GarkError):
-    """A source is too large, or becomes it where its names are written out.
+    """A source is too large, or becomes too large by expanding its names.
 
     Attributes:
         line: where the limit was reached, from 1.
@@ -48,15 +48,14 @@ class TooLarge(GarkError):
 
 
 class FoundCoupling(Frozen):
-    """How the slow stages of a multirate infinitesimal method are coupled, as in method files.
+    """The coupling of the slow stages of a multirate infinitesimal method, as in method files.
 
     Attributes:
-        c: their nodes, from 0 to the end of the step.
+        c: the nodes of the slow stages, from 0 to the end of the step.
         parts: by ``omega``, the explicit part, and ``gamma``, the implicit one, a matrix for each
             power of τ; row i leads to the stage after stage i.
-        embedded: by the same names the rows that lead to the embedded value; empty without them.
-        restart: what the forcing of methods is whose fast problems begin with the step; empty of
-            others.
+        embedded: the rows to the embedded value by the same names; empty without them.
+        restart: the kind of forcing if fast problems begin with the step; empty for others.
     """
 
     c: Row
@@ -66,56 +65,55 @@ class FoundCoupling(Frozen):
 
 
 class FoundTable(Frozen):
-    """The coefficients of one method, as a source has them.
+    """The coefficients of one method in a source.
 
     Attributes:
-        source: the file, as it was named.
-        line: where the table begins, from 1.
+        source: the path of the file as given.
+        line: the first line of the table, from 1.
         format: the reader that found it.
-        name: what the source calls it; empty where it does not.
-        A: the blocks A^{l,m}, None where colour l does not see colour m. One block of one colour.
-            Colours that share their stages have one row of blocks.
+        name: in the source; empty if it has none.
+        A: the blocks A^{l,m}, None if colour l does not depend on colour m. One block of one
+            colour. Colours that share their stages have one row of blocks.
         b: the weights of each colour.
-        c: the nodes of each row of blocks, None where the source has none.
-        embedded: the weights of the embedded method, a row per colour.
-        turned: these weights if their differences from ``b`` have the other sign; None where the
-            source fixes the sign.
+        c: the nodes of each row of blocks, None if the source has none.
+        embedded: the embedded weights of each colour.
+        turned: the embedded weights if their differences from ``b`` have the other sign; None if
+            the source fixes the sign.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
-        order: the order that the source declares.
-        said_order: the order that words beside the table say; None where an order is declared.
-        embedded_order: the order of the embedded weights that the source declares.
-        flags: properties that the source declares, by their names in method files.
+        order: the order declared in the source.
+        said_order: the order in comments and docstrings; None if an order is declared.
+        embedded_order: the order of the embedded weights declared in the source.
+        flags: properties declared in the source, by their names in method files.
         parts: ``("q", "p")`` of a partitioned method; empty otherwise.
-        structure: which vector fields the problem has, as in method files; empty for all.
+        structure: of the vector fields, as in method files; empty for general ones.
         linear: the colours with a linear vector field, from 0.
-        tolerance: the rounding that the source admits; empty where it says none.
-        is_sure: whether the source says that this is a method; otherwise names alone do.
-        notes: what people should know of how it was read.
-        trouble: what is wrong with the table itself; then it has no coefficients to judge.
+        tolerance: the rounding given in the source; empty if it gives none.
+        is_sure: whether the source says that this is a method; otherwise only names are evidence.
+        notes: remarks for users on its reading.
+        trouble: the reason why the table cannot be judged; then it has no coefficients.
         is_source: whether it stands for a source that was not read.
         is_misshapen: whether the trouble is that it has too many or too few numbers.
-        kind: of another method, such as Rosenbrock; empty for Runge–Kutta.
-        gamma: of a Rosenbrock method γ, whose α is the one block of A; of one as programs store it
-            C, whose b is m.
-        diagonal: the γ_ii of a method as programs store it.
+        kind: of a method that is not read, such as Rosenbrock; empty for Runge–Kutta.
+        gamma: γ of a Rosenbrock method, with α as the one block of A; C in stored form, with m as
+            b.
+        diagonal: the γ_ii of a method in stored form.
         error: m − m̂ of such a method; None without embedded weights.
-        d: the weights of ∂f/∂t; None where the row sums of γ say it.
-        coupling: of a multirate infinitesimal method, whose fast problems are solved exactly; None
-            of others.
-        is_slow: whether it is the slow method of such a method, whose forcing is constant.
-        form: of a method of another form, what its file has under the keys of the coefficients;
-            None of others.
-        form_stages: how many stages it has.
-        base: the name of the table that it is made of, where another source has that.
-        is_assembled: whether it was put together from single numbers, by their names.
-        units: by how much coefficients may be off that were made of printed ones.
-        how: its arrays are stored, in words, where that is read off the numbers.
-        idle: arrays beside it with names of nodes or weights, and no role in it.
-        linked: bits of what links its matrix and its weights, in the reading of its numbers for
-            which most speaks; 0 where there is none.
-        is_recognised: whether its numbers alone say that it is a table.
-        rivals: other readings of the same numbers, which may explain what is wrong with this one.
-        around: the names of the scopes that it is in.
+        d: the weights of ∂f/∂t; None if they are the row sums of γ.
+        coupling: of a multirate infinitesimal method with exact fast problems; None for others.
+        is_slow: whether it is the slow method of such a method with constant forcing.
+        form: for a method of another form the keys of its file with the coefficients; None for
+            others.
+        form_stages: its number of stages.
+        base: the name of the table that it is made of, in another source.
+        is_assembled: whether it was assembled from single numbers by their names.
+        units: error bounds of coefficients computed from printed ones.
+        how: the storage of its arrays in words, if recognised from the numbers.
+        idle: arrays beside it with names of nodes or weights, but without a role.
+        linked: bits of evidence that link its matrix and its weights, in the best reading of its
+            numbers; 0 without a reading.
+        is_recognised: whether only its numbers are evidence for a table.
+        rivals: other readings of the same numbers, which may explain errors of this one.
+        around: the names of the scopes around it.
     """
 
     source: str
@@ -167,7 +165,9 @@ class FoundTable(Frozen):
 
     @property
     def stages(self) -> int:
-        """The stages of all colours, those that are shared once; the slow ones of a coupling."""
+        """The number of stages of all colours, with shared stages counted once; of the slow stages
+        for a coupling.
+        """
         if self.form is not None:
             return self.form_stages
         if self.coupling is not None:
@@ -178,7 +178,6 @@ class FoundTable(Frozen):
 
     @property
     def is_multirate(self) -> bool:
-        """Whether it is a multirate infinitesimal method."""
         return self.coupling is not None or self.is_slow
 
     @property
@@ -188,7 +187,7 @@ class FoundTable(Frozen):
 
     @property
     def is_unlike(self) -> bool:
-        """Whether names alone speak for a table, and its shapes against it."""
+        """Whether only names are evidence for a table, and its shapes are against it."""
         return bool(self.trouble) and not self.is_sure
 
     def __repr__(self) -> str:
@@ -204,11 +203,11 @@ class Reader(Frozen):
     """A format that is read.
 
     Attributes:
-        name: what the format is called.
-        summary: what it is, in a few words.
-        suffixes: of the files that have it.
-        find: the tables in a text; it executes nothing, and raises nothing but ``TooLarge``.
-        grammars: the modules of tree-sitter that it parses with.
+        name: the word for the format.
+        summary: the format in a few words.
+        suffixes: the endings of its files.
+        find: finds the tables in a text; it executes nothing, and raises only ``TooLarge``.
+        grammars: the modules of tree-sitter for its parser.
     """
 
     name: str
@@ -219,13 +218,13 @@ class Reader(Frozen):
 
 
 def unread(source: str, format: str, why: str) -> FoundTable:
-    """A place holder for a source that was not read, with the reason."""
+    """A placeholder for a source that was not read, with the reason."""
     trouble = f"was not read: {why}"
     return FoundTable(source, 1, format, "the source", (), (), (), trouble=trouble, is_source=True)
 
 
 def troubled(table: FoundTable, trouble: str, is_misshapen: bool = False) -> FoundTable:
-    """A place where a table is meant to be, and why it is none."""
+    """A placeholder for a table that cannot be read, with the reason."""
     place = FoundTable(table.source, table.line, table.format, table.name, (), (), ())
     orders = {"order": table.order, "embedded_order": table.embedded_order}
     return replace(place, **orders, trouble=trouble, is_misshapen=is_misshapen)

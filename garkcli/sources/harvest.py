@@ -1,4 +1,4 @@
-"""Every array of numbers of a source, scope by scope, whatever it is called."""
+"""Every array of numbers in a source, scope by scope, with any name."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ from garkcli.sources.values import (
 )
 
 MOST_ENTRIES = 2_000
-"""Longer arrays are data."""
+"""Longer arrays are data, not coefficients."""
 LARGEST = 1e12
-"""No coefficient is larger."""
+"""Bound on coefficients."""
 MOST_LEVELS = 5
 MOST_ROOM = 40
-"""Longer rows have room for more numbers than there are."""
+"""Longer rows may have unused room behind their numbers."""
 _DECIMAL = re.compile(r"[-+]?(\d*)\.?(\d*)(?:e([-+]?\d+))?")
 _LONG = re.compile(r"\d+\.(\d{5,})")
 _FAMILY = re.compile(
@@ -58,7 +58,7 @@ _ORDER = re.compile(
 )
 MOST_INDEX = 40
 MOST_BESIDE = 3
-"""So many numbers are tried as a diagonal."""
+"""Most single numbers tried as a diagonal."""
 MOST_ORDER = 20
 
 _Rows = tuple[tuple[Entry, ...], ...]
@@ -66,18 +66,17 @@ _Numbers = dict[tuple[int, ...], tuple[Entry, int]]
 
 
 class Harvester(Evaluator):
-    """Evaluates a source, and keeps the arrays of each of its scopes.
+    """Evaluates a source and keeps the arrays of each scope.
 
     Args:
-        source: what it is called.
+        source: its name.
         format: of its language.
-        base, allowance, is_growing, has_whole_quotients: as those of an evaluator.
+        base, allowance, is_growing, has_whole_quotients: as for an evaluator.
 
     Attributes:
         groups: the scopes, inner ones first.
-        harvest: their arrays.
-        made, rows: arrays of the last scope that were put together, of numbers or rows with like
-            names.
+        harvest: the numbers of their arrays.
+        made, rows: arrays of the last scope assembled from numbers or from rows with related names.
     """
 
     def __init__(
@@ -95,24 +94,24 @@ class Harvester(Evaluator):
         self._handles: dict[int, tuple[int, Space]] = {}
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
-        """Harvest an array before a new value takes its place."""
+        """Harvests an array before a new value replaces it."""
         line = space.lines.get(name, scope.line)
         self._before[id(space)] += self.harvest.arrays(name, space[name], line)
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
-        """Harvest a field before a new value takes its place."""
+        """Harvests a field before a new value replaces it."""
         del scope
         path = f"{record.key or record.kind}.{name}"
         self._before[0] += self.harvest.arrays(path, record.fields.get(name), self.line)
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
-        """Harvest the arrays of a scope that ends."""
-        found = Gathered()
+        """Harvests the arrays of a scope that ends."""
+        gathered = Gathered()
         for name, value in space.items():
-            self.harvest.gather(name, value, space.lines.get(name, scope.line), found)
+            self.harvest.gather(name, value, space.lines.get(name, scope.line), gathered)
         for record in space.calls:
-            self.harvest.gather(record.key or record.kind, record, record.line, found)
-        arrays = found.arrays
+            self.harvest.gather(record.key or record.kind, record, record.line, gathered)
+        arrays = gathered.arrays
         if isinstance(space.returned, Array | Record):
             arrays += self.harvest.arrays(scope.name, space.returned, scope.line)
         arrays += self._before.pop(id(space), []) + self._before.pop(0, [])
@@ -122,10 +121,10 @@ class Harvester(Evaluator):
                 if len({*map(len, numbers)}) == 1:
                     arrays += _filled(name, numbers, scope.line, self.base)
         known = {x.key for x in arrays}
-        self.made = [x for x in _families(found.singles) if x.key not in known]
+        self.made = [x for x in _families(gathered.singles) if x.key not in known]
         self.rows = list(_of_rows([*arrays, *self.made]))
         arrays = _in_records([*arrays, *self.made, *self.rows])
-        arrays = [_with_beside(x, found.singles) for x in arrays]
+        arrays = [_with_beside(x, gathered.singles) for x in arrays]
         if not arrays and id(space) not in self._handles:
             return
         around = None if space.up is None else self._handle(space.up)
@@ -134,11 +133,13 @@ class Harvester(Evaluator):
         place = self._handle(space), around
         unknown = [name for name, x in space.items() if isinstance(x, Array) and _is_lost(x)]
         self.groups.append(
-            Group(place, scope.line, scope.title, arrays, found.orders, is_about_methods, unknown)
+            Group(
+                place, scope.line, scope.title, arrays, gathered.orders, is_about_methods, unknown
+            )
         )
 
     def _handle(self, space: Space) -> int:
-        """A number for a scope that no other one gets, also when it is gone."""
+        """A unique number for a scope, not reused when the scope is gone."""
         return self._handles.setdefault(id(space), (len(self._handles), space))[0]
 
     def _called(self, call: ir.Call, space: Space) -> Value:
@@ -159,7 +160,7 @@ class Gathered(Mutable):
     Attributes:
         arrays: of numbers.
         singles: single numbers, with their lines.
-        orders: whole numbers that are called orders, by the records that they are in.
+        orders: integers called orders, with the names of their records.
     """
 
     arrays: list[Given] = field(default_factory=list)
@@ -171,14 +172,14 @@ class Harvest:
     """The numbers of a source.
 
     Attributes:
-        numbers: all of them, by the places that entries have.
+        numbers: all numbers, by the places in entries.
     """
 
     def __init__(self) -> None:
         self.numbers: list[Number] = [FILL, ONE]
 
     def gather(self, name: str, value: Value, line: int, found: Gathered) -> None:
-        """The arrays, single numbers and orders that a value has."""
+        """Adds the arrays, single numbers and orders of a value."""
         numbers: Mapping[str, Value] = {name: value}
         if isinstance(value, Record):
             line = value.line or line
@@ -193,7 +194,7 @@ class Harvest:
             found.arrays += self.arrays(name, value, line)
 
     def arrays(self, name: str, value: Value | None, line: int, level: int = 0) -> Iterator[Given]:
-        """The arrays of numbers in a value, at whatever depth."""
+        """The arrays of numbers in a value, at any depth."""
         if level > MOST_LEVELS:
             return
         if isinstance(value, Record):
@@ -211,7 +212,7 @@ class Harvest:
             yield from nodes or self._of_items(name, [*map(_flatter, value.items)], line, level)
 
     def _with_nodes(self, name: str, items: Sequence[Value], line: int) -> list[Given]:
-        """Rows behind their nodes, ``{c, {a, …}}``; nothing where there are none."""
+        """Rows behind their nodes, ``{c, {a, …}}``; empty for other rows."""
         pairs = [x.items for x in items if isinstance(x, Array) and len(x.items) == 2]
         rows = [x[1].items for x in pairs if isinstance(x[1], Array)]
         lengths = [*map(len, rows)]
@@ -228,7 +229,7 @@ class Harvest:
         if not inner:
             row = self._row(items)
             if row is not None:
-                # room for more that nobody wrote
+                # the rest of the room is never written
                 written = (i for i, x in enumerate(items) if not _is_empty(x))
                 count = len(row) if len(row) <= MOST_ROOM else 1 + max(written, default=0)
                 if count > 1 or row[0].value:
@@ -251,24 +252,24 @@ class Harvest:
                 yield from self.arrays(f"{name}.{i}", x, line, level + 1)
 
     def _row(self, items: Iterable[Value]) -> tuple[Entry, ...] | None:
-        """Some numbers; None if one of them is not known."""
-        found: list[Entry] = []
+        """A row of numbers; None if one is unknown."""
+        entries: list[Entry] = []
         for x in items:
             if isinstance(x, Number) and _is_moderate(x):
-                found.append(self.entry(x))
+                entries.append(self.entry(x))
             elif _is_empty(x) and not isinstance(x, Null):
-                found.append(NOTHING)
+                entries.append(NOTHING)
             else:
                 return None
-        return tuple(found)
+        return tuple(entries)
 
     def value(self, x: Given) -> Value:
-        """An array of the numbers as they are in the source."""
+        """An array of the numbers in the source."""
         rows = [Array([self.numbers[entry.at] for entry in row]) for row in x.rows]
         return Array([*rows]) if x.is_matrix else rows[0]
 
     def entry(self, x: Number) -> Entry:
-        """A number with what its text says."""
+        """A number with the precision of its text."""
         if x is FILL or x.is_zero:
             return NOTHING
         self.numbers.append(x)
@@ -283,23 +284,23 @@ class Harvest:
             return Entry(x.near, max(unit, least), min(MOST_BITS, PER_DIGIT * digits), at)
         places = min((len(d) for d in _LONG.findall(text)), default=0)
         if places:
-            # computed of decimals
+            # computed from decimals
             unit = 3 * 10.0**-places * max(1.0, abs(x.near))
             return Entry(x.near, max(unit, least), min(MOST_BITS, PER_DIGIT * places), at)
         return Entry(x.near, least, min(40.0, 1.5 * len(text)), at)
 
 
 def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
-    """Numbers whose names differ in their indices: ``a21``, ``b_1``."""
+    """Arrays of numbers with names that differ in their indices: ``a21``, ``b_1``."""
     families: dict[tuple[str, int], _Numbers] = defaultdict(dict)
     beside: dict[str, list[Entry]] = defaultdict(list)
     for name, (entry, line) in singles.items():
-        found = _FAMILY.fullmatch(name.translate(_INDICES))
-        if found is None:
+        match = _FAMILY.fullmatch(name.translate(_INDICES))
+        if match is None:
             beside[name.rpartition(".")[0]].append(entry)
             continue
-        stem = f"{found['stem']}{found['tail']}"
-        i, j = found["i"], found["j"]
+        stem = f"{match['stem']}{match['tail']}"
+        i, j = match["i"], match["j"]
         if j is not None:
             families[stem, 2][int(i), int(j)] = entry, line
             continue
@@ -333,7 +334,7 @@ def _with_beside(x: Given, singles: Mapping[str, tuple[Entry, int]]) -> Given:
 
 
 def _filled(name: str, numbers: _Numbers, line: int, first: int) -> Iterator[Given]:
-    """An array of the numbers at some places, with zeros at the others."""
+    """An array of numbers at given places, with zeros elsewhere."""
     last = max(max(at) for at in numbers)
     indices = range(min(first, last), last + 1)
 
@@ -348,12 +349,12 @@ def _filled(name: str, numbers: _Numbers, line: int, first: int) -> Iterator[Giv
 
 
 def _of_rows(arrays: Sequence[Given]) -> Iterator[Given]:
-    """Rows with numbers in their names as matrices: ``a2``, ``a3``, …"""
+    """Matrices of rows with numbers in their names: ``a2``, ``a3``, …"""
     families: dict[str, dict[int, Given]] = defaultdict(dict)
     for x in arrays:
-        found = None if x.is_matrix else _ROW.fullmatch(x.name)
-        if found is not None:
-            families[f"{found['stem']}{found['tail']}"][int(found["i"])] = x
+        match = None if x.is_matrix else _ROW.fullmatch(x.name)
+        if match is not None:
+            families[f"{match['stem']}{match['tail']}"][int(match["i"])] = x
     for stem, rows in families.items():
         numbers = sorted(rows)
         lengths = [len(rows[i].rows[0]) for i in numbers]
@@ -365,28 +366,28 @@ def _of_rows(arrays: Sequence[Given]) -> Iterator[Given]:
 
 
 def _in_records(arrays: Sequence[Given]) -> list[Given]:
-    """Arrays whose names share what is behind a letter, ``a_im`` and ``b_im``, as those of a record
-    where a matrix and weights do: ``im.a`` and ``im.b``.
+    """Renames arrays that share a suffix after a letter, ``a_im`` and ``b_im``, to fields of a
+    record, ``im.a`` and ``im.b``, if a matrix and weights are among them.
     """
-    parts = {x.name: found for x in arrays if (found := _LETTER.fullmatch(x.name))}
+    parts = {x.name: match for x in arrays if (match := _LETTER.fullmatch(x.name))}
     heads: dict[str, set[str]] = defaultdict(set)
     spelled: dict[str, str] = {}
-    for found in parts.values():
-        heads[found["behind"].lower()].add(found["letter"].lower())
-        spelled.setdefault(found["behind"].lower(), found["behind"])
+    for match in parts.values():
+        heads[match["behind"].lower()].add(match["letter"].lower())
+        spelled.setdefault(match["behind"].lower(), match["behind"])
     records = {tail for tail, of in heads.items() if "a" in of and of & {"b", "w"}}
 
     def placed(x: Given) -> Given:
-        found = parts.get(x.name)
-        if found is None or found["behind"].lower() not in records:
+        match = parts.get(x.name)
+        if match is None or match["behind"].lower() not in records:
             return x
-        return replace(x, name=f"{spelled[found['behind'].lower()]}.{found['letter']}")
+        return replace(x, name=f"{spelled[match['behind'].lower()]}.{match['letter']}")
 
     return [placed(x) for x in arrays]
 
 
 def _flatter(value: Value) -> Value:
-    """A row without brackets around single numbers in it."""
+    """A row without brackets around its single numbers."""
     items = items_of(value)
     inner = [x for x in items if isinstance(x, Array)]
     if len(items) < 2 or not inner or any(len(x.items) != 1 for x in inner):
@@ -395,18 +396,18 @@ def _flatter(value: Value) -> Value:
 
 
 def _is_moderate(x: Number) -> bool:
-    """Whether it may be a coefficient: no comparison with infinities fails."""
+    """Whether a number may be a coefficient; this excludes infinities from comparisons."""
     return math.isfinite(x.near) and abs(x.near) < LARGEST
 
 
 def _is_lost(value: Array) -> bool:
-    """Whether a row of numbers was written, and one of them is not known."""
+    """Whether a row of numbers was written, and one of them is unknown."""
     items = value.items
     return len(items) > 1 and any(isinstance(x, Unknown) and not _is_empty(x) for x in items)
 
 
 def _is_empty(value: Value) -> bool:
-    """Whether nothing was written at a place, but in another way through the program."""
+    """Whether nothing was written at a place, except in another branch of the program."""
     is_unset = isinstance(value, Unknown) and (
         value.reason == "never assigned" or (value.reason == IN_A_BRANCH and not value.was_written)
     )

@@ -1,4 +1,4 @@
-"""What every language is lowered to: expressions and statements, few and without types."""
+"""The common form of all languages: few kinds of expressions and statements, without types."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class Name(Frozen):
 
 
 class Literal(Frozen):
-    """A number as it is printed; whole numbers divide as whole numbers in some languages."""
+    """A number as printed; integers divide as integers in some languages."""
 
     text: str
     is_whole: bool = False
@@ -36,7 +36,7 @@ class Field(Frozen):
 
 
 class Range(Frozen):
-    """From ``first`` to ``last``, both included; None is the end of the array on that side."""
+    """From ``first`` to ``last``, both included; None for the end of the array on that side."""
 
     first: Expr | None = None
     last: Expr | None = None
@@ -50,7 +50,7 @@ class Index(Frozen):
 
 
 class Call(Frozen):
-    """A call with its arguments, those with a name apart."""
+    """A call with its positional and named arguments."""
 
     callee: Expr
     args: tuple[Expr, ...]
@@ -65,7 +65,7 @@ class Unary(Frozen):
 
 
 class Binary(Frozen):
-    """An operation on two values: ``+ - * /``, ``//`` of whole numbers, ``^``, or unknown."""
+    """An operation on two values: ``+ - * /``, ``//`` of integers, ``^``, or unknown."""
 
     sign: str
     left: Expr
@@ -113,7 +113,7 @@ class Nothing(Frozen):
 
 
 class Opaque(Frozen):
-    """What has no meaning here."""
+    """An expression without a known meaning."""
 
     reason: str
 
@@ -139,14 +139,14 @@ Expr: TypeAlias = (
 
 
 class Assign(Frozen):
-    """A target has a value from a line on.
+    """An assignment to a target.
 
     Attributes:
-        target: a name, a field, an entry; ``Items`` where a list is taken apart.
-        value: None where a name is declared alone.
-        sign: of ``+=`` and the like; ``.`` fills an array.
-        extents: of an array, None for one that its values give.
-        is_real: whether whole numbers become real ones.
+        target: a name, a field, an entry; ``Items`` if a list is unpacked.
+        value: None for a declaration without value.
+        sign: of ``+=`` and similar operators; ``.`` fills an array.
+        extents: of an array, None for one determined by its values.
+        is_real: whether integers become real numbers.
     """
 
     target: Expr
@@ -165,7 +165,7 @@ class Do(Frozen):
 
 
 class Return(Frozen):
-    """The value of a function; nothing where it has none."""
+    """The return of a value; Nothing without value."""
 
     value: Expr
     line: int
@@ -178,16 +178,16 @@ class Scope(Frozen):
     """A function, a class, an entry of a list of macros.
 
     Attributes:
-        kind: which of them.
-        name: of it.
-        body: what is in it.
-        line: where it begins, from 1.
+        kind: of the scope.
+        name: of the scope.
+        body: its statements.
+        line: its first line, from 1.
         parameters: of a function.
         types: the parameters that are types: calling one converts.
         bases: of a class.
-        of: the type of the first argument of a function, where it is written: what it belongs to in
-            languages that choose functions by these.
-        gives: the name that what it returns has in its class; empty where that needs arguments.
+        of: the declared type of the first argument of a function, which owns it in languages with
+            multiple dispatch.
+        gives: the name of its return value in its class; empty if it needs arguments.
     """
 
     kind: Kind
@@ -202,15 +202,15 @@ class Scope(Frozen):
 
     @property
     def title(self) -> str:
-        """What people call it."""
+        """Its name for users."""
         return self.of or self.name
 
 
 class Branch(Frozen):
-    """One of several ways; without ``is_total`` none may be taken.
+    """One of several branches; without ``is_total`` perhaps none is taken.
 
     Attributes:
-        arms: the ways.
+        arms: the branches.
     """
 
     arms: tuple[tuple[Statement, ...], ...]
@@ -219,7 +219,7 @@ class Branch(Frozen):
 
 
 class Loop(Frozen):
-    """A body for every value of a name; an empty name is a loop that is not followed."""
+    """A body for every value of a name; with an empty name a loop that is not followed."""
 
     name: str
     over: Expr
@@ -232,7 +232,7 @@ Body: TypeAlias = tuple[Statement, ...]
 
 
 def statements(body: Iterable[Statement]) -> Iterator[Statement]:
-    """Some statements with those that are in them."""
+    """Statements with all nested ones."""
     for statement in body:
         yield statement
         match statement:
@@ -244,7 +244,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 
 def inside(node: object) -> Iterator[object]:
-    """What is in an expression, itself first."""
+    """An expression with all its parts, itself first."""
     waiting = [node]
     while waiting:
         node = waiting.pop()

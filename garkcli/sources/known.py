@@ -1,4 +1,4 @@
-"""Functions that sources call for constants: conversions, roots, arrays of zeros, shapes."""
+"""Functions in sources with known values: conversions, roots, arrays of zeros, shapes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 
 
 class Call(Frozen):
-    """A call of a known function, its arguments evaluated."""
+    """A call of a known function with its evaluated arguments."""
 
     name: str
     expr: ir.Call
@@ -54,11 +54,11 @@ class Call(Frozen):
 
     @property
     def line(self) -> int:
-        """Where it is."""
+        """The line of the call."""
         return self.evaluator.line
 
     def unknown(self, reason: str = "") -> Unknown:
-        """What this call gives is not known."""
+        """The value if this call is not known."""
         return self.evaluator.unknown(reason or f"the call {self.name}")
 
     def array(self, items: Iterable[Value]) -> Array:
@@ -66,17 +66,17 @@ class Call(Frozen):
         return self.evaluator.array(items)
 
     def filled(self, fill: Value, *sizes: int) -> Array:
-        """An array with the same value everywhere."""
+        """An array filled with one value."""
         self.evaluator.allowance.spend(2 * math.prod(max(n, 1) for n in sizes))
         row = [fill] * sizes[-1]
         return self.array(row if len(sizes) == 1 else (self.array(row) for _ in range(sizes[0])))
 
 
 Known: TypeAlias = Callable[..., Value | None]
-"""The value of a call with these arguments; None where the function is another one of that name."""
+"""The value of a call with these arguments; None if another function of that name is meant."""
 
 PI = Number(None, math.pi, written=Scalar("pi"))
-"""No coefficient, and in angles."""
+"""π occurs in angles, never as a coefficient."""
 CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("NULL", "nullptr", "nothing", "None", "missing", "PETSC_NULLPTR"), NULL),
     **{name: Word("true") for name in ("true", "True", "SUNTRUE", "PETSC_TRUE")},
@@ -89,7 +89,7 @@ CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("pi", "PI", "M_PI", "π"), PI),
     "#": Number(None, math.nan, written=Scalar("x")),
 }
-"""Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
+"""Names with the same meaning in all languages; ``#`` is the variable of a polynomial."""
 _CARDINALS = (
     *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
     *("eleven", "twelve"),
@@ -116,22 +116,22 @@ _IN_WORDS = re.compile(
 
 
 def in_words(name: str) -> Value | None:
-    """The number that a name such as ONE_SIXTH spells; None for other names.
+    """The number spelled by a name such as ONE_SIXTH; None for other names.
 
     >>> in_words("ONE_SIXTH").value, in_words("twothirds").value, in_words("thirds_of")
     (1/6, 2/3, None)
     """
-    found = _IN_WORDS.fullmatch(name)
-    if found is None or not (found["count"] or found["part"]):
+    match = _IN_WORDS.fullmatch(name)
+    if match is None or not (match["count"] or match["part"]):
         return None
-    count = _COUNTS.get((found["count"] or "one").lower(), 1)
-    return real(exact(fmpq(count, _DIVISORS.get((found["part"] or "").lower(), 1))))
+    count = _COUNTS.get((match["count"] or "one").lower(), 1)
+    return real(exact(fmpq(count, _DIVISORS.get((match["part"] or "").lower(), 1))))
 
 
 MOST_PARTS, CLOSE = 120, 1e-14
-"""The largest denominator of a part of a turn whose cosine is known; the error of a float."""
+"""The largest denominator of a part of a turn with a known cosine; the error of a float."""
 CALLS: dict[str, Known] = {}
-"""What is known of each function."""
+"""The known functions by name."""
 
 
 def _known(names: str) -> Callable[[Known], Known]:
@@ -143,7 +143,7 @@ def _known(names: str) -> Callable[[Known], Known]:
 
 
 def result(call: Call, args: list[Value]) -> Value | None:
-    """The value of a call; None where nothing is known of it with so many arguments."""
+    """The value of a call; None if no function is known for so many arguments."""
     function = CALLS.get(call.name)
     if function is None:
         return None
@@ -155,7 +155,7 @@ def result(call: Call, args: list[Value]) -> Value | None:
 
 
 def conversion(args: Iterable[Value], line: int) -> Value:
-    """The value that a type is called with; texts with a number in them are numbers."""
+    """The argument of a conversion; texts with a number become numbers."""
     value = next((x for x in args if not isinstance(x, Type)), NULL)
     if isinstance(value, Word):
         return _of_text(value.text, line)
@@ -166,10 +166,10 @@ def conversion(args: Iterable[Value], line: int) -> Value:
 
 
 def _of_text(text: str, line: int) -> Value:
-    above, bar, below = text.strip().partition("/")
-    if not set(above + below) <= set("0123456789.eE+- "):
+    numerator, bar, denominator = text.strip().partition("/")
+    if not set(numerator + denominator) <= set("0123456789.eE+- "):
         return Word(text)
-    numbers = [literal(x, line) for x in (above, below or "1")]
+    numbers = [literal(x, line) for x in (numerator, denominator or "1")]
     return computed("/", numbers[0], numbers[1], line) if bar else numbers[0]
 
 
@@ -188,11 +188,11 @@ _TYPES = """
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())
-"""Types, and functions that give back the number, the list or the matrix that they get."""
+"""Types, and functions that return their argument, a number, list or matrix."""
 
 
 def _vector(call: Call, values: Sequence[Value]) -> Value | None:
-    """``vector(n, x)`` of C++: n times the same, zeros by default."""
+    """``vector(n, x)`` of C++: n times x, or zero."""
     count = whole(values[0]) if 0 < len(values) < 3 else None
     if count is None or not 0 <= count <= MAX_STAGES**2:
         return None
@@ -217,7 +217,7 @@ _QUOTIENTS = frozenset(
         "QQ",
     )
 )
-"""Those that give the quotient of two numbers."""
+"""Functions that return the quotient of two numbers."""
 
 
 @_known(_TYPES)
@@ -227,14 +227,14 @@ def _converted(call: Call, *args: Value) -> Value | None:
         return _made(call, *args)
     if not values:
         return None
-    if call.name == "vector" and (made := _vector(call, values)) is not None:
-        return made
+    if call.name == "vector" and (filled := _vector(call, values)) is not None:
+        return filled
     if len(values) == 3 and call.name == "fraction" and isinstance(values[0], Unknown):
         # fraction(field, 1, 2)
         values = values[1:]
     if len(values) == 2 and call.name in _QUOTIENTS:
-        above, below = (conversion([x], call.line) for x in values)
-        return call.evaluator.combined("/", above, below)
+        numerator, denominator = (conversion([x], call.line) for x in values)
+        return call.evaluator.combined("/", numerator, denominator)
     if len(values) > 1 and call.name in {"SVector", "SMatrix", "MVector", "Tuple", "Integer"}:
         return call.array(values)
     is_second = len(values) == 2 and call.name == "convert"
@@ -245,7 +245,7 @@ _ROOTS = {
     **dict.fromkeys(("sqrt", "Sqrt", "PetscSqrtReal", "SUNRsqrt", "√", "dsqrt", "std_sqrt"), 2),
     **dict.fromkeys(("cbrt", "CubeRoot"), 3),
 }
-"""Roots that have names of their own."""
+"""Functions for roots with their indices."""
 
 
 @_known(" ".join([*_ROOTS, "nthroot", "real_nthroot", "root", "Surd"]))
@@ -260,7 +260,7 @@ def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
 
 @_known("acos atan")
 def _angle(call: Call, value: Value) -> Value | None:
-    """How programs write π: ``acos(-1)``, ``4*atan(1)``."""
+    """π in programs: ``acos(-1)``, ``4*atan(1)``."""
     if call.name == "acos" and whole(value) == -1:
         return PI
     is_one = call.name == "atan" and whole(value) == 1
@@ -269,7 +269,7 @@ def _angle(call: Call, value: Value) -> Value | None:
 
 @_known("cos sin Cos Sin dcos dsin")
 def _of_angle(call: Call, angle: Value) -> Value | None:
-    """The cosine of a rational multiple of π, which is half of a root of an integer polynomial."""
+    """The cosine of a rational multiple of π, half of a root of an integer polynomial."""
     if not isinstance(angle, Number) or not (angle.is_zero or "pi" in angle.scalar.text):
         return call.unknown()
     turns = Fraction(angle.near / math.tau).limit_denominator(MOST_PARTS)
@@ -287,7 +287,7 @@ def _of_angle(call: Call, angle: Value) -> Value | None:
 
 @_known("constructor")
 def _constructed(call: Call, *sizes: Value) -> Value | None:
-    """An object that is made of sizes, ``Matrix A(2, 2)``: what it holds is assigned later; of a
+    """An object constructed from sizes, ``Matrix A(2, 2)``, with entries assigned later; with a
     fraction it is that number, ``scalar x(0.5)``.
     """
     if len(sizes) == 1 and isinstance(sizes[0], Number) and not sizes[0].near.is_integer():
@@ -305,7 +305,7 @@ def _inverse(call: Call, value: Value) -> Value | None:
 
 @_known("Root root_of")
 def _root_of(call: Call, polynomial: Value, which: Value) -> Value | None:
-    """A root of a polynomial: by its number in Mathematica, and else by a decimal near it."""
+    """A root of a polynomial: by its number in Mathematica, otherwise by a decimal near it."""
     if not isinstance(polynomial, Number) or not isinstance(which, Number):
         return call.unknown()
     try:
@@ -319,17 +319,17 @@ def _root_of(call: Call, polynomial: Value, which: Value) -> Value | None:
 
 
 def _sizes(values: Iterable[Value]) -> list[int]:
-    """The numbers of a shape, whether they are arguments or a list; none where one is unknown."""
+    """The numbers of a shape, given as arguments or as a list; empty if one is unknown."""
     flat = list(Array([x for x in values if not isinstance(x, Type | Word)]).flat())
     counts = [whole(x) for x in flat]
-    found = [x for x in counts if x is not None and 0 <= x <= MAX_STAGES**2]
-    return found if len(found) == len(counts) <= 2 else []
+    valid = [x for x in counts if x is not None and 0 <= x <= MAX_STAGES**2]
+    return valid if len(valid) == len(counts) <= 2 else []
 
 
 def _filled(call: Call, fill: Value, args: Iterable[Value]) -> Value:
     known = [x for x in args if not isinstance(x, Type | Word)]
     if len(known) > 1 and isinstance(known[0], Unknown):
-        # zeros(T, 2, 2), where T is not known
+        # zeros(T, 2, 2) with unknown T
         known = known[1:]
     if len(known) > 1 and isinstance(known[-1], Unknown):
         # zeros(2, 2, context)
@@ -344,7 +344,7 @@ _FILLS = {
     **dict.fromkeys(("zeros", "zeros_like", "Zero"), FILL),
     **dict.fromkeys(("ones", "Ones"), real(ONE)),
 }
-"""What arrays are made of; those that others make are empty."""
+"""The entries of new arrays; arrays of other functions are empty."""
 
 
 @_known(" ".join([*_FILLS, "empty", "similar"]))
@@ -354,7 +354,7 @@ def _made(call: Call, *args: Value) -> Value | None:
 
 @_known("buildArray")
 def _built(call: Call, _: Value, count: Value, columns: Value = NULL) -> Value | None:
-    """``MathArrays.buildArray(field, n, m)``; rows of -1 entries come later."""
+    """``MathArrays.buildArray(field, n, m)``; rows with -1 entries come later."""
     if whole(columns) == -1:
         return _filled(call, NULL, [count])
     return _filled(call, FILL, [x for x in (count, columns) if x is not NULL])
@@ -372,7 +372,7 @@ def _unit(call: Call, *_: Value) -> Value | None:
 
 @_known("sum")
 def _sum(call: Call, values: Value, axis: Value = NULL) -> Value | None:
-    """The sum of a list; of a matrix those of its rows."""
+    """The sum of a list; for a matrix the sums of its rows."""
     along = whole(call.named.get("axis", call.named.get("dims", axis)))
     if not isinstance(values, Array):
         return call.unknown()
@@ -404,7 +404,7 @@ def _turned(call: Call, value: Value) -> Value | None:
 
 @_known("tril triu")
 def _triangle(call: Call, value: Value, above: Value = ZERO) -> Value | None:
-    """The part of a matrix on one side of its diagonal, or of one so far above it."""
+    """The part of a matrix on one side of its diagonal, or of the diagonal ``above`` above it."""
     off, is_lower = whole(above), call.name == "tril"
     if not isinstance(value, Array) or not value.is_matrix or off is None:
         return call.unknown()
@@ -415,7 +415,7 @@ def _triangle(call: Call, value: Value, above: Value = ZERO) -> Value | None:
 
 
 def _without_open(shape: Sequence[Value], count: int) -> Sequence[Value]:
-    """A shape in which -1 stands for what is left."""
+    """A shape with -1 replaced by the remaining size."""
     sizes = list(Array(list(shape[:2])).flat())
     known = [x for x in sizes if whole(x) != -1]
     product = math.prod(whole(x) or 0 for x in known)
@@ -449,7 +449,7 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
 
 
 def _of_square(shape: Sequence[Value], count: int) -> list[int]:
-    """The sizes of a matrix that has one unknown size twice; none of others."""
+    """The sizes of a matrix with the same unknown size twice; empty for others."""
     sizes = items_of(shape[0]) if len(shape) == 1 else list(shape)
     reasons = [x.reason for x in sizes if isinstance(x, Unknown)]
     is_square = len(sizes) == len(reasons) == 2 and reasons[0] == reasons[1]
@@ -457,12 +457,12 @@ def _of_square(shape: Sequence[Value], count: int) -> list[int]:
 
 
 @_known("from_row_slice from_column_slice from_vec")
-def _of_slice(call: Call, *given: Value) -> Value | None:
-    """``DMatrix::from_row_slice(2, 2, …)``: the entries of a matrix by rows, or by columns."""
-    if len(given) > 1 and isinstance(given[-1], Unknown):
-        # where it is stored
-        given = given[:-1]
-    *sizes, entries = given
+def _of_slice(call: Call, *rest: Value) -> Value | None:
+    """``DMatrix::from_row_slice(2, 2, …)``: a matrix from its entries by rows, or by columns."""
+    if len(rest) > 1 and isinstance(rest[-1], Unknown):
+        # its storage
+        rest = rest[:-1]
+    *sizes, entries = rest
     if not sizes:
         return entries
     is_by_rows = call.name == "from_row_slice"
@@ -471,21 +471,21 @@ def _of_slice(call: Call, *given: Value) -> Value | None:
 
 
 @_known("vcat concatenate hstack vstack")
-def _stacked(call: Call, *given: Value) -> Value | None:
+def _stacked(call: Call, *parts: Value) -> Value | None:
     """Lists behind one another, matrices below one another."""
-    if len(given) == 1 and isinstance(given[0], Array) and call.evaluator.base == 0:
-        given = tuple(given[0].items)
-    unknown = next((x for x in given if isinstance(x, Unknown)), None)
+    if len(parts) == 1 and isinstance(parts[0], Array) and call.evaluator.base == 0:
+        parts = tuple(parts[0].items)
+    unknown = next((x for x in parts if isinstance(x, Unknown)), None)
     if unknown is not None:
         return unknown
-    return call.array(y for x in given for y in (x.items if isinstance(x, Array) else [x]))
+    return call.array(y for x in parts for y in (x.items if isinstance(x, Array) else [x]))
 
 
 CALLS["list +"] = _stacked
 
 
 def _repeated(call: Call, values: Value, times: Value) -> Value | None:
-    """A list so many times, one behind the other."""
+    """Copies of a list behind one another."""
     count = whole(times)
     if not isinstance(values, Array) or count is None or count > MAX_STAGES:
         return call.unknown()
@@ -538,7 +538,7 @@ def _square(call: Call, value: Value) -> Value | None:
 
 @_known("length len size")
 def _length(call: Call, value: Value = NULL, axis: Value = NULL) -> Value | None:
-    """How many entries a list or rows a matrix has; ``size(A, 2)`` are the columns."""
+    """The number of entries of a list, or of rows of a matrix; of columns for ``size(A, 2)``."""
     if call.name == "size" and whole(axis) == 1 + call.evaluator.base:
         rows = items_of(value)
         value = rows[0] if rows else NULL
@@ -547,17 +547,19 @@ def _length(call: Call, value: Value = NULL, axis: Value = NULL) -> Value | None
 
 @_known("diag")
 def _diagonal(call: Call, value: Value, above: Value = ZERO) -> Value | None:
-    """A matrix with the entries of a list on its diagonal, or on one so far above it."""
+    """A matrix with the entries of a list on its diagonal, or on the diagonal ``above`` above
+    it.
+    """
     off = whole(above)
     if not isinstance(value, Array) or value.is_matrix or off is None or abs(off) > MAX_STAGES:
         return call.unknown()
     count = len(value.items) + abs(off)
-    found = call.filled(ZERO, count, count)
+    matrix = call.filled(ZERO, count, count)
     for i, x in enumerate(value.items):
-        row = found.items[i + max(-off, 0)]
+        row = matrix.items[i + max(-off, 0)]
         assert isinstance(row, Array)
         row.items[i + max(off, 0)] = x
-    return found
+    return matrix
 
 
 @_known("struct")
@@ -582,7 +584,7 @@ def _allocated(call: Call, count: Value = NULL, *_: Value) -> Value | None:
 
 @_known("ARKodeButcherTable_LoadERK ARKodeButcherTable_LoadDIRK")
 def _loaded(call: Call, _: Value) -> Value | None:
-    """A table that SUNDIALS has elsewhere, by its name."""
+    """A built-in table of SUNDIALS, by its name."""
     name = call.expr.args[0]
     if not isinstance(name, ir.Name):
         return call.unknown()
@@ -591,7 +593,7 @@ def _loaded(call: Call, _: Value) -> Value | None:
 
 LOADED = "ARKodeButcherTable_Load"
 SLOW = "the slow method of a coupling"
-"""What stands for the call that made such a table: it is no table of its own."""
+"""Replaces the kind of the call that made such a table: it is no table of its own."""
 
 
 @_known("MRIStepCoupling_Alloc")

@@ -27,7 +27,7 @@ from garkcli.sources.values import (
 )
 
 FORMS = ("rosenbrock", "transformed", "kpp")
-"""Signatures as papers print a method, as programs store it, packed by rows."""
+"""Signatures of printed methods, of stored ones, and of those packed by rows."""
 _OF_KPP = {
     "a": "A",
     "c": "C",
@@ -40,15 +40,15 @@ _OF_KPP = {
     "name": "title",
 }
 NEAR = 1e-9
-"""Row sums that are printed are that near."""
+"""Tolerance of printed row sums."""
 MOST_MATRICES = 6
-"""So many of a scope are tried in pairs."""
+"""Most matrices of a scope tried in pairs."""
 _WHOLE = frozenset(("A", "C", "b", "c", "d", "stages"))
 
 
 def roles_of_kpp(values: Mapping[str, Value], prefix: str = "ros_") -> Mapping[str, Value] | None:
-    """The roles of the arrays of KPP, ros_A and ros_Gamma, or a_ and gamma_ of a structure, which
-    has no prefix, where all of a method is written; None where it is not.
+    """The roles of the arrays of KPP, ros_A and ros_Gamma, or a_ and gamma_ of a structure without
+    prefix; None unless all of a method is written.
     """
     lower = {name.lower(): x for name, x in values.items()}
     own = {name: x for name, x in lower.items() if name.startswith(prefix)}
@@ -77,8 +77,8 @@ def roles_of_kpp(values: Mapping[str, Value], prefix: str = "ros_") -> Mapping[s
 def _by_row_sums(
     values: Mapping[str, Value], m: Value, alpha: Value, gamma: Value
 ) -> Mapping[str, Value]:
-    """The matrices A and C whose row sums make alpha and gamma, packed by rows, whatever they are
-    called; nothing where there are none.
+    """The matrices A and C with the row sums alpha and gamma, packed by rows, with any names; empty
+    if there are none.
     """
     stages = len(items_of(m))
     sums = [near(x) for x in items_of(gamma)]
@@ -92,8 +92,8 @@ def _by_row_sums(
 
 
 def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
-    """The roles of the arrays of a method as programs store it, whatever they are called; None
-    where there is none. Its nodes α and row sums γ may be the diagonals of A and C.
+    """The roles of the arrays of a method in stored form, with any names; None if there is none.
+    Its nodes α and row sums γ may be on the diagonals of A and C.
     """
     arrays = [x for x in values.values() if isinstance(x, Array) and len(x.items) > 1]
     matrices = [x for x in arrays if any(isinstance(y, Array) for y in x.items)][:MOST_MATRICES]
@@ -125,33 +125,33 @@ def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
 
 
 CLOSE = 1e-6
-"""Conditions that hold so well say that numbers are a method."""
+"""Residuals of conditions below this are evidence for a method."""
 _GAMMAS = ("gamma", "gam", "γ", "Gamma", "GAMMA", "GAM", "g")
 
 
 def roles_by_names(
     matrices: Mapping[str, Value], vectors: Mapping[str, Value], numbers: Mapping[str, Value]
 ) -> tuple[Mapping[str, Value], str]:
-    """The roles of arrays with the letters of papers, and the form of the method: a, c, γ as
-    programs store it, or α, γ as papers print it. Nothing where these do not have order 2.
+    """The roles of arrays with the letters of papers, and the form of the method: a, c, γ in stored
+    form, or α, γ in printed form. Empty unless they have order 2.
     """
-    given = next((numbers[x] for x in _GAMMAS if x in numbers), None)
+    gamma = next((numbers[x] for x in _GAMMAS if x in numbers), None)
     A = matrices.get("a", matrices.get("alpha", matrices.get("α")))
     b = next((vectors[x] for x in ("b", "m", "w") if x in vectors), None)
     order = {x: numbers[x] for x in ("order",) if x in numbers}
     G = matrices.get("gamma", matrices.get("γ"))
     if isinstance(A, Array) and isinstance(G, Array) and isinstance(b, Array):
-        roles = _as_printed(A, G, b, given)
+        roles = _as_printed(A, G, b, gamma)
         return ({**roles, **order}, "rosenbrock") if roles else ({}, "")
     C = matrices.get("c")
-    if isinstance(A, Array) and isinstance(C, Array) and isinstance(given, Number):
-        roles = _as_stored(A, C, given, {**vectors, **({} if b is None else {"b": b})})
+    if isinstance(A, Array) and isinstance(C, Array) and isinstance(gamma, Number):
+        roles = _as_stored(A, C, gamma, {**vectors, **({} if b is None else {"b": b})})
         return ({**roles, **order}, "transformed") if roles else ({}, "")
     return {}, ""
 
 
 def _as_printed(A: Array, G: Array, b: Array, gamma: Value | None) -> dict[str, Value]:
-    """A method by α, Γ and b, the diagonal of Γ apart; nothing where it has no order 2."""
+    """A method from α, Γ and b, with the diagonal of Γ separate; empty unless it has order 2."""
     stages = len(b.items)
     low_A, low_G = (_triangle(_strict(x), stages) for x in (A, G))
     own = items_of(_diagonal(G))
@@ -176,14 +176,14 @@ def _as_printed(A: Array, G: Array, b: Array, gamma: Value | None) -> dict[str, 
 
 
 def _rows(packed: Sequence[Value], stages: int) -> list[Array]:
-    """A triangle below the diagonal as a square."""
+    """A triangle below the diagonal as a square matrix."""
     rows = [packed[i * (i - 1) // 2 : i * (i + 1) // 2] for i in range(stages)]
     return [Array([*row, *[FILL] * (stages - len(row))]) for row in rows]
 
 
 def _as_stored(A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value]) -> dict[str, Value]:
-    """A method by A, C and γ: where the last row of A and the weights are left out, the value of
-    the last stage with its increment is the step. Nothing without order 2.
+    """A method from A, C and γ; without the last row of A and without weights the step is the last
+    stage value plus its increment. Empty unless it has order 2.
     """
     stages = max(len(A.items), len(C.items))
     low_A, low_C = (_triangle(x, stages) for x in (A, C))
@@ -193,7 +193,7 @@ def _as_stored(A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value]) 
     first = (stages - 1) * (stages - 2) // 2
     last, above = low_A[first:], low_A[first - stages + 2 : first]
     if any(map(near, last)) and not is_written(last[-1]) and "b" not in vectors:
-        # either zero or 1, and no weights tell
+        # the entry is either 0 or 1, and no weights decide
         return {}
     ways = [last] if any(map(near, last)) or stages < 3 else [[*above, ONE], [*above, FILL]]
     for last in ways:
@@ -207,25 +207,25 @@ def _as_stored(A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value]) 
     else:
         return {}
     nodes = [_below(low_A, i, sums) for i in range(stages)]
-    found: dict[str, Value] = {"A": Array([*_rows(low_A, stages)]), "b": m, "gamma": gamma}
-    found["C"] = Array([*_rows(low_C, stages)])
+    roles: dict[str, Value] = {"A": Array([*_rows(low_A, stages)]), "b": m, "gamma": gamma}
+    roles["C"] = Array([*_rows(low_C, stages)])
     for role, name, known in (("c", "c", nodes), ("d", "d", sums)):
         row = _completed(vectors.get(name), known)
-        found |= {} if row is None else {role: row}
-    return found
+        roles |= {} if row is None else {role: row}
+    return roles
 
 
-def _solved(packed: Sequence[Value], gamma: float, given: Sequence[float]) -> list[float]:
-    """Γv, where Γ is the inverse of I/γ - C."""
-    found: list[float] = []
-    for i, x in enumerate(given):
-        found.append(gamma * (x + _below(packed, i, found)))
-    return found
+def _solved(packed: Sequence[Value], gamma: float, right: Sequence[float]) -> list[float]:
+    """Γv with the inverse Γ of I/γ − C."""
+    solution: list[float] = []
+    for i, x in enumerate(right):
+        solution.append(gamma * (x + _below(packed, i, solution)))
+    return solution
 
 
 def _completed(row: Value | None, known: Sequence[float]) -> Array | None:
-    """Numbers that were written, with 0 and 1 where these were left out; None without others, or
-    where most of them are not the known ones.
+    """Written numbers, completed by 0 and 1; None if others are missing, or if most written ones
+    differ from the known ones.
     """
     items = items_of(row)[: len(known)]
     items += [FILL] * (len(known) - len(items))
@@ -233,13 +233,13 @@ def _completed(row: Value | None, known: Sequence[float]) -> Array | None:
     agree = [abs(near(x) - y) < CLOSE for x, y in pairs if is_written(x)]
     if 2 * sum(agree) <= len(agree):
         return None
-    found: list[Value] = []
+    completed: list[Value] = []
     for x, y in pairs:
         is_one = abs(y - 1) < NEAR
         if not is_written(x) and not is_one and abs(y) > NEAR:
             return None
-        found.append(ONE if is_one and not is_written(x) else x)
-    return Array(found)
+        completed.append(ONE if is_one and not is_written(x) else x)
+    return Array(completed)
 
 
 _NAMED = {
@@ -257,16 +257,16 @@ _NAMED = {
 
 
 def roles_of_arguments(fields: Mapping[str, Value]) -> tuple[Mapping[str, Value], str]:
-    """The roles of what a call is given by names, and the form of the method: as programs store
-    it, with one γ, or as papers print it; nothing where a matrix is missing or not known.
+    """The roles of named arguments of a call, and the form of the method: stored with one γ, or
+    printed; empty if a matrix is missing or unknown.
     """
     roles: dict[str, Value] = {}
     for name, value in fields.items():
         if name in _NAMED:
             roles.setdefault(_NAMED[name], value)
     is_stored = is_matrix(roles.get("C")) and isinstance(roles.get("gamma"), Number)
-    given = [roles.get(x) for x in ("A", "b", "C" if is_stored else "gamma")]
-    is_known = all(isinstance(x, Array) and first_unknown(x) is None for x in given)
+    required = [roles.get(x) for x in ("A", "b", "C" if is_stored else "gamma")]
+    is_known = all(isinstance(x, Array) and first_unknown(x) is None for x in required)
     if not is_known or not (is_stored or is_matrix(roles.get("gamma"))):
         return {}, ""
     b, low = roles["b"], roles.get("embedded")
@@ -287,8 +287,8 @@ def _strict(matrix: Array) -> Array:
 
 def _diagonal(matrix: Array) -> Array:
     pairs = enumerate(map(items_of, matrix.items))
-    found = [row[i] if i < len(row) else FILL for i, row in pairs]
-    return Array([x if isinstance(x, Number) else FILL for x in found])
+    entries = [row[i] if i < len(row) else FILL for i, row in pairs]
+    return Array([x if isinstance(x, Number) else FILL for x in entries])
 
 
 def _dot(x: Array, y: Sequence[float]) -> float:
@@ -296,7 +296,7 @@ def _dot(x: Array, y: Sequence[float]) -> float:
 
 
 def _are_sums(A: Sequence[Value], C: Sequence[Value], alpha: Value, sums: Sequence[float]) -> bool:
-    """Whether (I/γ - C)Γ𝟙 = 𝟙 and α𝟙 = AΓ𝟙, of triangles that are packed by rows."""
+    """Whether (I/γ - C)Γ𝟙 = 𝟙 and α𝟙 = AΓ𝟙, for triangles packed by rows."""
     return all(
         abs(sums[0] * (1 + _below(C, i, sums)) - sums[i]) < NEAR
         and abs(_below(A, i, sums) - near(x)) < NEAR
@@ -305,15 +305,17 @@ def _are_sums(A: Sequence[Value], C: Sequence[Value], alpha: Value, sums: Sequen
 
 
 def _triangle(value: Value, stages: int) -> list[Value]:
-    """The entries below the diagonal, by rows, 0 where nothing was written; empty for no matrix."""
+    """The entries below the diagonal, by rows, 0 if not written; empty if the value is no
+    matrix.
+    """
     rows = [items_of(x) for x in items_of(value)]
     if not (1 < len(rows) <= stages and any(rows)) or any(
         near(x) for i, row in enumerate(rows) for x in row[i:]
     ):
         return []
     rows += [[]] * (stages - len(rows))
-    found = [row[j] if j < len(row) else FILL for i, row in enumerate(rows) for j in range(i)]
-    return [x if isinstance(x, Number) else FILL for x in found]
+    entries = [row[j] if j < len(row) else FILL for i, row in enumerate(rows) for j in range(i)]
+    return [x if isinstance(x, Number) else FILL for x in entries]
 
 
 def _below(packed: Sequence[Value], i: int, x: Sequence[float]) -> float:
@@ -323,7 +325,7 @@ def _below(packed: Sequence[Value], i: int, x: Sequence[float]) -> float:
 
 
 def _entries(value: Value, count: int) -> Array:
-    """The first entries of an array, which may have room for more, or be filled behind them."""
+    """The first entries of an array, which may have unused room, or a fill value behind them."""
     items = items_of(value)[:count]
     if isinstance(value, Array) and isinstance(value.fill, Number):
         items += [value.fill] * (count - len(items))
@@ -337,13 +339,13 @@ def rosenbrock_table(
 
     Args:
         texts: its arrays by their roles.
-        empty: what else is known of it.
+        empty: the table without coefficients.
         form: one of ``FORMS``.
         roles: the values, for whole numbers.
 
     Raises:
-        Unreadable: an array is missing, or none.
-        Misshapen: it has another size than the weights.
+        Unreadable: an array is missing, or is no array.
+        Misshapen: it does not fit the weights.
     """
     b = weights(_listed(texts.get("b")))
     stages = len(b)
@@ -375,7 +377,7 @@ def rosenbrock_table(
 
 
 def _listed(value: Texts) -> Texts:
-    """A number of a method of one stage as a list."""
+    """A list; the number of a method with one stage in a list."""
     return [value] if isinstance(value, str) else value
 
 
@@ -384,8 +386,8 @@ def _row(value: Texts, stages: int) -> Row | None:
 
 
 def _matrix(value: Texts, stages: int, is_packed: bool = False) -> Rows:
-    """A square matrix, whose last column may be missing where it is zero; or what is below the
-    diagonal, row by row.
+    """A square matrix, possibly without a last column of zeros; or the entries below the diagonal,
+    row by row.
     """
     if isinstance(value, str) and stages == 1:
         return ((value,),)
@@ -406,7 +408,7 @@ def _matrix(value: Texts, stages: int, is_packed: bool = False) -> Rows:
 
 
 def _dense(value: Texts, degree: int, stages: int) -> tuple[Rows, ...] | None:
-    """Dense output, a row per stage; None without it, or where it is not all written."""
+    """Dense output, one row for each stage; None without it, or if it is not completely written."""
     if not degree or value is None:
         return None
     if isinstance(value, list) and all(isinstance(x, list) for x in value):

@@ -1,4 +1,4 @@
-"""What the languages share in lowering their syntax trees: each declares kinds of its nodes."""
+"""The common part of lowering syntax trees: each language declares the kinds of its nodes."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
 
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
 INCLUDED = ".inc"
-"""The ending of what sources of several languages include."""
+"""The ending of include files in several languages."""
 FEWEST_NUMBERS = 5
 SHORT = 300
 HEAD = 100
-"""Characters of a function that may name it."""
+"""Characters at the beginning of a function that may name it."""
 _WORDS = re.compile(
     r"tableau|butcher|register|[abc]coefficients|\*this\)\[|(?<![A-Za-z])[^\W\d_]{1,2}_?[0-9]+(?:_?[0-9]+)?\s*(?:=|,|\))"
     r"|(?<![A-Za-z])(?:[a-z]{0,3}_)?(?:A|a|b|B|c|C|amat|rka|α|β|γ|alpha|beta|weights|nodes)\w?\w?"
@@ -32,14 +32,14 @@ _WORDS = re.compile(
     re.IGNORECASE,
 )
 MAX_NESTING = 60
-"""Deepest nesting of what is lowered."""
+"""Deepest nesting that is lowered."""
 _KINDS = {
     "comment": "comment",
     "if_statement": "branch",
     "while_statement": "loop",
     "return_statement": "giving",
 }
-"""What nodes are in all grammars."""
+"""Kinds of nodes in all grammars."""
 _SIGNS = {"**": "^", "//": "÷"}
 TOO_DEEP = ir.Opaque("an expression that is nested too deep")
 
@@ -49,11 +49,11 @@ class Lowering:
 
     Args:
         text: the source.
-        grammar: the module of its grammar, if it is not that of the class.
+        grammar: the module of its grammar; None for that of the class.
 
     Attributes:
-        grammar: the module with that of the language.
-        kinds: what its nodes are, see ``kinds``.
+        grammar: the module with the grammar of the language.
+        kinds: the kinds of its nodes, see ``kinds``.
     """
 
     grammar: ClassVar[str]
@@ -78,55 +78,54 @@ class Lowering:
         return self.block(nodes)
 
     def declared(self, node: Node) -> None:
-        """The fields of a record, which may be made before they are declared."""
+        """Remembers the fields of a record, which may be used before its declaration."""
 
     def parse(self, data: bytes) -> Node:
-        """The syntax tree; what does not belong to the language is in nodes of its own."""
+        """The syntax tree; text of other languages is in its own nodes."""
         from tree_sitter import Parser
 
         return Parser(_language(self._grammar)).parse(data).root_node
 
     def text(self, node: Node | None) -> str:
-        """What a node is in the source."""
+        """The text of a node in the source."""
         if node is None:
             return ""
         return self._data[node.start_byte : node.end_byte].decode(errors="replace")
 
     def name(self, node: Node | None) -> str:
-        """What a name is called."""
+        """The name in a node."""
         return self.text(node)
 
     def first_name(self, node: Node | None) -> str:
-        """The name that is first in a node, at whatever depth; empty for none."""
+        """The first name in a node, at any depth; empty if there is none."""
         while node is not None and node.type != "identifier":
             node = next(iter(self.children(node)), None)
         return self.name(node)
 
     def is_a(self, kind: str, node: Node | None) -> bool:
-        """Whether a node is of a kind."""
         return node is not None and self.kinds.get(node.type) == kind
 
     def children(self, node: Node | None) -> list[Node]:
-        """What is in a node, without comments."""
+        """The children of a node without comments."""
         if node is None:
             return []
         return [x for x in node.named_children if not self.is_a("comment", x)]
 
     def block(self, nodes: Iterable[Node | None]) -> ir.Body:
         """Statements one after the other."""
-        found: list[ir.Statement] = []
+        lowered: list[ir.Statement] = []
         for node in nodes:
             if node is None or self.is_a("comment", node) or self._depth >= MAX_NESTING:
                 continue
             self._depth += 1
             try:
-                found += self.statement(node)
+                lowered += self.statement(node)
             finally:
                 self._depth -= 1
-        return tuple(found)
+        return tuple(lowered)
 
     def statement(self, node: Node) -> Iterator[ir.Statement]:
-        """What a statement is lowered to."""
+        """The lowered form of a statement."""
         inside, line = self.children(node), line_of(node)
         match self.kinds.get(node.type):
             case "block":
@@ -155,13 +154,13 @@ class Lowering:
         return self.expr(node)
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
-        """What a statement of the language is lowered to."""
+        """The lowered form of a statement that only this language has."""
         raise NotImplementedError
 
     def assignment(
         self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
     ) -> Iterator[ir.Statement]:
-        """A target has a value; ``a = b = 0`` are two statements."""
+        """An assignment; ``a = b = 0`` gives two statements."""
         if sign is None:
             sign = sign_of(self.text(part(node, "operator")).rstrip("="))
         if right is not None and self.is_a("assignment", right):
@@ -171,20 +170,20 @@ class Lowering:
             yield ir.Assign(self.target(left), self.expr(right), line_of(node), sign)
 
     def target(self, node: Node) -> ir.Expr:
-        """What is assigned to; ``A(2, 1)`` is an entry."""
-        match found := self.expr(node):
+        """The target of an assignment; ``A(2, 1)`` is an entry."""
+        match lowered := self.expr(node):
             case ir.Call(of, args) if args:
                 return ir.Index(of, args)
-        return found
+        return lowered
 
     def loop(self, node: Node, name: str = "", over: ir.Expr | None = None) -> ir.Loop:
-        """A loop: its body is what is behind its head."""
+        """A loop with the body behind its head."""
         body = part(node, "body")
         inside = self.children(node)[1:] if body is None else [body]
         return ir.Loop(name, over or ir.Nothing(), self.block(inside), line_of(node))
 
     def case(self, node: Node) -> tuple[ir.Scope]:
-        """One of several ways, by the value that leads to it."""
+        """One case of a switch, with the value that selects it."""
         value = part(node, "value") or part(node, "condition")
         value = value or next((x for x in node.named_children if self.is_a("label", x)), None)
         body = self.block(x for x in node.named_children if x != value)
@@ -193,11 +192,11 @@ class Lowering:
         return (ir.Scope("entry", title, body, line_of(node)),)
 
     def title(self, node: Node | None) -> str:
-        """What a value calls a way."""
+        """The title of a case by its value."""
         return self.text(node).strip("'\"")
 
     def branch(self, inside: list[Node], line: int) -> ir.Branch:
-        """The ways of an ``if``; the first child of each is its condition, but for the last way."""
+        """The arms of an ``if``; the first child of each is its condition, except for ``else``."""
         ways: list[list[Node]] = [[]]
         is_total = False
         for each in inside:
@@ -211,7 +210,7 @@ class Lowering:
         return ir.Branch((*arms, *([] if last is None else [last])), line, is_total)
 
     def way(self, condition: list[Node], inside: list[Node]) -> ir.Body:
-        """One of several ways."""
+        """One arm of an ``if``."""
         del condition
         return self.block(inside)
 
@@ -225,7 +224,7 @@ class Lowering:
         return has_numbers and (is_likely or bool(_WORDS.search(text)))
 
     def expr(self, node: Node | None) -> ir.Expr:
-        """What an expression is lowered to."""
+        """The lowered form of an expression; Opaque if it is nested too deep."""
         if node is None:
             return ir.Nothing()
         if self._depth >= MAX_NESTING:
@@ -237,7 +236,7 @@ class Lowering:
             self._depth -= 1
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
-        """The same, one level deeper."""
+        """The lowered form of an expression without the check of its depth."""
         match self.kinds.get(node.type):
             case "name":
                 return ir.Name(self.name(node))
@@ -270,9 +269,9 @@ class Lowering:
         return self.other(node, inside)
 
     def declares(self, record: str, names: Iterable[str], least: int | None = None) -> None:
-        """A record has fields of these names, in order, so many of them at least, else all; those
-        of a method are remembered, unless calls of that name are known. ``Tableau`` is a name that
-        many have.
+        """Declares the fields of a record, in order, at least ``least`` of them given, by default
+        all. Fields of a method are remembered unless calls of that name are known; ``Tableau`` is a
+        name of many records.
         """
         fields = tuple(names)
         is_known = (record in SIGNATURES and record != "Tableau") or bool(other_kind(record))
@@ -280,7 +279,7 @@ class Lowering:
             self._fields[record] = fields, len(fields) if least is None else least
 
     def made(self, record: str, args: tuple[ir.Expr, ...]) -> tuple[tuple[str, ir.Expr], ...]:
-        """What a record of this source is made of, by its fields; nothing for another call."""
+        """The fields of a record made by a call in this source; empty for other calls."""
         fields, least = self._fields.get(record, ((), 0))
         return tuple(zip(fields, args, strict=False)) if least <= len(args) <= len(fields) else ()
 
@@ -290,27 +289,27 @@ class Lowering:
         args: tuple[ir.Expr, ...],
         named: tuple[tuple[str, ir.Expr], ...] = (),
     ) -> ir.Call:
-        """A call, or a record that is made by its fields in order."""
+        """A call, or a record made from its fields in order."""
         fields = self.made(callee.name, args) if isinstance(callee, ir.Name) else ()
         return ir.Call(callee, () if fields else args, named or fields)
 
     def number(self, text: str) -> ir.Expr:
-        """A number; one of digits alone is whole."""
+        """A number; digits alone are an integer."""
         return ir.Literal(text, is_whole=text.replace("_", "").isdigit())
 
     def other(self, node: Node, inside: list[Node]) -> ir.Expr:
-        """What an expression of the language is lowered to."""
+        """The lowered form of an expression that only this language has."""
         raise NotImplementedError
 
     def ends(self, node: Node) -> list[ir.Expr | None]:
-        """What is between the colons of a slice."""
-        found: list[ir.Expr | None] = [None]
+        """The ends between the colons of a slice."""
+        ends: list[ir.Expr | None] = [None]
         for each in node.children:
             if each.type == ":":
-                found.append(None)
+                ends.append(None)
             elif each.is_named:
-                found[-1] = self.expr(each)
-        return found
+                ends[-1] = self.expr(each)
+        return ends
 
     def exprs(self, nodes: Iterable[Node]) -> tuple[ir.Expr, ...]:
         """Several expressions, without comments."""
@@ -319,7 +318,7 @@ class Lowering:
     def arguments(
         self, nodes: Iterable[Node]
     ) -> tuple[tuple[ir.Expr, ...], tuple[tuple[str, ir.Expr], ...]]:
-        """The arguments of a call, those with a name apart."""
+        """The positional and the named arguments of a call."""
         args, named = [], []
         for each in nodes:
             if each.type in {"keyword_argument", "named_argument"}:
@@ -332,52 +331,51 @@ class Lowering:
 
 @lru_cache
 def _language(grammar: str) -> Language:
-    """What a module has; imported on use, as an installation without extras has none."""
+    """The language of a grammar module, imported on use since it may not be installed."""
     from tree_sitter import Language
 
     return Language(import_module(grammar).language())
 
 
 def kinds(**nodes: str) -> Mapping[str, str]:
-    """What nodes are, each kind with the nodes of a grammar that are it.
+    """The kind of each node of a grammar, from lists of nodes for each kind.
 
-    Statements are a ``block``, ``assignment``, ``loop`` that has no name and range, ``giving`` what
-    a function returns, ``branch``, ``switch`` with ``case`` and, where it is no field, its
-    ``label``, ``record`` that may have fields or such in it, ``passed`` where they may change
-    values in ways that are not followed, and ``tried`` where they are a block besides.
-    Expressions are a ``name``, ``number``, ``nothing``, ``text``, ``list``, ``unary``, ``binary``,
-    ``field``, ``index``, ``call``, ``range``, ``transposed``, or what is ``inside`` of brackets.
+    Statements are a ``block``, ``assignment``, ``loop`` without name and range, ``giving`` for
+    returns, ``branch``, ``switch`` with ``case`` and, unless it is a field, its ``label``,
+    ``record`` for declarations of records, ``passed`` for statements that change values in unknown
+    ways, and ``tried`` for such statements with a block. Expressions are a ``name``, ``number``,
+    ``nothing``, ``text``, ``list``, ``unary``, ``binary``, ``field``, ``index``, ``call``,
+    ``range``, ``transposed``, or ``inside`` of brackets.
     """
     return _KINDS | {node: kind for kind, text in nodes.items() for node in text.split()}
 
 
 def part(node: Node | None, *fields: str) -> Node | None:
-    """The child of a node that has a name, and so on."""
+    """The descendant of a node along field names; None if it is missing."""
     for field in fields:
         node = None if node is None else node.child_by_field_name(field)
     return node
 
 
 def sign_of(sign: str) -> str:
-    """An operator as all languages have it here."""
+    """The common form of an operator of any language."""
     plain = sign.lstrip(".")
     return _SIGNS.get(plain, plain)
 
 
 def line_of(node: Node) -> int:
-    """The line of a node, from 1."""
     return int(node.start_point[0]) + 1
 
 
 def less_one(expr: ir.Expr) -> ir.Expr:
-    """What is one less: the last index before an end that is not included."""
+    """An expression minus one: the last index before an excluded end."""
     return ir.Binary("-", expr, ir.Literal("1", is_whole=True))
 
 
 def counted(
     lowering: Lowering, name: str, first: Node | None, condition: Node | None, update: str
 ) -> tuple[str, ir.Expr]:
-    """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
+    """The counter of ``for (i = a; i < b; i++)`` and its range; an empty name for other loops."""
     sign = lowering.text(part(condition, "operator"))
     if not (first and sign in {"<", "<="} and "++" in update):
         return "", ir.Opaque("a loop")
@@ -401,15 +399,15 @@ _ITSELF = frozenset(
         *("doubleValue", "getReal", "toArray"),
     }
 )
-"""Methods that give the number or the list itself."""
+"""Methods that return the number or the list itself."""
 _OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
     x: x for x in ("sqrt", "cbrt", "cos", "sin", "len", "map", "transpose", "sum")
 }
-"""Methods that are functions of the number or of the list."""
+"""Methods that are functions of the number or the list."""
 
 
 def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr | None:
-    """A method of a number or of a list as what it computes; None for others."""
+    """The operation for a method of a number or list; None for other methods."""
     if name in _OPERATIONS and len(args) == 1:
         return ir.Binary(_OPERATIONS[name], of, args[0])
     if name in {"neg", "negate"} and not args:
@@ -426,12 +424,12 @@ def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr 
 
 
 def is_in_c(text: str) -> bool:
-    """Whether a text that is included is C, and not Fortran."""
+    """Whether an include file is C, and not Fortran."""
     return ";" in text and "{" in text
 
 
 def unmeant(node: Node) -> ir.Opaque:
-    """What has no meaning for constants."""
+    """The Opaque expression for a node that does not affect constants."""
     return ir.Opaque(node.type.replace("_", " "))
 
 

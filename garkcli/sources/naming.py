@@ -1,4 +1,4 @@
-"""What the names of arrays tell: matrix, weights, nodes, and which of them belong together."""
+"""The meaning of names of arrays: matrix, weights, nodes, and which of them belong together."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "fsal": ("fsal", "FSAL", "is_fsal"),
 }
 ROLES = {word: role for role, words in _WORDS.items() for word in words}
-"""From the name of an array to what it is; where several have a role, the first name counts."""
+"""The role of each name; if several names have a role, the first one counts."""
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEdw]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|w|bh|bhat|b_hat|bembed|b2|order"
@@ -67,13 +67,13 @@ _LIKE_METHODS = re.compile(
     r"|symplectic|leapfrog|adams|ode\d|multistep|exponential.integrator|a_?[23]1(?!\w)|imex|imkg"
     r"|ar[ks]_?\d|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus"
 )
-"""The same and more in small letters: each begins with a letter, so that it is found fast."""
+"""These and further words in lower case; each begins with a letter, for a fast search."""
 _LONGEST_BEFORE = 2
-"""So many letters of a word may be before it: ``ierk``."""
+"""Most letters of a word before such a match: ``ierk``."""
 
 
 def speaks(text: str) -> bool:
-    """Whether there is a word for a method in a text.
+    """Whether a text contains a word for a method.
 
     >>> speaks("class Heun(Solver)"), speaks("in parking, work.")
     (True, False)
@@ -94,14 +94,14 @@ _PARTS = (
     re.compile(rf"{_WHICH}_{_WORD}", re.IGNORECASE),
 )
 _ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order"}
-"""Names beside those of one part."""
+"""Names of arrays for both parts, beside those for one."""
 _PAIR = {"A": "A1", "H": "A2", "c": "c"}
-"""In the classes of Dedalus, where the last rows are the weights."""
+"""Names in the classes of Dedalus, where the last rows are the weights."""
 
 
 @lru_cache(maxsize=10_000)
 def role_of(name: str) -> tuple[str, str] | None:
-    """The stem of a name and what the array is; None where the name tells nothing.
+    """The stem and the role of a name; None if it has no role.
 
     >>> role_of("rk4_A"), role_of("b_heun"), role_of("bhat"), role_of("velocity")
     (('rk4', 'A'), ('heun', 'b'), ('', 'embedded'), None)
@@ -115,35 +115,35 @@ def role_of(name: str) -> tuple[str, str] | None:
     if len(name) > MAX_NAME:
         return None
     for pattern in (_DIGIT, _SUFFIX, _PREFIX):
-        found = pattern.fullmatch(name)
-        if found:
-            return found["stem"], ROLES[found["word"]]
+        match = pattern.fullmatch(name)
+        if match:
+            return match["stem"], ROLES[match["word"]]
     return None
 
 
 def role_of_part(name: str) -> str:
-    """What an array of an explicit part, 1, or of an implicit one, 2, is; empty where its name does
-    not tell.
+    """The role of an array of an explicit part, 1, or of an implicit one, 2; empty if its name has
+    none.
 
     >>> role_of_part("a_exp"), role_of_part("bhatim"), role_of_part("exp")
     ('A1', 'embedded2', '')
     """
-    found = next(filter(None, (x.fullmatch(name) for x in _PARTS)), None)
-    if found is None:
+    match = next(filter(None, (x.fullmatch(name) for x in _PARTS)), None)
+    if match is None:
         return ""
-    word = found["word"].lower()
+    word = match["word"].lower()
     role = "A" if word == "butcher" else {**_ANY_PART, **ROLES}.get(word, "embedded")
-    return role + "21"[found["part"].lower().startswith("e")]
+    return role + "21"[match["part"].lower().startswith("e")]
 
 
 def roles_of_parts(values: Mapping[str, Value]) -> Mapping[str, str]:
     """The names of the arrays of two parts, with their roles; empty without two matrices."""
-    found = {name: role for name in values if (role := role_of_part(name))}
-    if found:
+    by_name = {name: role for name in values if (role := role_of_part(name))}
+    if by_name:
         shared = _ANY_PART | ({"b": "b", "c": "c"} if "b" in values else {})
-        found |= {name: role for name, role in shared.items() if name in values}
+        by_name |= {name: role for name, role in shared.items() if name in values}
     elif "b" not in values and near(*items_of(values.get("c"))[-1:]) == 1:
-        found = {name: role for name, role in _PAIR.items() if name in values}
-    matrices = {role: values[name] for name, role in found.items() if role[0] == "A"}
+        by_name = {name: role for name, role in _PAIR.items() if name in values}
+    matrices = {role: values[name] for name, role in by_name.items() if role[0] == "A"}
     are_two = len(matrices) > 1 and all(map(is_matrix, matrices.values()))
-    return found if are_two else {}
+    return by_name if are_two else {}

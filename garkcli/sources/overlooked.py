@@ -1,5 +1,5 @@
-"""Scopes with numbers like those of a method of which nothing else was said: told, never passed
-over in silence.
+"""Scopes with numbers like those of a method that nothing else reports: they are reported, never
+skipped silently.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ OTHERS = re.compile(
     r"interp|dense|distch|plot|test|control|error|rhs|jac|size|example|demo|main$|(?:^|_)oc_|_obj$",
     re.IGNORECASE,
 )
-"""Names of what has other numbers than those of a step."""
+"""Names of scopes with other numbers than those of a step."""
 ABOVE = 8
-"""So many lines above a scope may say what it is."""
+"""Lines above a scope that may describe it."""
 WIDEST = 500
-"""So much of a line: many scopes may be in one."""
+"""Characters read of a line, as many scopes may share one."""
 
 
 def overlooked(
@@ -37,14 +37,14 @@ def overlooked(
     used: Collection[str],
     lost: Collection[tuple[str, int]],
 ) -> Iterator[ir.Scope]:
-    """The scopes that have several fractions: those of coefficients by their names, where words say
-    that there is a method, or those of what has the name of a method or of a step.
+    """The scopes with several fractions: with names of coefficients and words for methods, or with
+    the name of a method or a step.
 
     Args:
         body: of the source.
-        text: the same as it is written.
-        source: what it is called.
-        told: the lines of what was found in it.
+        text: of the source.
+        source: its name.
+        told: the lines of its tables.
         used: the sizes of the numbers of its tables.
         lost: the kinds and lines of scopes that take too much work or look like steps.
     """
@@ -62,7 +62,7 @@ def overlooked(
     for key, (scope, own) in inside.items():
         first = max(0, scope.line - ABOVE)
         words = text if scope is module else "\n".join(lines[first : own[-1].line + 1])
-        # what a function has no other one can use
+        # names of a function are not visible elsewhere
         elsewhere = () if scope.kind == "function" else used
         is_lost = (scope.kind, scope.line) in lost
         is_other = key in known or OTHERS.search(scope.name)
@@ -73,7 +73,7 @@ def overlooked(
 def _placed(
     body: ir.Body, around: tuple[ir.Scope, ...]
 ) -> Iterator[tuple[ir.Statement, tuple[ir.Scope, ...]]]:
-    """All statements with the scopes that they are in, a scope with itself."""
+    """All statements with the scopes around them, a scope with itself."""
     for x in body:
         inner = (*around, x) if isinstance(x, ir.Scope) and x.kind != "entry" else around
         yield x, inner
@@ -84,7 +84,7 @@ def _placed(
 def _is_method(
     scope: ir.Scope, own: Iterable[ir.Statement], words: str, used: Collection[str], is_lost: bool
 ) -> bool:
-    """Whether there may be a method, by its numbers and the names, and words around them."""
+    """Whether a scope may be a method, by its numbers and names, and words around them."""
     named: dict[str, set[str]] = {}
     numbers: list[str] = []
     for x in own:
@@ -93,14 +93,14 @@ def _is_method(
         for name in names_of(x.target) if isinstance(x, ir.Assign) and sizes else ():
             named.setdefault(family_of(name), set()).update(y for y in sizes if y not in used)
     named.pop("", None)
-    found = [x for x in numbers if x not in used]
-    if 2 * len(found) < len(numbers):
+    unused = [x for x in numbers if x not in used]
+    if 2 * len(unused) < len(numbers):
         return False
     maker = CONSTRUCTOR.fullmatch(scope.name)
     title = maker or speaks(scope.title)
     # a module has other numbers, too
-    count, least = len({*found}), 8 if scope.kind == "module" else 3 if maker else 4
-    are_many = count >= least or (least < 8 and count > 1 and count + len(found) > 6)
+    count, least = len({*unused}), 8 if scope.kind == "module" else 3 if maker else 4
+    are_many = count >= least or (least < 8 and count > 1 and count + len(unused) > 6)
     is_named = title or (scope.kind == "function" and _STEPS.search(scope.title))
     has_names = len(set().union(*named.values())) > 3 and (
         title or len(named) > 1 or not named.keys().isdisjoint(ARRAYS.values())
@@ -112,28 +112,28 @@ def _is_method(
 
 
 def sized(x: float) -> str:
-    """A number by its size, so that those that are the same but for rounding are equal."""
+    """A number by its size, so that numbers equal up to rounding and sign are equal."""
     return f"{abs(x):.9g}"
 
 
 def _fractions(expr: object) -> Iterator[float]:
-    """The numbers and roots of an expression that are not whole; that of ``h/6`` is 1/6."""
+    """The numbers and roots in an expression that are not integers; ``h/6`` gives 1/6."""
     for x in ir.inside(expr):
         match x:
             case ir.Literal():
-                found = _near(x)
+                value = _near(x)
             case ir.Call(ir.Name(name="sqrt"), (of,)):
-                found = abs(_near(of)) ** 0.5
+                value = abs(_near(of)) ** 0.5
             case ir.Binary("/" | "÷", left, right) if under := _near(right):
-                found = (_near(left) or 1) / under
+                value = (_near(left) or 1) / under
             case _:
                 continue
-        if not found.is_integer():
-            yield found
+        if not value.is_integer():
+            yield value
 
 
 def _near(expr: ir.Expr) -> float:
-    """A number, whatever its sign and what converts it; 0 for anything else."""
+    """The size of a number through signs and conversions; 0 for other expressions."""
     while isinstance(expr, ir.Unary) or (isinstance(expr, ir.Call) and len(expr.args) == 1):
         expr = expr.of if isinstance(expr, ir.Unary) else expr.args[0]
     value = literal(expr.text, 0) if isinstance(expr, ir.Literal) else None

@@ -17,9 +17,9 @@ HINTS = re.compile(
     r"|(?<![a-z])(?:a|b|c)(?:mat|vec|hat)?\w?(?:\[|\s*=|_|\d\d|\{)",
     re.IGNORECASE,
 )
-"""What a source has a table with has some of these words."""
+"""Every source with a table has some of these words."""
 SHORT = 5_000
-"""A source with fewer characters is read in any case."""
+"""Shorter sources are read in any case."""
 
 
 def tables_in(
@@ -35,15 +35,15 @@ def tables_in(
 
     Args:
         text: of the source.
-        source: what it is called.
-        format: what the language is called.
-        lowered: from a text to its statements.
+        source: its name.
+        format: the name of the language.
+        lowered: makes the statements of a text.
         base: the index of the first entry of an array.
         is_growing: whether all arrays grow.
         has_whole_quotients: whether ``1/2`` is 0.
 
     Raises:
-        TooLarge: the source says too much.
+        TooLarge: the source exceeds a limit.
     """
     if len(text) > SHORT and not (HINTS.search(text) or speaks(text)):
         return []

@@ -1,4 +1,4 @@
-"""Readings of the numbers of a source as tables, beside those that calls and names tell."""
+"""Readings of the numbers of a source as tables, in addition to those by calls and names."""
 
 from __future__ import annotations
 
@@ -25,22 +25,22 @@ if TYPE_CHECKING:
 
 _Told: TypeAlias = Mapping[str, frozenset[int]]
 MOST_OF = 0.75
-"""So many numbers of a matrix are those of a reading that speaks against it."""
+"""Share of the numbers of a matrix in a reading that contradicts it."""
 _BESIDE = frozenset(
     f"{role}{part}"
     for role in ("b", "c", "b_q", "drifts", "kicks", "embedded", "error")
     for part in ("", "1", "2")
 )
 _TABLEAU = re.compile("tableau|butcher|table|^(?:new|obj|self|this|[0-9]*)$", re.IGNORECASE)
-"""Names that many methods have."""
+"""Names shared by many methods."""
 _OTHERS = frozenset(
     ("Rosenbrock", "modified Patankar", "multirate", "general linear", "exponential", "stochastic")
 )
-"""Methods with a matrix, weights and other arrays beside them."""
+"""Methods with a matrix, weights and other arrays."""
 NEAR = 1e-6
-"""Sums that differ by less are meant to be the same."""
+"""Sums that differ by less are equal."""
 FEWEST_NUMBERS = 4
-"""So many numbers in arrays may be a method."""
+"""Fewest numbers in arrays that may be a method."""
 _FORMS = {
     **{form: Signature([], form) for form in (*REGISTERS, WRAY, "Shu–Osher")},
     "3S*": NAMED,
@@ -52,8 +52,8 @@ _FORMS = {
 
 
 def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[FoundTable]:
-    """The tables of a source, each with the readings that may explain what is wrong with it; and
-    those that no name tells, where enough speaks for them.
+    """The tables of a source, each with the readings that may explain its errors, and further
+    tables without names if the evidence suffices.
     """
     groups = [x for x in finder.groups if _has_numbers(x.arrays)]
     if not any(_may_have_a_matrix(x) for group in groups for x in group.arrays):
@@ -62,8 +62,8 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
 
     source = _Source(finder)
     written = set(map(id, finder.harvest.numbers))
-    told = [_told(finder.told.get(id(x), {}), written) for x in tables]
-    read_off = [x for x, table in zip(told, tables, strict=True) if table.is_read]
+    numbers_of_tables = [_told(finder.told.get(id(x), {}), written) for x in tables]
+    read_off = [x for x, table in zip(numbers_of_tables, tables, strict=True) if table.is_read]
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
     made_of: list[_Told] = []
@@ -73,7 +73,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     steps = {x.line for x in tables if x.is_read and STEP in x.notes}
     for reading in readings_of(finder.groups):
         numbers = source.numbers(reading.used)
-        about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
+        about = [i for i, x in enumerate(numbers_of_tables) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].is_read]
         bits = reading.linked if reading.form == "rk" else 0.0
         linked |= {i: max(bits, linked.get(i, 0.0)) for i in read}
@@ -81,26 +81,26 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         explained = [
             i
             for i in read
-            # a row with the name of b is no difference of weights
+            # a row named b is no difference of weights
             if not reading.idle
-            and not (told[i].get("b", frozenset()) & errors)
-            and _explains(reading, numbers, told[i])
+            and not (numbers_of_tables[i].get("b", frozenset()) & errors)
+            and _explains(reading, numbers, numbers_of_tables[i])
         ]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
-        # single numbers of a step are what the step makes of them
+        # single numbers of a step belong to the step
         group = reading.group
         is_of_step = group is not None and group.line in steps
         is_new = is_new and not (is_of_step and all(x.is_made for x in reading.used))
-        # arrays of several tables together are none
+        # arrays of several tables together are no table
         is_new = is_new and 2 * len(numbers & everywhere) <= len(numbers)
-        made = source.table(reading) if is_new or explained else None
-        if made is None:
+        made_table = source.table(reading) if is_new or explained else None
+        if made_table is None:
             continue
         for i in explained:
-            if not _is_same(made, tables[i]):
-                rivals.setdefault(i, []).append(made)
+            if not _is_same(made_table, tables[i]):
+                rivals.setdefault(i, []).append(made_table)
         if is_new:
-            new.append(made)
+            new.append(made_table)
             made_of.append({"": numbers})
             settled |= {*about, *_in_place_of(reading, tables)}
     kept = [
@@ -110,12 +110,12 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         for i, x in enumerate(tables)
         if i not in settled
     ]
-    known = {n for x in (*told, *made_of) for own in x.values() for n in own}
+    known = {n for x in (*numbers_of_tables, *made_of) for own in x.values() for n in own}
     return sorted([*kept, *new, *source.untold([*kept, *new], known)], key=lambda x: x.line)
 
 
 def _in_place_of(reading: Reading, tables: Sequence[FoundTable]) -> Iterator[int]:
-    """The tables that were not read, by their places, where a reading is."""
+    """The places of unread tables at the lines of a reading."""
     group = reading.group
     lines = {reading.line, *(x.line for x in reading.used), *([group.line] if group else [])}
     for i, x in enumerate(tables):
@@ -132,7 +132,7 @@ def _may_have_a_matrix(x: Given) -> bool:
 
 
 class _Source:
-    """From the readings of a source to tables."""
+    """Makes tables from the readings of a source."""
 
     def __init__(self, finder: TableFinder) -> None:
         self._numbers = finder.harvest.numbers
@@ -141,7 +141,7 @@ class _Source:
         self._texts: dict[int, str] = {}
 
     def table(self, reading: Reading) -> FoundTable | None:
-        """The table of a reading; None if its numbers make none."""
+        """The table of a reading; None if its numbers give none."""
         group = reading.group
         assert group is not None
         owner = reading.used[0].owner.rpartition(".")[2]
@@ -165,10 +165,10 @@ class _Source:
         if reading.form == "nystrom" and "b_q" not in rows:
             return None
         try:
-            found = table_of(Meant(empty, rows, _FORMS[reading.form], "numbers"))
+            assembled = table_of(Meant(empty, rows, _FORMS[reading.form], "numbers"))
         except NoTable:
             return None
-        return None if found.trouble else replace(found, how=how, is_recognised=True)
+        return None if assembled.trouble else replace(assembled, how=how, is_recognised=True)
 
     def _of_rk(self, reading: Reading, empty: FoundTable) -> FoundTable:
         rows = reading.rows
@@ -185,7 +185,7 @@ class _Source:
         return table
 
     def _nodes(self, c: Floats, A: Rows) -> Row:
-        """The nodes; one that nobody wrote is the sum of its row."""
+        """The nodes; a node that is not written is the sum of its row."""
         sums = (" + ".join(f"({x})" for x in row if not is_zero(x)) or ZERO for row in A)
         return tuple(self._text(int(x[-1])) if x[-1] else y for x, y in zip(c, sums, strict=True))
 
@@ -198,51 +198,53 @@ class _Source:
         return self._texts[at]
 
     def _value(self, x: Floats) -> Value:
-        """An array of the numbers as they are in the source."""
+        """An array of the numbers in the source."""
         if x.ndim > 2:
             return Array([self._value(row) for row in x])
         return Array([self._numbers[int(entry[-1])] for entry in x])
 
     def numbers(self, arrays: Iterable[Given]) -> frozenset[int]:
-        """A key of the places of the numbers in arrays: equal numbers elsewhere have another."""
+        """A key of the occurrences of numbers in arrays: equal numbers elsewhere have other
+        keys.
+        """
         entries = (x for of in arrays for row in of.rows for x in row if x.value)
         return frozenset(id(self._numbers[x.at]) for x in entries)
 
     def of_row(self, reading: Reading, role: str) -> frozenset[int]:
-        """A key of the places of the numbers in one of the rows of a reading."""
+        """A key of the occurrences of numbers in one row of a reading."""
         row = reading.rows.get(role)
         return frozenset(id(self._numbers[int(x[-1])]) for x in (() if row is None else row))
 
     def untold(self, tables: Iterable[FoundTable], known: set[int]) -> Iterator[FoundTable]:
-        """A place for each scope that speaks of methods and has arrays like those of one, of which
-        no table says anything.
+        """A placeholder for each scope about methods with arrays like those of one, but without a
+        table.
 
         Args:
-            tables: all others.
-            known: their numbers, to which those of the places are added.
+            tables: of the source.
+            known: their numbers; those of the placeholders are added.
         """
         lines = {x.line for x in tables}
         for group in self._groups:
-            left = [x for x in group.arrays if _is_like_a_part(x)]
-            left = [x for x in left if 2 * len((own := self.numbers([x])) - known) > len(own)]
-            values = {abs(x.value) for of in left for row in of.rows for x in row}
+            unread = [x for x in group.arrays if _is_like_a_part(x)]
+            unread = [x for x in unread if 2 * len((own := self.numbers([x])) - known) > len(own)]
+            values = {abs(x.value) for of in unread for row in of.rows for x in row}
             fractions = sum(not x.is_integer() for x in values)
             is_other = OTHERS.search(group.title) is not None
-            if not _may_be_another(left):
+            if not _may_be_another(unread):
                 # interpolants beside a table
                 is_other |= not known.isdisjoint(self.numbers(group.arrays))
-            least = FEWEST_NUMBERS // 2 if any(x.is_matrix for x in left) else FEWEST_NUMBERS
+            least = FEWEST_NUMBERS // 2 if any(x.is_matrix for x in unread) else FEWEST_NUMBERS
             if is_other or not group.speaks or fractions < least:
                 continue
-            known |= self.numbers(left)
-            if lines.isdisjoint({group.line, *(x.line for x in left)}):
-                line = min(x.line for x in left)
+            known |= self.numbers(unread)
+            if lines.isdisjoint({group.line, *(x.line for x in unread)}):
+                line = min(x.line for x in unread)
                 place = FoundTable(self._source, line, self._format, group.title, (), (), ())
                 yield troubled(place, UNRECOGNISED)
 
 
 def _is_like_a_part(x: Given) -> bool:
-    """Whether an array may be that of a method: by its name, as a triangle, or by a sum."""
+    """Whether an array may belong to a method: by its name, as a triangle, or by its sum."""
     if any(pattern.search(x.name) for pattern in (MATRIX, WEIGHTS, NODES)):
         return x.fractions > 0
     if x.is_matrix:
@@ -273,13 +275,13 @@ def _steps(form: str, row: Value, line: int) -> dict[str, Value]:
 
 
 def _kind(names: str) -> str:
-    """The kind of another method that has such names, with a matrix and weights; empty for none."""
-    found = (kind for pattern, kind in OTHER_KINDS if kind in _OTHERS and pattern.search(names))
-    return next(found, "")
+    """The kind of other methods with such names that have a matrix and weights; empty for none."""
+    kinds = (kind for pattern, kind in OTHER_KINDS if kind in _OTHERS and pattern.search(names))
+    return next(kinds, "")
 
 
 def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
-    """The numbers of a table that are written, by their roles."""
+    """The written numbers of a table, by their roles."""
     arrays = {role: Array([x]).flat() for role, x in roles.items() if isinstance(x, Array)}
     return {
         role: frozenset(
@@ -290,20 +292,20 @@ def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
 
 
 def _is_about(numbers: frozenset[int], told: _Told) -> bool:
-    """Whether a reading and a table share most of their numbers; few may be those of others."""
+    """Whether a reading and a table share most of their numbers; a few may belong to others."""
     all_told = frozenset().union(*told.values())
     common, is_short = 2 * len(numbers & all_told), len(all_told) < FEWEST_NUMBERS
     return common > len(numbers) or (common > len(all_told) and not is_short)
 
 
 def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:
-    """Whether a reading has all nodes and weights of a table, and most of its matrix; embedded ones
-    only where its form has them. A few numbers may be those of other tables, too.
+    """Whether a reading has all nodes and weights of a table, and most of its matrix; embedded
+    weights only if its form has them. A few numbers may belong to other tables, too.
     """
     if sum(map(len, told.values())) < FEWEST_NUMBERS:
         return False
     if reading.form == "rk" and "c" in told and not told["c"] and "c" not in reading.rows:
-        # nodes of zeros alone count too
+        # nodes that are all zeros count too
         return False
     for role, own in told.items():
         common = len(own & numbers)

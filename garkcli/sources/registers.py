@@ -1,8 +1,7 @@
 """Low-storage, Shu–Osher and Nyström coefficients of a source as tables of Runge–Kutta methods.
 
-The algebra is that of ``garkcli.constructions.registers``, done twice: with the numbers as they are
-printed, and with balls around them. An entry that rounding moves is written with as many digits as
-it has.
+The algebra of ``garkcli.constructions.registers`` is done twice: with the printed numbers, and with
+balls around them. An entry affected by rounding is written with its correct digits.
 """
 
 from __future__ import annotations
@@ -32,13 +31,13 @@ from garkcli.order.tolerance import rounded_up
 from garkcli.sources.found import Row, Rows, Units, Unreadable
 
 BITS = 1_000
-"""Of balls around printed numbers."""
+"""Precision of balls around printed numbers."""
 DIGITS = 300
-"""Of balls around irrational ones."""
+"""Digits of balls around irrational numbers."""
 COARSE = fmpq(1, 10**16)
-"""A fraction that would approximate a number no better than that is exact."""
+"""Fractions with worse approximations are exact."""
 WRAY = "Wray"
-"""A form of two rows, of which a source has one before the other in each stage."""
+"""A form of two rows, applied one after the other in each stage."""
 
 
 def _of_wray(A: Sequence[Any], b: Sequence[Any]) -> Steps:
@@ -55,17 +54,17 @@ SCHEMES: Mapping[str, Callable[..., Steps]] = {
     "Shu–Osher": shu_osher,
     "Nyström": lambda A, b, c: Steps(*nystrom(A, b, c), ()),
 }
-"""Others, as 2R, are van der Houwen's, with b behind their diagonals."""
+"""Other forms, such as 2R, are van der Houwen's, with b behind their diagonals."""
 Nested: TypeAlias = "str | Sequence[Nested]"
 
 
 class Converted(Frozen):
-    """Coefficients made of printed ones.
+    """Coefficients computed from printed ones.
 
     Attributes:
         A: the matrix.
         b: the weights.
-        units: by how much each of their texts may be off.
+        units: error bounds of their texts.
     """
 
     A: Rows
@@ -78,11 +77,12 @@ def converted(form: str, *printed: Nested) -> Converted:
 
     Args:
         form: the name of the scheme.
-        printed: its coefficients: A and b of 2N and its like, α and β of the form of Shu and Osher,
-            γ₁, γ₂, γ₃, δ, β of 3S*, Ā, b̄, c of Nyström, for the velocities that positions see.
+        printed: its coefficients: A and b of 2N and similar forms, α and β of the form of Shu and
+            Osher, γ₁, γ₂, γ₃, δ, β of 3S*, Ā, b̄, c of Nyström, for the velocities that positions
+            see.
 
     Raises:
-        Unreadable: they make no method, or none whose stages begin at the value before the step.
+        Unreadable: they give no method, or stages do not begin at the value before the step.
     """
     texts = list(_flat(printed))
     try:
@@ -131,7 +131,7 @@ def _ball(x: Number | int) -> arb:
 
 
 def written(x: Number | int, ball: arb | int, units: dict[str, fmpq]) -> str:
-    """A number with the digits that rounding leaves of it; ``units`` has by how much it is off."""
+    """The correct digits of a number; ``units`` gets its error bound."""
     if not isinstance(ball, arb) or not isinstance(x, fmpq) or not x or ball.rad() < 1e-200:
         return str(x)
     sizes = abs(float(ball.mid())), float(ball.rad())

@@ -1,4 +1,4 @@
-"""Block matrices [c A; q b; p d]: a table, its orders and its embedded weights in one."""
+"""Block matrices [c A; q b; p d]: a table, its orders and its embedded weights in one matrix."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import ZERO, Array, Number, Record, Value, whole
 
 TINY = 1e-9
-"""Rounding of weights leaves their sum nearer to 1."""
+"""Rounding of weights leaves their sum this near to 1."""
 NEAR = 0.01
-"""Sums that differ by less are meant to be the same."""
+"""Sums that differ by less are equal."""
 _TABLEAU = re.compile("butcher|tableau|(?<!s)table")
-"""Names of whole tableaus: ``rk_table``, but no ``a_stable``."""
+"""Names of whole tableaus: ``rk_table``, but not ``a_stable``."""
 FAR = 0.5
-"""Weights have a sum that is nearer to 1, misprints included."""
+"""Largest distance of the sum of weights from 1, misprints included."""
 
 
 def blocks_in(
     name: str, value: Value, title: str = ""
 ) -> Iterator[tuple[str, Mapping[str, Value]]]:
-    """The roles of the parts of each block matrix in a value, which has a name; also of those under
-    the keys of a dictionary, and beside their order. Under a number it is called after ``title``.
+    """The names and roles of block matrices in a value, also under the keys of a dictionary, and
+    beside their order. A matrix under a number is named after ``title``.
     """
     if isinstance(value, Record) and not value.kind:
         for key, x in value.fields.items():
@@ -37,10 +37,10 @@ def blocks_in(
 
 
 def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
-    """The roles of the parts of a block matrix; None where it is none.
+    """The roles of the parts of a block matrix; None for other matrices.
 
-    q and p, beside the weights, are the orders of RKLab's B; elsewhere they may be the node 1, or q
-    twice. Without a name all rows but one have their nodes for sums.
+    q and p, beside the weights, are the orders in RKLab's B; elsewhere they may be the node 1, or q
+    twice. Without a name all rows except one must sum to their nodes.
     """
     rows = [list(x.items) for x in value.items if isinstance(x, Array)]
     columns = max(map(len, rows))
@@ -51,32 +51,32 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     for i, row in enumerate(rows):
         if len(row) < columns and (i >= stages or len(row) <= i):
             return None
-        # a triangle, or all of it
+        # a triangle, or the full square
         row += [ZERO] * (columns - len(row))
     numbers = [*rows[:stages], *(row[1:] for row in rows[stages:])]
     if not all(isinstance(x, Number) for row in numbers for x in row):
         return None
     near = [[x.near if isinstance(x, Number) else 0.0 for x in row] for row in rows]
     agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
-    # rows of zeros agree with anything
+    # rows of zeros agree with any nodes
     zeros = sum(not any(row) for row in near[:stages])
     off = abs(sum(near[stages][1:]) - 1)
     order = whole(corners[0])
     is_tableau = _TABLEAU.search(name) is not None
     is_named = is_tableau or (name.startswith("b") and order is not None and order > 0)
-    # an order before several weights with the sum 1 needs no nodes that are the sums of their rows
+    # with an order and several weights of sum 1 the nodes need not be row sums
     has_fractions = any(not x.is_integer() for row in near for x in row)
     is_ordered = name == "b" and is_named and off < TINY and stages > 1 and has_fractions
-    # whole numbers alone may be anything
+    # integers alone may be anything
     is_near = agreeing - zeros >= (stages - zeros) / (1 + has_fractions)
     is_block = is_ordered or (off < FAR and is_near)
     is_explicit = not any(x for i, row in enumerate(near[:stages]) for x in row[i + 1 :])
     is_plain = off < NEAR and agreeing >= max(2, stages - is_explicit)
-    # the weights alone may be wrong where the rows are those of an explicit method
+    # only the weights may be wrong if all rows are those of an explicit method
     is_plain |= off < FAR and is_explicit and agreeing == stages > 2
     is_plain &= has_fractions
     if not (is_block if is_named else is_plain and any(row[0] for row in near[:stages])):
-        # a matrix like any other
+        # an ordinary matrix
         return None
     roles: dict[str, Value] = {
         "A": Array([Array(row[1:]) for row in rows[:stages]]),

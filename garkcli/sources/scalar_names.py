@@ -25,35 +25,35 @@ _LETTERS = {*"aAbcdewαβγ", "aa", "alpha", "beta", "gamma", "bhat", "b̂", "bh
 ARRAYS = {
     x: f"{x}[]" for x in ("A", "A1", "b", "c", "c1", "embedded", "error", "A_q", "b_q", "delta")
 }
-"""Roles of arrays of coefficients, with what tells these from single ones."""
+"""Roles of arrays of coefficients, marked to distinguish them from single ones."""
 NEAR = 1e-4
-"""Numbers that differ by less are meant to be the same."""
+"""Numbers that differ by less are equal."""
 _BESIDE = {"a": ("b", "c"), "A": ("b", "c"), "b": ("c", "a"), "α": ("β", "c")}
-"""The weights and the nodes, by the letter of what has two indices."""
+"""The letters of weights and nodes, by the letter with two indices."""
 
 
 def family_of(name: str) -> str:
-    """The letter or the role of what has a name like those of coefficients; empty for others."""
+    """The letter or the role of a name like those of coefficients; empty for others."""
     plain = name.rpartition("::")[2].lstrip("_")
-    found = _NAME.fullmatch(plain)
-    if found is not None and found["stem"] in _LETTERS:
-        return found["stem"]
+    match = _NAME.fullmatch(plain)
+    if match is not None and match["stem"] in _LETTERS:
+        return match["stem"]
     return ARRAYS.get((role_of(plain) or ("", ""))[1], "")
 
 
-def whole_families(made: Mapping[str, Value]) -> dict[str, Value]:
-    """Arrays of single numbers under the names A, b and c: weights that are left out are zeros,
-    nodes that are, row sums; and the only entry of the second row is its node.
+def whole_families(arrays: Mapping[str, Value]) -> dict[str, Value]:
+    """Arrays of single numbers under the names A, b and c: missing weights are zeros, missing nodes
+    are row sums, and a missing entry of the second row is its node.
     """
-    found = dict(made)
-    for name, value in made.items():
+    families = dict(arrays)
+    for name, value in arrays.items():
         owner, mark, letter = name.rpartition("::")
         head = f"{owner}{mark}"
-        is_beside = letter != "a" and is_matrix(made.get(f"{head}a"))
+        is_beside = letter != "a" and is_matrix(arrays.get(f"{head}a"))
         if letter not in _BESIDE or not is_matrix(value) or is_beside:
             continue
         rows = [list(items_of(row)) for row in value.items]
-        own = {x.removeprefix(head): y for x, y in made.items() if x.rpartition("::")[0] == owner}
+        own = {x.removeprefix(head): y for x, y in arrays.items() if x.rpartition("::")[0] == owner}
         weights, nodes = _BESIDE[letter]
         if letter == "A":
             weights, nodes = (x if x in own else x.upper() for x in (weights, nodes))
@@ -61,7 +61,7 @@ def whole_families(made: Mapping[str, Value]) -> dict[str, Value]:
             weights, nodes = "w", "d"
         b, c = (own.pop(x, None) for x in (weights, nodes))
         for x in (letter, weights, nodes):
-            found.pop(f"{head}{x}", None)
+            families.pop(f"{head}{x}", None)
         if isinstance(c, Array) and not is_matrix(c):
             # c1 may be the node of the second stage
             ways = [_filled(x, len(rows)) for x in (c.items, [FILL, *c.items])]
@@ -69,12 +69,12 @@ def whole_families(made: Mapping[str, Value]) -> dict[str, Value]:
             if not any(map(is_written, rows[1])):
                 rows[1][0] = entries[1]
             pairs = zip(entries, rows, strict=False)
-            found[f"{head}c"] = Array([x if is_written(x) else _sum(row) for x, row in pairs])
-        found[f"{head}A"] = Array([*map(Array, rows)])
+            families[f"{head}c"] = Array([x if is_written(x) else _sum(row) for x, row in pairs])
+        families[f"{head}A"] = Array([*map(Array, rows)])
         for role, row in {**own, "b": b}.items():
             if isinstance(row, Array) and not is_matrix(row):
-                found[f"{head}{role}"] = Array(_filled(row.items, len(rows)))
-    return found
+                families[f"{head}{role}"] = Array(_filled(row.items, len(rows)))
+    return families
 
 
 def _filled(row: Sequence[Value], count: int) -> list[Value]:
@@ -82,14 +82,14 @@ def _filled(row: Sequence[Value], count: int) -> list[Value]:
 
 
 def _agreeing(nodes: Sequence[Value], rows: Sequence[Sequence[Value]]) -> int:
-    """How many nodes that are written are the sums of their rows."""
+    """The number of written nodes that are the sums of their rows."""
     pairs = zip(nodes, rows, strict=False)
     return sum(is_written(c) and abs(near(*row) - near(c)) < NEAR for c, row in pairs)
 
 
 def _sum(row: Sequence[Value]) -> Value:
-    """A sum that stands for a node, with all its digits."""
-    found: Value = ZERO
+    """A sum in place of a node, with all its digits."""
+    total: Value = ZERO
     for x in row:
-        found = computed("+", found, x, 0)
-    return exact(found.value) if isinstance(found, Number) and found.value is not None else found
+        total = computed("+", total, x, 0)
+    return exact(total.value) if isinstance(total, Number) and total.value is not None else total

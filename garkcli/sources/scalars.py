@@ -1,4 +1,4 @@
-"""Numbers of other languages as texts of coefficients: put together as text, never computed."""
+"""Numbers of other languages as texts of coefficients: combined as text, never computed."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from garkcli.frozen import Frozen
 from garkcli.sources.found import Unreadable
 
 SUM, PRODUCT, ATOM = range(3)
-"""How tightly the parts of a text hold together."""
+"""Precedence of the parts of a text."""
 LEVELS = {"+": SUM, "-": SUM, "*": PRODUCT, "/": PRODUCT}
 
 
 class Scalar(Frozen):
-    """A number as text, and how tightly it holds together."""
+    """A number as text, with its precedence."""
 
     text: str
     level: int = ATOM
 
     def inside(self, level: int) -> str:
-        """The text as an operand of something that holds together like ``level``."""
+        """The text as an operand of an operator with precedence ``level``."""
         return self.text if self.level >= level else f"({self.text})"
 
 
 def number(text: str) -> Scalar:
-    """A number as it is written: one with a sign holds together like a sum, a fraction like a
+    """A number as written: with a sign its precedence is that of a sum, a fraction has that of a
     product.
     """
     if text.startswith("-"):
@@ -51,14 +51,13 @@ def combined(sign: str, left: Scalar, right: Scalar) -> Scalar:
 
 
 def rooted(radicand: Scalar, index: int) -> Scalar:
-    """A root."""
     inner = radicand.text
     names = {2: f"sqrt({inner})", 3: f"cbrt({inner})"}
     return Scalar(names.get(index, f"root({inner}, {index})"))
 
 
 def negated(value: Scalar) -> Scalar:
-    """The same with its sign changed."""
+    """The text of the value with the other sign."""
     return Scalar(f"-{value.inside(PRODUCT)}", SUM)
 
 
@@ -66,11 +65,11 @@ def real_root(polynomial: Scalar, place: int) -> Scalar:
     """A real root of a polynomial in x, by its number from 1 in ascending order.
 
     Raises:
-        Unreadable: there is none.
+        Unreadable: there is no such root.
     """
     try:
-        found = Polynomial.from_flint(polynomial_in_x(parse(polynomial.text)))
-        roots = [root for root, _ in real_roots(found)]
+        parsed = Polynomial.from_flint(polynomial_in_x(parse(polynomial.text)))
+        roots = [root for root, _ in real_roots(parsed)]
     except ExpressionError as error:
         raise Unreadable(error.message) from None
     if not 0 < place <= len(roots):
@@ -80,4 +79,4 @@ def real_root(polynomial: Scalar, place: int) -> Scalar:
 
 
 DIGITS_OF_ROOTS = 30
-"""Of the decimal that tells a root from the others."""
+"""Digits of the decimal that identifies a root."""

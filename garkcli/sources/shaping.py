@@ -1,4 +1,4 @@
-"""Matrices as sources store them, made square: flat, packed, ragged, without the first row."""
+"""Matrices of sources made square: flat, packed, ragged, or without the first row."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from garkcli.frozen import replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable
 
 Texts: TypeAlias = "str | list[Texts] | None"
-"""Numbers as texts, in lists; nothing where nothing is meant to be."""
+"""Numbers as texts, in lists; None for an intended gap."""
 ZERO = "0"
 
 
@@ -18,7 +18,7 @@ def row_of(value: Texts) -> Row:
     """A list of numbers.
 
     Raises:
-        Unreadable: it is none.
+        Unreadable: it is no list of numbers.
     """
     row = tuple(x for x in value if isinstance(x, str)) if isinstance(value, list) else ()
     if not isinstance(value, list) or len(row) != len(value):
@@ -30,7 +30,7 @@ def rows_of(value: Texts) -> Rows:
     """A list of lists of numbers.
 
     Raises:
-        Unreadable: it is none.
+        Unreadable: it is no such list.
     """
     if not isinstance(value, list):
         raise Unreadable("a matrix is expected")
@@ -38,16 +38,16 @@ def rows_of(value: Texts) -> Rows:
 
 
 def is_row(value: Texts) -> bool:
-    """Whether it is a list of numbers that is not empty."""
+    """Whether it is a nonempty list of numbers."""
     return isinstance(value, list) and bool(value) and all(isinstance(x, str) for x in value)
 
 
 def weights(value: Texts, stages: int = 0) -> Row:
-    """A row of numbers, also one that is in a matrix of one row or of one column.
+    """A row of numbers, also from a matrix with one row or one column.
 
     Args:
-        value: as it was read.
-        stages: how many numbers it has, where that is known; missing ones are zero.
+        value: as read.
+        stages: the number of entries, if known; missing ones are zero.
 
     Raises:
         Unreadable: it is no such row.
@@ -70,8 +70,8 @@ def square(value: Texts, stages: int) -> Rows:
     """The matrix of a method.
 
     Args:
-        value: its rows, full or up to the diagonal, all of them or from the second one on; or all
-            entries in one row, those of a triangle too.
+        value: its rows, full or up to the diagonal, all or from the second one on; or all entries
+            in one row, perhaps of a triangle only.
         stages: s.
 
     Returns:
@@ -108,14 +108,14 @@ def _padded(rows: Sequence[Row], stages: int) -> Rows:
 
 
 def _has_subdiagonal(rows: Sequence[Row]) -> bool:
-    """Whether each row ends where that of an explicit method from its second stage on ends."""
+    """Whether each row ends no later than in an explicit method from its second stage on."""
     ends = [max((j for j, x in enumerate(row) if not is_zero(x)), default=-1) for row in rows]
     return ends[0] == 0 and all(end <= i for i, end in enumerate(ends))
 
 
 def _of_flat(entries: Row, stages: int) -> Rows:
-    """All entries in one row: of the square, of a triangle with its diagonal, of one without, of
-    the square below the first row.
+    """All entries in one row: of the square, of a triangle with or without its diagonal, or of the
+    square below the first row.
     """
     less = stages - 1
     for lengths in ([stages] * stages, range(1, stages + 1), range(stages), [less] * less):
@@ -131,7 +131,7 @@ def changed(sign: str, row: Row, error: Row) -> Row:
 
 
 def is_zero(text: str) -> bool:
-    """Whether a text is a zero that is written as such.
+    """Whether a text is a literal zero.
 
     >>> is_zero("0"), is_zero("-0.0"), is_zero("0.10")
     (True, True, False)
@@ -140,13 +140,13 @@ def is_zero(text: str) -> bool:
 
 
 def symplectic(empty: FoundTable, drifts: Row, kicks: Row, is_force_first: bool) -> FoundTable:
-    """The partitioned method of kicks of the momenta and drifts of the positions in turns.
+    """The partitioned method with alternating kicks of momenta and drifts of positions.
 
     Args:
-        empty: what else is known of it.
+        empty: the table without coefficients.
         drifts: the weights of the velocities.
-        kicks: those of the forces.
-        is_force_first: whether each kick is followed by its drift, or the other way round.
+        kicks: the weights of the forces.
+        is_force_first: whether each kick comes before its drift, or after it.
     """
     stages = range(len(drifts))
 

@@ -1,4 +1,4 @@
-"""What the calls that make tables are given, by place; which tables are of other methods."""
+"""The arguments of calls that make tables, by place; and tables of other methods."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ class Signature(Frozen):
     """A call that makes a table.
 
     Attributes:
-        roles: of its arguments, in order; ``-`` for those that say nothing of a table.
+        roles: of its arguments, in order; ``-`` for those without a role.
         form: ``rk``, ``ark`` (two parts on shared stages), ``halves`` (two tables that are these
             parts), ``lists`` (a list of each), ``drift-first`` or ``force-first`` (weights of
             drifts and kicks), a scheme of few registers.
-        counts: how many arguments it has; empty where that is not fixed.
-        format: of the table, where it is another one than that of the language.
+        counts: its numbers of arguments; empty if not fixed.
+        format: of the table, if it differs from that of the language.
         has_default_weights: whether missing weights are the last row of the matrix.
-        is_guess: whether other data look so, too: only arrays that fit together are a table.
-        named: the roles of arguments with names that mean something else elsewhere.
+        is_guess: whether other data look alike, so only arrays that fit together are a table.
+        named: the roles of argument names with another meaning elsewhere.
     """
 
     roles: Sequence[str]
@@ -41,15 +41,15 @@ _PETSC: Mapping[str, Any] = {"format": "petsc", "has_default_weights": True}
 _THREE = "gamma1 gamma2 gamma3 delta A_first A c"
 _LAST = "b_last embedded_last b embedded c"
 PRINTED = "a printed tableau"
-"""What stands for a call where data are a table."""
+"""Replaces the name of a call if data are a table."""
 NDSOLVE = "coefficients of NDSolve"
-"""The same for the lists that a function of Mathematica gives."""
+"""Replaces it for the lists that a function of Mathematica returns."""
 KPP = "arrays of KPP"
-"""The arrays of a Rosenbrock method in KPP, in place of a call."""
+"""Replaces it for the arrays of a Rosenbrock method in KPP."""
 NAMED = Signature([])
-"""No call: names alone speak for a table."""
+"""No call: only names are evidence for a table."""
 PARTS = Signature(["A1", "b1", "c1", "A2", "b2", "c2"], "ark")
-"""An explicit part and an implicit one."""
+"""An explicit and an implicit part."""
 DRIFT_FIRST = Signature(["drifts", "kicks"], "drift-first")
 """Weights of drifts and kicks, drifts first."""
 SIGNATURES: Mapping[str, Signature] = {
@@ -124,7 +124,7 @@ SIGNATURES: Mapping[str, Signature] = {
     **_all("MRIStepCoupling_MIStoMRI", "", "slow", named={"base": "base"}),
     **_all("NystromVITableau", "A_q b_q b error_q error c", "nystrom"),
 }
-"""What is known of the calls that make tables, by name."""
+"""The calls that make tables, by name."""
 OTHER_KINDS = (
     (re.compile(r"RosW|Rodas|Rosenbrock|ROS\d|ROW(?![a-z])"), "Rosenbrock"),
     (re.compile(r"MPRK|Patankar"), "modified Patankar"),
@@ -138,17 +138,17 @@ OTHER_KINDS = (
     (re.compile(r"R(?:o|oe|ö)ssler|Komori|(?:SRI|SRA)\w*(?:Tableau|Cache)"), "stochastic"),
     (re.compile(r"TSIRK|(?<!TR)BDF(?![a-z0-9]*Tableau)|Adams"), "multistep"),
 )
-"""Tables of other methods, by the names of the calls that make them."""
+"""Kinds of other methods, by the names of the calls that make their tables."""
 MAKER = re.compile(
     r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI|ssler|Komori)\w*"
 )
-"""Calls that make tables, by their names."""
+"""Names of calls that make tables."""
 CONSTRUCTOR = re.compile(rf"{MAKER.pattern}|construct[A-Z]\w*")
-"""Functions that do."""
+"""Names of functions that make tables."""
 
 
 def other_kind(name: str) -> str:
-    """What kind of table another call makes; empty where it may be one of Runge–Kutta.
+    """The kind of the table of another call; empty if it may be Runge–Kutta.
 
     >>> other_kind("TSRosWRegister"), other_kind("TSRKRegister"), other_kind("MPRK22ConstantCache")
     ('Rosenbrock', '', 'modified Patankar')

@@ -1,10 +1,10 @@
-"""Steps that are written out as they are computed: the tableau that they have.
+"""The tableaus of steps that are written out as computations.
 
 A function evaluates f several times, ``call f(t + h/2, x + h/2*k1, k2)`` or ``k2 = f(…)``, and adds
-multiples of the slopes to what it began with, at once or in loops over components. It is evaluated
-again, with polynomials in the names that nothing is known of: the time, the value, the step and the
-slopes; where the way parts, every way must be the same step. Nothing is guessed from names, and
-whatever does not fit makes no table.
+multiples of the slopes to its first value, at once or in loops over components. It is evaluated
+again, with polynomials in the unknown names: the time, the value, the step and the slopes; all
+paths through branches must give the same step. Nothing is guessed from names, and a computation
+that does not fit gives no table.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ from garkcli.sources.values import (
 
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
-"""Most ways through a function."""
+"""Most paths through a function."""
 FEWEST_TURNS = 5
-"""So many calls in turns are a splitting."""
+"""Fewest alternating calls of a splitting."""
 NEAR = 1e-3
-"""Sums that differ by less are meant to be the same."""
+"""Sums that differ by less are equal."""
 Roles = dict[str, Value]
 Place = tuple[str, ...]
 
@@ -49,8 +49,8 @@ class NoStep(Exception):
     """The computation is no step of a Runge–Kutta method.
 
     Args:
-        looks_like: whether it looks like one: f is evaluated at ``x + h*k``, where k is another
-            value of f.
+        looks_like: whether it looks like one: f is evaluated at ``x + h*k`` with another value k of
+            f.
     """
 
     def __init__(self, looks_like: bool = False) -> None:
@@ -59,7 +59,7 @@ class NoStep(Exception):
 
 
 class _Slope(Frozen):
-    """An evaluation of f: its name among the forms, what is called, and what it is given."""
+    """An evaluation of f: its name in polynomials, the callee and its arguments."""
 
     name: str
     callee: ir.Expr
@@ -67,17 +67,16 @@ class _Slope(Frozen):
 
 
 def step_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = True) -> Roles:
-    """A, b, c and the error of the step that a function is, or that a loop in it takes again and
-    again.
+    """A, b, c and the error of the step of a function, or of a loop in it over time.
 
     Args:
         body: of the function.
         space: the names around it.
-        like: what evaluates its language.
-        is_function: whether all of it may be a step, and not only what is in loops.
+        like: an evaluator of its language.
+        is_function: whether all of it may be a step, not only the loops.
 
     Raises:
-        NoStep: it is none.
+        NoStep: there is none.
     """
     try:
         if not is_function:
@@ -91,8 +90,8 @@ def step_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = Tr
 
 
 def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
-    """The weights of two functions that are called in turns with parts of one step,
-    ``x.drift(0.5*h); x.kick(h)``: those of the first one are called drifts.
+    """The weights of two functions called in alternation with parts of one step, ``x.drift(0.5*h);
+    x.kick(h)``; those of the first one count as drifts.
 
     Raises:
         NoStep: there are no such calls.
@@ -120,12 +119,12 @@ def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
 def _by_every_way(
     body: ir.Body, space: Space, like: Evaluator, counters: Sequence[str] = ()
 ) -> Roles:
-    """The step that some statements are: the same by every way through them.
+    """The common step of all paths through some statements.
 
     Raises:
-        NoStep: they are none.
+        NoStep: there is none.
     """
-    found: dict[object, Roles] = {}
+    by_content: dict[object, Roles] = {}
     is_lost = False
     for way in reversed(_ways(body)):
         follower = Follower(like, way, counters)
@@ -141,16 +140,16 @@ def _by_every_way(
                 raise
             is_lost = True
         else:
-            found[shown(Record("", roles))] = roles
-    if is_lost or len(found) != 1:
-        raise NoStep(looks_like=bool(found))
-    return found.popitem()[1]
+            by_content[shown(Record("", roles))] = roles
+    if is_lost or len(by_content) != 1:
+        raise NoStep(looks_like=bool(by_content))
+    return by_content.popitem()[1]
 
 
 def _in_loops(
     body: ir.Body, space: Space, like: Evaluator, counters: Sequence[str] = ()
 ) -> Iterator[Roles]:
-    """The steps of several stages that loops over time take."""
+    """The steps with several stages in loops over time."""
     for statement in body:
         arms = statement.arms if isinstance(statement, ir.Branch) else ()
         for arm in arms:
@@ -168,7 +167,7 @@ def _in_loops(
 
 
 def _counted(loop: ir.Loop) -> Iterator[str]:
-    """The names that count the turns of a loop."""
+    """The counters of a loop."""
     if loop.name:
         yield loop.name
     for x in loop.body:
@@ -181,7 +180,9 @@ def _counted(loop: ir.Loop) -> Iterator[str]:
 
 
 def _ways(body: ir.Body) -> list[list[ir.Statement]]:
-    """The ways through some statements; an arm that leaves is none, and too many stay a branch."""
+    """The paths through some statements, without arms that return; with too many paths branches
+    stay.
+    """
     found: list[list[ir.Statement]] = [[]]
     for statement in body:
         arms: list[list[ir.Statement]] = [[statement]]
@@ -197,17 +198,17 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
 
 
 def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
-    """The same, where the values of a function are not used, ``status = f(t, x, k)``, as calls for
-    their effect.
+    """The statements with calls for their effect in place of assignments of unused return values,
+    ``status = f(t, x, k)``.
     """
     if not any(isinstance(x, ir.Assign) and _is_effect(x.value) for x in way):
         return list(way)
     used: set[object] = set()
-    meant: set[ir.Expr] = set()
+    with_values: set[ir.Expr] = set()
     for x in reversed(way):
         if isinstance(x, ir.Assign):
             if isinstance(x.value, ir.Call) and x.target in used:
-                meant.add(x.value.callee)
+                with_values.add(x.value.callee)
             used.update(y for y in ir.inside(x.value) if isinstance(y, ir.Name))
         else:
             used.update(y for y in ir.inside(x) if isinstance(y, ir.Name))
@@ -216,21 +217,21 @@ def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
         if isinstance(x, ir.Assign)
         and isinstance(x.target, ir.Name)
         and _is_effect(x.value)
-        and x.value.callee not in meant
+        and x.value.callee not in with_values
         else x
         for x in way
     ]
 
 
 class Follower(Evaluator):
-    """Evaluates statements without branches, unknown names as polynomials.
+    """Evaluates statements without branches, with polynomials for unknown names.
 
     Args:
-        like: what evaluates the language.
+        like: an evaluator of the language.
         way: the statements.
-        counters: names that count steps: ``x[n]`` is a value, as x is.
-        ignores_others: whether functions that are called for their effect, as f is, change nothing
-            that matters: those that limit values, or print them. Then all slopes have to be used.
+        counters: names that count steps: ``x[n]`` is a value like x.
+        ignores_others: whether to ignore other functions that are called for their effect like f,
+            such as limiters or output; then all slopes must be used.
 
     Attributes:
         has_others: whether there are such functions.
@@ -244,7 +245,7 @@ class Follower(Evaluator):
         ignores_others: bool = False,
     ) -> None:
         super().__init__(like.base, like.allowance, has_whole_quotients=like.has_whole_quotients)
-        # where arrays begin with 0, functions may give back whether all went well
+        # in languages with arrays from 0 functions may return a status
         self._way = _for_effect(way) if like.base == 0 else way
         self._counters = counters
         self._ignores_others = ignores_others
@@ -295,7 +296,9 @@ class Follower(Evaluator):
         self._has_step_inside |= inside.looks_like
 
     def _changing(self, call: ir.Call, space: Space) -> None:
-        """A call for its effect: a copy, a sum, an evaluation of f, or a change of what it has."""
+        """Executes a call for its effect: a copy, a sum, an evaluation of f, or a change of its
+        arguments.
+        """
         match call:
             case ir.Call(callee, (target, source, *_), ()) if _name(callee) in _COPIES:
                 self._store(target, self.value(source, space), space, self.line)
@@ -321,20 +324,20 @@ class Follower(Evaluator):
                     self._lose([ir.Do(call, self.line)], space)
 
     def _is_ignored(self, call: ir.Call, space: Space) -> bool:
-        """Whether a call changes nothing that matters: it is given no slope, only values of y."""
+        """Whether a call changes nothing that matters: it gets no slope, only values of y."""
         of = [call.callee.of] if isinstance(call.callee, ir.Field) else []
-        given = [_terms(self.value(x, space)) or {} for x in (*call.args, *of) if _is_place(x)]
+        forms = [_terms(self.value(x, space)) or {} for x in (*call.args, *of) if _is_place(x)]
         has_slope = any(
             any(" " in name for at in form for name in at)
             and not any(len(at) == 1 and " " not in at[0] for at in form)
-            for form in given
+            for form in forms
         )
         is_other = not has_slope and not _name(call.callee).endswith("!")
         self.has_others |= is_other
         return self._ignores_others and is_other
 
     def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
-        """A sum of vectors: ``*`` is a factor of the next, ``=`` and ``+`` what becomes the sum."""
+        """Adds vectors: ``*`` is a factor of the next one, ``=`` and ``+`` are the target."""
         total: Value = ZERO
         factor: Value = ONE
         target: ir.Expr | None = None
@@ -350,7 +353,7 @@ class Follower(Evaluator):
             self._store(target, total, space, self.line)
 
     def _lose(self, body: Iterable[ir.Statement], space: Space) -> None:
-        """What statements assign, and what calls are given, is not known any more."""
+        """Makes the targets of assignments and the arguments of calls unknown."""
         for x in ir.statements(body):
             targets: Iterable[ir.Expr] = ()
             match x:
@@ -364,19 +367,19 @@ class Follower(Evaluator):
                 self.spoil(target, space, "changed elsewhere", self.line)
 
     def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
-        """What a name stands for is no longer known."""
+        """Makes the values of the names in a target unknown."""
         space.update(dict.fromkeys(names_of(target), Unknown(reason, line)))
 
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
         target = self._whole(target)
         if isinstance(target, ir.Name):
-            # names are in the order of their last values
+            # names are in the order of their last assignments
             space.pop(target.name, None)
         super()._store(target, value, space, line)
 
     def _places(self, target: ir.Expr, space: Space) -> list[tuple[Any, Any]]:
         if isinstance(target, ir.Name) and isinstance(space.find(target.name), Unknown):
-            # what the function assigns was not known before it is followed
+            # names assigned in the function are unknown before it is followed
             space.setdefault(target.name, self.unknown("never assigned"))
         return super()._places(target, space)
 
@@ -389,24 +392,24 @@ class Follower(Evaluator):
     def _named(self, name: str, space: Space) -> Value:
         if name in space:
             return space[name]
-        found = super()._named(name, space)
-        has_numbers = any(isinstance(x, Number) for x in Array([found]).flat())
-        return found if has_numbers else Form({(name,): ONE})
+        named_value = super()._named(name, space)
+        has_numbers = any(isinstance(x, Number) for x in Array([named_value]).flat())
+        return named_value if has_numbers else Form({(name,): ONE})
 
     def _entry(self, expr: ir.Index, space: Space) -> Value:
         whole = self._whole(expr)
         if whole is expr and len(expr.at) > 1 and self.base == 1 and self.has_whole_quotients:
-            # Fortran's f(t, y)
+            # f(t, y) in Fortran
             of = self.value(expr.of, space)
             if isinstance(of, Form) and of.terms.keys() == {(getattr(expr.of, "name", ""),)}:
                 return self._slope(expr.of, [self.value(x, space) for x in expr.at])
         if whole is expr:
             return super()._entry(expr, space)
-        found = self.value(whole, space)
-        return self.unknown("an entry") if isinstance(found, Array) else found
+        entry = self.value(whole, space)
+        return self.unknown("an entry") if isinstance(entry, Array) else entry
 
     def _whole(self, expr: ir.Expr) -> ir.Expr:
-        """The array of which a loop takes one entry after the other, or a thread its own one."""
+        """The array behind an entry that a loop over components takes, or a thread its own one."""
         names = {*self._components, *self._counters}
         if isinstance(expr, ir.Index):
             unknown = (x for x, value in self._space.items() if isinstance(value, Unknown))
@@ -418,8 +421,8 @@ class Follower(Evaluator):
         return self._at_a_time(expr) if self._counters else expr
 
     def _at_a_time(self, expr: ir.Expr) -> ir.Expr:
-        """What an array has at a time: ``x[n]``, ``x(:, n)`` and ``x[n - 1]`` are values of their
-        own.
+        """The value of an array at a step: ``x[n]``, ``x(:, n)`` and ``x[n - 1]`` are separate
+        values.
         """
         if not isinstance(expr, ir.Index) or not isinstance(expr.of, ir.Name):
             return expr
@@ -434,7 +437,7 @@ class Follower(Evaluator):
             return self.unknown("a call with names")
         whole = self._whole(ir.Index(call.callee, call.args))
         if isinstance(whole, ir.Name) and (self._components or self._counters):
-            # k1(i), as classes of C++ have entries
+            # k1(i), entries of classes in C++
             return self.value(whole, space)
         args = [self.value(x, space) for x in call.args]
         match call:
@@ -442,15 +445,17 @@ class Follower(Evaluator):
                 return args[0]
         if any(isinstance(x, Form) for x in args):
             return self._slope(call.callee, args)
-        found = super()._called(call, space)
-        if isinstance(found, Unknown) and not any(isinstance(x, Unknown | Array) for x in args):
-            # y = state(): what nothing of the step is in
+        called_value = super()._called(call, space)
+        if isinstance(called_value, Unknown) and not any(
+            isinstance(x, Unknown | Array) for x in args
+        ):
+            # y = state(): a value independent of the step
             self._values += 1
             return Form({(f"value{self._values}",): ONE})
-        return found
+        return called_value
 
     def _slope(self, callee: ir.Expr, args: Sequence[Value]) -> Value:
-        """An evaluation of f; unknown where a call is none."""
+        """An evaluation of f; unknown for other calls."""
         forms = tuple(map(_terms, args))
         if self._components or not any(form and any(form) for form in forms):
             return self.unknown("a call")
@@ -473,25 +478,25 @@ class Follower(Evaluator):
             return super().combined(sign, x, y)
         if left is None or right is None or len(left) * len(right) > MAX_TERMS:
             return self.unknown("an operation")
-        found: dict[tuple[str, ...], Value] = {}
+        terms: dict[tuple[str, ...], Value] = {}
         if sign in {"+", "-"}:
-            found.update(left)
+            terms.update(left)
             for at, value in right.items():
-                found[at] = computed(sign, found.get(at, ZERO), value, 0)
+                terms[at] = computed(sign, terms.get(at, ZERO), value, 0)
         elif sign == "*" or (sign == "/" and not any(right)):
             for at, value in left.items():
                 for other, factor in right.items():
                     both = tuple(sorted((*at, *other)))
                     product = computed(sign, value, factor, 0)
-                    found[both] = computed("+", found.get(both, ZERO), product, 0)
+                    terms[both] = computed("+", terms.get(both, ZERO), product, 0)
         else:
             return self.unknown("an operation")
-        return Form({at: z for at, z in found.items() if not is_zero(z)})
+        return Form({at: z for at, z in terms.items() if not is_zero(z)})
 
-    # what it makes
+    # the result
 
     def follow(self, space: Space) -> None:
-        """Evaluate the statements."""
+        """Evaluates the statements."""
         self._space = space
         try:
             self._run(tuple(self._way), space)
@@ -499,10 +504,10 @@ class Follower(Evaluator):
             self._is_lost = True
 
     def roles(self, space: Space) -> Roles:
-        """A, b, c and the error of the step that the statements are.
+        """A, b, c and the error of the step in the statements.
 
         Raises:
-            NoStep: they are none.
+            NoStep: there is none.
         """
         self.follow(space)
         callees = {x.callee: 0 for x in self._slopes if _name(x.callee) not in _MATHEMATICS}
@@ -517,8 +522,8 @@ class Follower(Evaluator):
             raise NoStep(self.looks_like) from None
 
     def _of_system(self, each: Sequence[Sequence[_Slope]]) -> Roles:
-        """The same where several functions make the slopes of several values, ``x' = f(x, v)`` and
-        ``v' = g(x, v)``: the coefficients of all are the same.
+        """The roles if several functions make the slopes of several values, ``x' = f(x, v)`` and
+        ``v' = g(x, v)``, with the same coefficients.
         """
         known = [x.args for slopes in each for x in slopes]
         if self._is_lost or len(each) < 2 or len({(len(x), len(x[0].args)) for x in each}) > 1:
@@ -530,22 +535,22 @@ class Follower(Evaluator):
             own += [i for i, forms in enumerate(columns) if names & _symbols(forms)]
         if len({*own}) != len(own) or len(own) != len(each):
             raise NoStep
-        found: dict[object, Roles] = {}
+        by_content: dict[object, Roles] = {}
         for slopes, at in zip(each, own, strict=True):
             others = {*own} - {at}
-            alone = [
+            separate = [
                 replace(x, args=tuple(y for i, y in enumerate(x.args) if i not in others))
                 for x in slopes
             ]
-            roles = self._of(alone, is_system=True)
-            found[shown(Record("", roles))] = roles
-        if len(found) != 1:
+            roles = self._of(separate, is_system=True)
+            by_content[shown(Record("", roles))] = roles
+        if len(by_content) != 1:
             raise NoStep
-        return found.popitem()[1]
+        return by_content.popitem()[1]
 
     @property
     def looks_like(self) -> bool:
-        """Whether f is evaluated at ``x + h*k``, where k is another value of f, in a loop too."""
+        """Whether f is evaluated at ``x + h*k`` with another value k of f, also in a loop."""
         if self._has_step_inside:
             return True
         called = {x.name: x.callee for x in self._slopes if _name(x.callee) not in _MATHEMATICS}
@@ -561,7 +566,7 @@ class Follower(Evaluator):
         )
 
     def _of(self, slopes: Sequence[_Slope], is_system: bool = False) -> Roles:
-        """The same where these are the evaluations of f, or of one of several such functions."""
+        """The roles for the evaluations of f, or of one of several such functions."""
         names = [x.name for x in slopes]
         width = len(slopes[0].args)
         if any(len(x.args) != width for x in slopes):
@@ -587,8 +592,8 @@ class Follower(Evaluator):
         given = _besides((*values, form), step) - {step, start, *names}
         is_elsewhere = all(len(x) > 1 for x in values)
         if len(given) == 1 and nodes and is_elsewhere and not any(" " in x for x in given):
-            # the first slope is an argument; where f is evaluated at the start too, that is
-            # a slope of another step
+            # the first slope is an argument; if f is also evaluated at the start, it is a slope of
+            # another step
             names, values, nodes = [*given, *names], [{(start,): ONE}, *values], [ZERO, *nodes]
         if not nodes and len(names) < 2:
             raise NoStep
@@ -606,12 +611,12 @@ class Follower(Evaluator):
             if of_error and name != result and _is_error(of_error, step, set(names)):
                 error = _before({**of_error, (start,): ONE}, (start,), step, places)
                 if result not in self._returned and _are_apart(b, A[-1], error):
-                    # either may be the step
+                    # either value may be the step
                     raise NoStep
                 break
         low = _before(second, (start,), step, places) if second and not error else []
         while len(b) > 1 and all(is_zero(row[-1]) for row in (*A, b, error, low) if row):
-            # what is evaluated for the next step
+            # evaluations for the next step
             A, b, nodes = [x[:-1] for x in A[:-1]], b[:-1], nodes[:-1]
             error, low = error[:-1], low[:-1]
         roles: Roles = {"A": Array([Array(row) for row in A]), "b": Array(b)}
@@ -619,27 +624,27 @@ class Follower(Evaluator):
         return roles | {role: Array(row) for role, row in rows.items() if row}
 
     def _result(self, start: str, values: Sequence[Terms]) -> tuple[str, Terms, Terms]:
-        """What the step comes to, with its name: what is returned, or else what is computed last;
-        of the two results of a pair, which are no values of stages, the first one, and the second.
+        """The result of the step with its name: the returned value, or the last computed one; for a
+        pair the first of its two results, which are no stage values, and the second.
 
         Raises:
-            NoStep: nothing; or one of several.
+            NoStep: there is no result, or more than two.
         """
         names = [x for x in self._returned if self._ends(x, start)]
         names = names or [x for x in reversed(self._space) if self._ends(x, start)]
-        found = {x: form for x in names if (form := _terms(self._space[x])) is not None}
+        forms = {x: form for x in names if (form := _terms(self._space[x])) is not None}
         others = {
             str(sorted((at, shown(x)) for at, x in form.items())): name
-            for name, form in found.items()
+            for name, form in forms.items()
             if form not in values and _is_one_in_all(form)
         }
-        if not found or len(others) > 2:
+        if not forms or len(others) > 2:
             raise NoStep
         if len(others) == 2:
-            # what is computed last comes first, what is returned in its order
+            # the last computed value comes first, returned values keep their order
             first, second = [*others.values()][:: 1 if names[0] in self._returned else -1]
-            return first, found[first], found[second]
-        name, form = next(iter(found.items()))
+            return first, forms[first], forms[second]
+        name, form = next(iter(forms.items()))
         return name, form, {}
 
     def _ends(self, name: str, start: str) -> bool:
@@ -648,7 +653,7 @@ class Follower(Evaluator):
 
 
 def _steps_from(at: ir.Expr, counters: Sequence[str]) -> int | None:
-    """How many steps an index is from a counter; None for other indices."""
+    """The number of steps from a counter to an index; None for other indices."""
     match at:
         case ir.Name(name) if name in counters:
             return 0
@@ -671,16 +676,16 @@ def _difference(x: Terms | None, y: Terms | None) -> str:
 
 
 def _terms(value: Value | None) -> Terms | None:
-    """A value as a polynomial; None for one that is none."""
+    """A value as a polynomial; None for other values."""
     if isinstance(value, Number):
         return {(): value}
     return value.terms if isinstance(value, Form) else None
 
 
 def _known_forms(forms: Iterator[Terms | None]) -> list[Terms]:
-    """The forms of an argument of f; none where one of them is not known."""
-    found = list(forms)
-    return [] if None in found else [x for x in found if x is not None]
+    """The polynomials of an argument of f; empty if one is unknown."""
+    known = list(forms)
+    return [] if None in known else [x for x in known if x is not None]
 
 
 def _symbols(forms: Iterable[Terms]) -> set[str]:
@@ -701,25 +706,25 @@ def _step(form: Terms, names: set[str]) -> str:
 
 
 def _nodes(columns: Sequence[Sequence[Terms]], step: str) -> list[Value]:
-    """The nodes by the argument that is a time; none where there is no such argument.
+    """The nodes from the time argument; empty if there is none.
 
     Raises:
-        NoStep: another argument changes from slope to slope.
+        NoStep: another argument differs between slopes.
     """
-    found: list[Value] = []
+    nodes: list[Value] = []
     for forms in columns:
         if len({tuple(sorted(form)) for form in forms}) > 1 or step in _symbols(forms):
             times = {at for form in forms for at in form if at != (step,)}
             if len(times) != 1:
                 raise NoStep
             (time,) = times
-            found = [_before(form, time, step, [()])[0] for form in forms]
+            nodes = [_before(form, time, step, [()])[0] for form in forms]
     is_single = any(len(forms) == 1 for forms in columns)
-    return found or [ZERO] * is_single
+    return nodes or [ZERO] * is_single
 
 
 def _is_one_in_all(form: Terms) -> bool:
-    """Whether the slopes times the step have the sum 1, as no partial sum of them has."""
+    """Whether the slopes times the step have the sum 1, unlike partial sums."""
     return abs(near(*(x for at, x in form.items() if len(at) == 2)) - 1) < NEAR
 
 
@@ -728,7 +733,7 @@ def _is_one(value: Value) -> bool:
 
 
 def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value]) -> bool:
-    """Whether two rows differ by an error, or by minus it."""
+    """Whether two rows differ by plus or minus an error."""
     return any(
         all(
             abs(near(x) - near(y) + sign * near(z)) < NEAR
@@ -739,16 +744,16 @@ def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value])
 
 
 def _is_error(form: Terms, step: str, names: set[str]) -> bool:
-    """Whether it is a sum of slopes times the step whose coefficients cancel."""
+    """Whether it is a sum of slopes times the step with coefficients that cancel."""
     is_sum = all(len(at) == 2 and step in at and names & set(at) for at in form)
     return len(form) > 1 and is_sum and abs(near(*form.values())) < NEAR
 
 
 def _before(form: Terms, base: Place, step: str, places: Sequence[Place]) -> list[Value]:
-    """What is before the step times each of some names, in what a step adds to ``base``.
+    """The coefficients of the step times each of some names, in a polynomial ``base`` + ….
 
     Raises:
-        NoStep: something else is there, too.
+        NoStep: there are other terms.
     """
     rest = {at: x for at, x in form.items() if not is_zero(x)}
     is_based = _is_one(rest.pop(base, ZERO))
@@ -759,7 +764,7 @@ def _before(form: Terms, base: Place, step: str, places: Sequence[Place]) -> lis
 
 
 def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
-    """Whether a call may give one of its arguments a slope, in Julia the first one."""
+    """Whether a call may write a slope into one of its arguments, in Julia the first one."""
     match value:
         case ir.Call(callee, (ir.Name(), _, *_), ()) if _name(callee).endswith("!"):
             pass
@@ -778,8 +783,8 @@ def _is_place(expr: ir.Expr) -> bool:
 
 
 def _place_changed(calls: Sequence[ir.Call], way: Iterable[ir.Statement]) -> int:
-    """Which argument a function changes: the last one whose values are used elsewhere, or else the
-    last one.
+    """The argument that a function changes: the last one with values that are used elsewhere,
+    otherwise the last one.
     """
     if not any(_is_place(x) for call in calls for x in call.args[1:-1]):
         return -1
@@ -787,14 +792,14 @@ def _place_changed(calls: Sequence[ir.Call], way: Iterable[ir.Statement]) -> int
     used = {y for x in assigned for y in ir.inside(x) if isinstance(y, ir.Name)}
     counts = {len(x.args) for x in calls}
     for i in reversed(range(1, counts.pop())) if len(counts) == 1 else ():
-        given = [x.args[i] for x in calls]
-        if all(map(_is_place, given)) and used & {y for x in given for y in ir.inside(x)}:
+        arguments = [x.args[i] for x in calls]
+        if all(map(_is_place, arguments)) and used & {y for x in arguments for y in ir.inside(x)}:
             return i
     return -1
 
 
 def _is_over_components(name: str, body: ir.Body) -> bool:
-    """Whether a loop computes arrays entry by entry, and nothing across entries."""
+    """Whether a loop computes arrays entry by entry, with nothing across entries."""
     assigned = [x for x in body if isinstance(x, ir.Assign)]
     entries = [x for x in assigned if isinstance(x.target, ir.Index)]
     others = [x for x in assigned if not isinstance(x.target, ir.Index)]
@@ -814,9 +819,9 @@ _TELLING = {
     *("print", "println", "printf", "fprintf", "disp", "append", "push", "push_back", "add"),
     *("push!", "emplace_back", "write", "writeln"),
 }
-"""Functions that keep or print what they are given, and do not change it."""
+"""Functions that store or print their arguments without changing them."""
 _COPIES = {"memcpy", "dbl_memcpy", "copyto!"}
-"""Functions that give their first argument the value of their second one."""
+"""Functions that assign their second argument to their first."""
 _SUMS = {
     (name, len(roles.split())): roles
     for name, roles in (
@@ -824,10 +829,10 @@ _SUMS = {
         *(("vecaxpy", "+ * x"), ("n_vlinearsum", "* x * x ="), ("axpy!", "* x +")),
     )
 }
-"""Functions that add vectors, by name and arguments: those of MFEM, PETSc and SUNDIALS."""
+"""Functions that add vectors, by name and number of arguments: of MFEM, PETSc and SUNDIALS."""
 _MATHEMATICS = {
     *("min", "max", "minimum", "maximum", "fmin", "fmax", "amin", "amax", "clamp", "clip"),
     *("hypot", "atan2", "arctan2", "pow", "power", "mod", "rem", "div", "fmod", "copysign"),
     *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
 }
-"""Functions of two numbers, by the names that languages have for them."""
+"""Functions of two numbers in various languages."""

@@ -1,5 +1,5 @@
-"""What expressions of sources are: exact numbers with the digits they were printed with, arrays,
-records, and what is unknown with the reason.
+"""The values of expressions in sources: exact numbers with their printed digits, arrays, records,
+and unknown values with their reasons.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
     from garkcli.sources.ir import Expr
 
 FEWEST_DIGITS = 6
-"""A decimal of so many digits may be rounded: its text is kept."""
+"""Decimals with so many digits may be rounded, so their text is kept."""
 MAX_BITS = 20_000
-"""Of the numerator and the denominator of a number."""
+"""Most bits of the numerator and the denominator of a number."""
 MAX_POWER = 200
 
 
 class Unknown(Frozen):
-    """An unknown value, and why: all that is computed from it is unknown for the same reason.
+    """An unknown value with its reason; values computed from it are unknown for the same reason.
 
     Attributes:
-        reason: why.
-        line: where.
-        was_written: whether a number was written there before.
+        reason: in words.
+        line: of the reason.
+        was_written: whether there was a written number before.
     """
 
     reason: str
@@ -48,10 +48,10 @@ class Number(Frozen, eq=False):
     """A number.
 
     Attributes:
-        value: as it is printed; None for an irrational one.
-        near: the float next to it, for sizes alone.
-        written: its text where that says more than the value.
-        is_whole: whether dividing it by a whole number gives a whole number.
+        value: as printed; None for an irrational number.
+        near: the nearest float, for its size only.
+        written: its text if that has more information than the value.
+        is_whole: whether it divides as an integer.
     """
 
     value: fmpq | None
@@ -61,12 +61,11 @@ class Number(Frozen, eq=False):
 
     @property
     def is_given(self) -> bool:
-        """Whether it was written; what C fills an array with was not."""
+        """Whether it was written, unlike the zeros with which C fills arrays."""
         return self is not FILL
 
     @cached_property
     def scalar(self) -> Scalar:
-        """The text of a coefficient."""
         return number(str(self.value)) if self.written is None else self.written
 
     @property
@@ -76,12 +75,12 @@ class Number(Frozen, eq=False):
 
 
 class Array(Mutable, eq=False):
-    """Values in order; those of a matrix are its rows.
+    """Values in order; the rows for a matrix.
 
     Attributes:
         items: the values.
-        is_growing: whether what is assigned behind its end makes it longer.
-        fill: the value of entries that nobody assigned before.
+        is_growing: whether assignments behind its end extend it.
+        fill: the value of entries without an assignment.
     """
 
     items: list[Value]
@@ -90,11 +89,11 @@ class Array(Mutable, eq=False):
 
     @property
     def is_matrix(self) -> bool:
-        """Whether all of it are arrays."""
+        """Whether all its items are arrays."""
         return bool(self.items) and all(isinstance(x, Array) for x in self.items)
 
     def flat(self) -> Iterator[Value]:
-        """What is in it, row by row."""
+        """The entries row by row."""
         for x in self.items:
             if isinstance(x, Array):
                 yield from x.flat()
@@ -102,7 +101,7 @@ class Array(Mutable, eq=False):
                 yield x
 
     def map(self, change: Callable[[Value], Value]) -> Array:
-        """The same with other entries."""
+        """The array with every entry passed to ``change``."""
         items = [x.map(change) if isinstance(x, Array) else change(x) for x in self.items]
         return Array(items, self.is_growing, self.fill)
 
@@ -111,11 +110,11 @@ class Record(Mutable, eq=False):
     """Values by name: of a structure, of a dictionary; or a call with its arguments.
 
     Attributes:
-        kind: what makes it; empty for a record without a name.
+        kind: the name of the call that makes it; empty for a record without a name.
         fields: the values by name.
-        args: those by place.
-        line: where it is made.
-        key: what it is called in the record that it is in; empty for others.
+        args: the positional values.
+        line: of its construction.
+        key: its key in the record around it; empty for others.
     """
 
     kind: str
@@ -136,13 +135,13 @@ class Null(Frozen):
 
 
 class Type(Frozen):
-    """A type: to call it is to convert. Its name is that of a known function, or empty."""
+    """A type: a call of it is a conversion. Its name is that of a known function, or empty."""
 
     name: str = ""
 
 
 class Function(Frozen, eq=False):
-    """A function of one expression, with the names that it sees."""
+    """A function of one expression, with the names visible in it."""
 
     parameters: tuple[str, ...]
     body: Expr
@@ -150,8 +149,8 @@ class Function(Frozen, eq=False):
 
 
 class Form(Frozen, eq=False):
-    """A polynomial in unknown values, by their names: what is before each product of names, these
-    in order.
+    """A polynomial in unknown values: the coefficient of each product of their names, which are
+    sorted.
     """
 
     terms: Terms
@@ -177,16 +176,15 @@ def _near(value: fmpq) -> float:
 ZERO = exact(fmpq(0), is_whole=True)
 ONE = exact(fmpq(1), is_whole=True)
 FILL = exact(fmpq(0), is_whole=True)
-"""A zero that nobody wrote."""
+"""A zero that was not written."""
 
 
 def integer(n: int) -> Number:
-    """A whole number."""
     return exact(fmpq(n), is_whole=True)
 
 
 def literal(text: str, line: int, is_whole: bool = False) -> Value:
-    """The number that is printed, exactly as it is printed."""
+    """The exact value of a printed number."""
     plain = text.strip().lower().replace("_", "").removeprefix("+")
     if plain.startswith("-"):
         return negative(literal(plain[1:], line, is_whole), line)
@@ -209,7 +207,7 @@ _OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
 
 
 def computed(sign: str, x: Value, y: Value, line: int) -> Value:
-    """The value of two numbers with a sign between them; unknown where one of them is."""
+    """The value of an operation on two numbers; unknown if one of them is."""
     for operand in (x, y):
         if isinstance(operand, Unknown):
             return operand
@@ -238,7 +236,7 @@ def computed(sign: str, x: Value, y: Value, line: int) -> Value:
 
 
 def _written(value: fmpq | None, near: float, text: Scalar, line: int) -> Value:
-    """A number with its text."""
+    """A number with its text; unknown if it is too long."""
     if len(text.text) > MAX_LENGTH or (value is not None and _is_long(value)):
         return Unknown(f"a number of more than {MAX_LENGTH} characters", line)
     return Number(value, near, text)
@@ -249,11 +247,11 @@ def _is_long(value: fmpq) -> bool:
 
 
 def truncated(x: Value, y: Value, line: int) -> Value:
-    """The quotient of whole numbers as C has it."""
+    """The quotient of integers in C."""
     if not isinstance(x, Number) or not isinstance(y, Number) or x.value is None or not y.value:
         return Unknown("a quotient of whole numbers", line)
-    found = x.value / y.value
-    return exact(fmpq(int(found.floor() if found > 0 else found.ceil())), is_whole=True)
+    ratio = x.value / y.value
+    return exact(fmpq(int(ratio.floor() if ratio > 0 else ratio.ceil())), is_whole=True)
 
 
 def negative(x: Value, line: int) -> Value:
@@ -267,7 +265,7 @@ def negative(x: Value, line: int) -> Value:
 
 
 def real(value: Value) -> Value:
-    """A number that divides as real ones do; an array of such."""
+    """The number as a real one in divisions; also for arrays."""
     if isinstance(value, Array):
         return value.map(real)
     if isinstance(value, Number) and value.is_whole and value is not FILL:
@@ -281,18 +279,18 @@ def _power(x: Number, y: Number, line: int) -> Value:
     p, q = int(y.value.p), int(y.value.q)
     base = x if q == 1 else root(x, q, line)
     if not isinstance(base, Number) or abs(p) < 2:
-        found: Value = ONE if not p else base
+        power: Value = ONE if not p else base
     else:
         value = None if base.value is None else base.value ** abs(p)
         text = Scalar(f"{base.scalar.inside(ATOM)}**{abs(p)}", PRODUCT)
-        found = _written(value, math.prod([base.near] * abs(p)), text, line)
-        if value is not None and base.written is None and isinstance(found, Number):
-            found = exact(value, base.is_whole)
-    return computed("/", ONE, found, line) if p < 0 else found
+        power = _written(value, math.prod([base.near] * abs(p)), text, line)
+        if value is not None and base.written is None and isinstance(power, Number):
+            power = exact(value, base.is_whole)
+    return computed("/", ONE, power, line) if p < 0 else power
 
 
 def root(x: Value, index: int, line: int) -> Value:
-    """A root, exactly: a rational number where it is one."""
+    """A root, exactly: a rational number if it is one."""
     if not isinstance(x, Number):
         return x if isinstance(x, Unknown) else Unknown(f"a root of {described(x)}", line)
     if (x.near < 0 and index % 2 == 0) or not 1 < index <= 12:
@@ -309,14 +307,14 @@ def _whole_root(n: int, index: int) -> int | None:
     if n.bit_length() > MAX_BITS:
         return None
     if index == 2:
-        found = math.isqrt(n)
-        return found if found**2 == n else None
+        floor_root = math.isqrt(n)
+        return floor_root if floor_root**2 == n else None
     near = round(n ** (1 / index)) if n.bit_length() < 1000 else 0
     return near if near**index == n else None
 
 
 def described(value: Value) -> str:
-    """What a value is, in words."""
+    """A value in words."""
     match value:
         case Unknown(reason=reason):
             return reason
@@ -332,7 +330,7 @@ def described(value: Value) -> str:
 
 
 def whole(value: Value | None) -> int | None:
-    """A whole number of moderate size; None for anything else."""
+    """An integer of moderate size; None for other values."""
     if not isinstance(value, Number) or value.value is None or value.value.q != 1:
         return None
     return int(value.value.p) if abs(value.near) < 10**6 else None
@@ -354,7 +352,7 @@ def transposed(value: Value, line: int) -> Value:
 
 
 def items_of(value: Value | None) -> list[Value]:
-    """What is in an array; nothing in other values."""
+    """The items of an array; empty for other values."""
     return value.items if isinstance(value, Array) else []
 
 
@@ -364,17 +362,16 @@ def is_matrix(value: Value | None) -> TypeGuard[Array]:
 
 
 def near(*values: Value | None) -> float:
-    """About the sum of all numbers in some values."""
+    """The approximate sum of all numbers in some values."""
     return sum(x.near for x in Array([x for x in values if x]).flat() if isinstance(x, Number))
 
 
 def is_zero(value: Value | None) -> bool:
-    """Whether it is the number 0."""
     return isinstance(value, Number) and value.is_zero
 
 
 def is_written(value: Value | None) -> bool:
-    """Whether somebody wrote it, or a part of it: it is more than the zeros of an array."""
+    """Whether it or a part of it was written in the source, unlike the zeros of new arrays."""
     if isinstance(value, Array):
         return any(map(is_written, value.flat()))
     return value is not None and not (isinstance(value, Number) and not value.is_given)
@@ -396,7 +393,7 @@ MAX_LEVELS = 100
 
 
 def size(value: Value, level: int = 0) -> int:
-    """About how many characters a value has when it is written out.
+    """The approximate number of characters of a value when written out.
 
     Raises:
         RecursionError: values are nested too deep.
@@ -417,7 +414,7 @@ def size(value: Value, level: int = 0) -> int:
 
 
 def copied(value: Value) -> Value:
-    """The same with arrays and fields of its own."""
+    """A copy with its own arrays and fields."""
     if isinstance(value, Array):
         return value.map(copied)
     if isinstance(value, Record):

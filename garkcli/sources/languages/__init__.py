@@ -1,1 +1,1 @@
-"""Languages: from the syntax tree of each to the statements that all are lowered to."""
+"""Languages: each lowers its syntax trees to common statements."""

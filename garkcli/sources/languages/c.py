@@ -43,7 +43,7 @@ _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
 _VALUES = frozenset({"number_literal", "unary_expression", "binary_expression"})
 """Nodes of the numbers in a list of coefficients."""
 _DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
-"""Where CUDA keeps what is declared: no part of the grammar."""
+"""Memory spaces of CUDA declarations, which the grammar does not know."""
 _ASIDE = re.compile(
     rb"""//[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|/\*(?P<closed>.*?\*/)?""", re.DOTALL
 )
@@ -78,13 +78,13 @@ class CLowering(Lowering):
         super().__init__(text, grammar)
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
         self._types_in_use: dict[str, bool] = {}
-        self._types_given: frozenset[str] = frozenset()  # by the templates around
+        self._types_given: frozenset[str] = frozenset()  # of the templates around
         self._reals: set[str] = set()  # parameters that are real numbers
-        self._gives: Node | None = None  # what the function around gives
-        self._code = b""  # without comments and texts, where it is wanted
+        self._gives: Node | None = None  # the return type of the function around
+        self._code = b""  # without comments and texts, made on use
 
     def statement(self, node: Node) -> Iterator[ir.Statement]:
-        """A statement; braces behind a macro, ``DEFINE(3, 2) {…}``, are a scope of their own."""
+        """A statement; braces behind a macro, ``DEFINE(3, 2) {…}``, are a separate scope."""
         made = _macro_before(node)
         if node.type == "template_declaration":
             around = self._types_given
@@ -163,13 +163,15 @@ class CLowering(Lowering):
                 yield ir.Do(self.expr(node), line)
 
     def _declares(self, record: str, body: Node) -> None:
-        """The fields of a structure that no function makes."""
+        """Declares the fields of a structure without functions."""
         if all(x.type != "function_definition" for x in body.named_children):
             inside = (x for each in self.children(body) for x, _ in _declarators(each))
             self.declares(record, (self._declared(x)[0] for x in inside))
 
     def _conditional(self, node: Node) -> Iterator[ir.Statement]:
-        """``#if``: both ways; one that has no other is taken, of ``#if 0`` the other."""
+        """The branches of ``#if``; without ``#else`` its only one, and of ``#if 0`` the other
+        one.
+        """
         other = part(node, "alternative")
         condition = part(node, "condition") or part(node, "name")
         first = self.block(x for x in node.named_children if x not in (other, condition))
@@ -177,7 +179,7 @@ class CLowering(Lowering):
         is_off = self.text(condition) == "0"
         made = [x for x in ir.statements((*first, *second)) if not isinstance(x, ir.Branch)]
         if other is None or is_off or (first and second and all(map(_is_macro, made))):
-            # a macro in several ways: the last one is the plain one
+            # a macro in several branches: the last one is the plain one
             yield from second if other or is_off else first
         else:
             yield ir.Branch((first, second), line_of(node), is_total=True)
@@ -190,9 +192,9 @@ class CLowering(Lowering):
             yield ir.Assign(ir.Name(self.text(part(node, "name"))), value, line_of(node))
 
     def _fragment(self, text: str) -> ir.Expr | None:
-        """The expression that a macro stands for; None where it is none."""
+        """The expression of a macro; None if it has none."""
         plain = text.split("//")[0].split("/*")[0].replace("\\\n", " ").strip()
-        # in GARK_REAL_C(x) x##L the suffix of a number is made
+        # x##L in GARK_REAL_C(x) appends the suffix of a number
         plain = re.sub(r"\s*##\s*\w+", "", plain)
         inner = CLowering(f"double x = {plain};", self._grammar)
         tree = inner.parse(inner._data)
@@ -206,13 +208,15 @@ class CLowering(Lowering):
         head = declarator = part(node, "declarator")
         while head is not None and head.type != "function_declarator":
             head = part(head, "declarator")
-        given = (x for x in self.children(part(head, "parameters")) if part(x, "declarator"))
+        parameter_nodes = (
+            x for x in self.children(part(head, "parameters")) if part(x, "declarator")
+        )
         made = self.block(x for x in self.children(node) if x.type == "field_initializer_list")
         body = part(node, "body")
         around, self._gives = self._gives, part(node, "type")
         made += self.block([body]) if body and self.may_hold_a_table(node) else ()
         self._gives = around
-        parameters = tuple(self._declared(x)[0] for x in given)
+        parameters = tuple(self._declared(x)[0] for x in parameter_nodes)
         name, types = self._declared(declarator)[0], self._types(part(node.parent, "parameters"))
         # a method without arguments is a property
         is_property = node.parent and node.parent.type == "field_declaration_list"
@@ -223,14 +227,14 @@ class CLowering(Lowering):
         return self.text(part(node, "type")) not in {"", "void"}
 
     def returned(self, node: Node | None) -> ir.Expr:
-        """The value of a function; ``return {c, A, b};`` makes the structure that it gives."""
+        """The value of a function; ``return {c, A, b};`` makes the structure that it returns."""
         return self._with_fields(self.expr(node), self._gives, line_of(node) if node else 0)
 
     def _types(self, parameters: Node | None) -> frozenset[str]:
-        """The types that a template is given."""
-        given = self.children(parameters)
+        """The type parameters of a template."""
+        parameter_nodes = self.children(parameters)
         kinds = {"type_parameter_declaration", "optional_type_parameter_declaration"}
-        named = (y for x in given if x.type in kinds for y in self.children(x)[:1])
+        named = (y for x in parameter_nodes if x.type in kinds for y in self.children(x)[:1])
         return frozenset(map(self.text, named))
 
     def _declaration(self, node: Node) -> Iterator[ir.Statement]:
@@ -240,15 +244,19 @@ class CLowering(Lowering):
             yield from self.block([kind])
         sizes = self._array_sizes(kind)
         for each, default in _declarators(node):
-            given = part(each, "value") or default
+            initialiser = part(each, "value") or default
             name, extents = self._declared(each)
             extents = (*extents, *sizes)
-            if given is None and (not extents or each.type not in _DECLARED):
+            if initialiser is None and (not extents or each.type not in _DECLARED):
                 continue
-            value = None if given is None else self.expr(given)
-            if given and given.type == "argument_list" and _LIST.search(self.text(kind)):
+            value = None if initialiser is None else self.expr(initialiser)
+            if (
+                initialiser
+                and initialiser.type == "argument_list"
+                and _LIST.search(self.text(kind))
+            ):
                 # std::vector<double> b(3)
-                value = ir.Call(ir.Name("vector"), self.exprs(given.named_children))
+                value = ir.Call(ir.Name("vector"), self.exprs(initialiser.named_children))
             elif isinstance(value, ir.Call) and kind and kind.type == "primitive_type":
                 # double x(0.5)
                 is_made = value.callee == ir.Name("constructor") and len(value.args) == 1
@@ -264,7 +272,7 @@ class CLowering(Lowering):
     def _with_fields(
         self, value: ir.Expr, kind: Node | None, line: int, is_array: bool = False
     ) -> ir.Expr:
-        """A list of what is in a structure, by its fields, or an array of such lists."""
+        """A list of the members of a structure, by its fields, or an array of such lists."""
         name = self.text(kind).rpartition(" ")[2].partition("<")[0]
         if not isinstance(value, ir.Items) or name not in self._fields:
             return value
@@ -283,22 +291,22 @@ class CLowering(Lowering):
         return (self.expr(args[1]), *self._array_sizes(args[0]))
 
     def _instance(self, kind: Node | None) -> ir.Expr | None:
-        """A template with numbers, which is a list, or with such lists, which is a call; None for
-        another type.
+        """A template with numbers as a list, or with such lists as a call; None for another
+        type.
         """
         while kind is not None and kind.type in {"qualified_identifier", "type_descriptor"}:
             kind = part(kind, "name") or part(kind, "type")
         if kind is None or kind.type != "template_type":
             return None
-        given = self.children(part(kind, "arguments"))
-        lists = [x for each in given if (x := self._instance(each)) is not None]
+        arguments = self.children(part(kind, "arguments"))
+        lists = [x for each in arguments if (x := self._instance(each)) is not None]
         if lists:
             return ir.Call(ir.Name(self.name(kind)), tuple(lists))
-        numbers = [x for x in given if x.type != "type_descriptor"]
+        numbers = [x for x in arguments if x.type != "type_descriptor"]
         return ir.Items(self.exprs(numbers)) if len(numbers) > 1 else None
 
     def _declared(self, node: Node | None) -> tuple[str, tuple[ir.Expr | None, ...]]:
-        """The name and the extents that a declarator declares."""
+        """The name and the extents in a declarator."""
         extents: list[ir.Expr | None] = []
         while node is not None and node.type not in _NAMES:
             if node.type == "array_declarator":
@@ -307,28 +315,30 @@ class CLowering(Lowering):
             node = part(node, "declarator") or next(iter(node.named_children), None)
         name = self.text(node)
         if node is not None and node.type == "template_function":
-            # nodes<heun<T>> of a template that is given a type belong to that type
+            # nodes<heun<T>>, a template with a type as argument, belongs to that type
             of = next(iter(self.children(part(node, "arguments"))), None)
             name = f"{self.name(of)}::{self.name(part(node, 'name'))}"
         return name, tuple(extents)
 
     def target(self, node: Node) -> ir.Expr:
-        """What is assigned to: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
+        """The target of an assignment: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
         return _target(self.expr(node))
 
     def _parts(self, node: Node) -> list[Node]:
-        """What is between the commas."""
+        """The operands between commas."""
         if node.type != "comma_expression":
             return [node]
         return [y for x in self.children(node) for y in self._parts(x)]
 
     def _fills(self, first: Node, more: Sequence[Node]) -> bool:
-        """Whether an array that is empty gets its numbers: ``a += 0, 1;`` of Boost."""
+        """Whether an empty array gets its numbers: ``a += 0, 1;`` of Boost."""
         is_sum = self.text(part(first, "operator")) == "+="
         return is_sum and all(x.type in _VALUES for x in more)
 
     def _counted(self, node: Node) -> tuple[str, ir.Expr]:
-        """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
+        """The counter of ``for (i = a; i < b; i++)`` and its range; an empty name for other
+        loops.
+        """
         start, condition = part(node, "initializer"), part(node, "condition")
         start = part(start, "declarator") or start
         name = self._declared(part(start, "declarator") or part(start, "left"))[0]
@@ -365,7 +375,7 @@ class CLowering(Lowering):
                     of = part(of, "argument")
                 return self.expr(of)
             case "user_defined_literal" if inside:
-                # 2_r is what the program makes of 2
+                # 2_r is a number that the program makes from 2
                 return ir.Call(ir.Name("double"), (self.expr(inside[0]),))
             case "cast_expression":
                 return self._cast(part(node, "type"), self.expr(part(node, "value")))
@@ -401,13 +411,13 @@ class CLowering(Lowering):
         return unmeant(node)
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
-        match found := super().expression(node, inside):
+        match lowered := super().expression(node, inside):
             case ir.Binary("+" | "-" as sign, _, right) if self._is_type(inside[0]):
                 # (real)-0.5
                 return self._cast(self.children(inside[0])[0], ir.Unary(sign, right))
             case ir.Name(name) if name in self._reals:
-                return ir.Call(ir.Name("double"), (found,))
-        return found
+                return ir.Call(ir.Name("double"), (lowered,))
+        return lowered
 
     def _finished(self, node: Node) -> ir.Expr:
         """``(Matrix() << 0, 1).finished()`` of Eigen."""
@@ -419,9 +429,9 @@ class CLowering(Lowering):
 
     def _lambda(self, node: Node) -> ir.Expr:
         """``[](double x, double y) { return x / y; }``."""
-        given = self.children(part(node, "declarator", "parameters"))
-        parameters = tuple(self._declared(part(x, "declarator"))[0] for x in given)
-        are_whole = [_WHOLE_TYPES.search(self.text(part(x, "type"))) for x in given]
+        parameter_nodes = self.children(part(node, "declarator", "parameters"))
+        parameters = tuple(self._declared(part(x, "declarator"))[0] for x in parameter_nodes)
+        are_whole = [_WHOLE_TYPES.search(self.text(part(x, "type"))) for x in parameter_nodes]
         around, self._reals = (
             self._reals,
             {name for name, is_whole in zip(parameters, are_whole, strict=True) if not is_whole},
@@ -434,7 +444,7 @@ class CLowering(Lowering):
         return unmeant(node)
 
     def _is_type(self, node: Node) -> bool:
-        """Whether a name in brackets is one that variables are declared with."""
+        """Whether a name in parentheses is a type of declared variables."""
         inside = self.children(node) if node.type == "parenthesized_expression" else []
         if len(inside) != 1 or not self.is_a("name", inside[0]):
             return False
@@ -447,23 +457,23 @@ class CLowering(Lowering):
         return self._types_in_use[name]
 
     def _cast(self, kind: Node | None, value: ir.Expr) -> ir.Expr:
-        """A number of another type."""
+        """A number converted to another type."""
         is_whole = _WHOLE_TYPES.search(self.text(kind).partition(" ")[0])
         return value if is_whole else ir.Call(ir.Name("double"), (value,))
 
     def number(self, text: str) -> ir.Expr:
         if text[:1] in {"-", "+"}:
             return ir.Unary(text[0], self.number(text[1:]))
-        found = _NUMBER.fullmatch(text)
-        if not found or not found["digits"]:
+        match = _NUMBER.fullmatch(text)
+        if not match or not match["digits"]:
             return ir.Opaque(f"the number {text[:20]}")
-        digits = found["digits"].replace("'", "")
-        is_whole = digits.isdigit() and (found["suffix"] or "").lower() not in {"f", "q"}
+        digits = match["digits"].replace("'", "")
+        is_whole = digits.isdigit() and (match["suffix"] or "").lower() not in {"f", "q"}
         return ir.Literal(digits, is_whole)
 
 
 def _macro_before(node: Node) -> Node | None:
-    """The call of a macro of which braces outside of functions are the body; None for others."""
+    """The call of a macro whose body is a block outside of functions; None for other blocks."""
     if node.type != "compound_statement" or node.parent is None:
         return None
     before = node.prev_named_sibling
@@ -477,12 +487,10 @@ def _macro_before(node: Node) -> Node | None:
 
 
 def _without_open_comment(data: bytes) -> bytes:
-    """A source up to the comment that never ends: its rest takes the grammar time like the cube of
-    its length.
-    """
-    for found in _ASIDE.finditer(data):
-        if found[0].startswith(b"/*") and found["closed"] is None:
-            return data[: found.start()]
+    """The source before a comment that never ends: on its rest the grammar takes cubic time."""
+    for match in _ASIDE.finditer(data):
+        if match[0].startswith(b"/*") and match["closed"] is None:
+            return data[: match.start()]
     return data
 
 
@@ -500,19 +508,19 @@ def _target(expr: ir.Expr) -> ir.Expr:
 
 
 def _declarators(node: Node) -> list[tuple[Node, Node | None]]:
-    """What a declaration declares, each with the value that members have."""
-    found: list[tuple[Node, Node | None]] = []
+    """The declarators of a declaration, with default values of members."""
+    declarators: list[tuple[Node, Node | None]] = []
     for i, child in enumerate(node.children):
         match node.field_name_for_child(i):
             case "declarator":
-                found.append((child, None))
-            case "default_value" if found:
-                found[-1] = found[-1][0], child
-    return found
+                declarators.append((child, None))
+            case "default_value" if declarators:
+                declarators[-1] = declarators[-1][0], child
+    return declarators
 
 
 def _without_braces(value: ir.Expr, depth: int) -> ir.Expr:
-    """Nested lists without the second pair of braces that ``std::array`` may have."""
+    """Nested lists without the second pair of braces that ``std::array`` allows."""
     if not isinstance(value, ir.Items):
         return value
     if len(value.items) == 1 and _depth(value) > depth:
@@ -521,7 +529,7 @@ def _without_braces(value: ir.Expr, depth: int) -> ir.Expr:
 
 
 def _within_braces(value: ir.Expr) -> ir.Expr:
-    """What a class with arrays in it is made of: ``Vector<3> b{{{1, 4, 1}}}``."""
+    """The list in the braces of a class with an array: ``Vector<3> b{{{1, 4, 1}}}``."""
     while isinstance(value, ir.Items) and len(value.items) == 1 and _depth(value) > 1:
         value = value.items[0]
     return value
@@ -539,7 +547,7 @@ def _is_macro(made: ir.Statement) -> bool:
 
 @lru_cache(maxsize=1)
 def _tables(text: str, source: str) -> Sequence[FoundTable]:
-    """Those of both formats, which are read at once."""
+    """The tables of both formats, which are read together."""
     if source.endswith(INCLUDED) and not is_in_c(text):
         return []
     grammar = C if source.endswith((".c", ".def")) else CPP
@@ -551,7 +559,7 @@ def _tables(text: str, source: str) -> Sequence[FoundTable]:
 
 
 def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a C or C++ source, but for those that are registered with PETSc."""
+    """The tables of a C or C++ source that are not registered with PETSc."""
     return [x for x in _tables(text, source) if x.format == NAME]
 
 

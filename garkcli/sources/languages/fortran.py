@@ -1,4 +1,4 @@
-"""Fortran: free form from 1990 on, and the fixed form before, as free form."""
+"""Fortran: free form from 1990 on, and the older fixed form, converted to free form."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _ONE = ir.Literal("1", is_whole=True)
 
 
 class FortranLowering(Lowering):
-    """Declarations and assignments of Fortran; names have no case."""
+    """Declarations and assignments of Fortran; names are case-insensitive."""
 
     grammar = "tree_sitter_fortran"
     kinds = kinds(
@@ -86,7 +86,7 @@ class FortranLowering(Lowering):
                         case (ir.Name() as constant, value):
                             yield ir.Assign(constant, value, line)
             case "assignment_statement" if len(inside) == 2:
-                # a number that is assigned to an array fills it
+                # a number assigned to an array fills it
                 sign = "" if inside[0].type == "call_expression" else "."
                 yield from self.assignment(node, inside[0], inside[1], sign)
             case "do_loop" | "do_loop_statement":
@@ -114,40 +114,40 @@ class FortranLowering(Lowering):
         attributes = node.children_by_field_name("attribute")
         shared = [x for x in attributes if self.text(x).lower().startswith("dimension")]
         for each in node.children_by_field_name("declarator"):
-            given, sized = part(each, "right"), part(each, "left") or each
+            initialiser, sized = part(each, "right"), part(each, "left") or each
             own = [x for x in self.children(sized)[1:] if sized.type == "sized_declarator"]
             sizes = own or [y for x in shared for y in self.children(x)]
             name, line = self.first_name(each), line_of(each)
             extents = self._sized(name, self.children(sizes[0]) if sizes else [])
             if extents:
                 yield ir.Assign(ir.Name(name), None, line, extents=extents, is_real=is_real)
-            if given is not None:
-                value = self.expr(given)
+            if initialiser is not None:
+                value = self.expr(initialiser)
                 number = self._number(value)
                 self._numbers |= {} if is_real or number is None else {name: number}
                 digits = value.text.partition("e")[0] if isinstance(value, ir.Literal) else "1"
                 if extents and not digits.strip("0."):
-                    # zeros that procedures may change
+                    # procedures may change these zeros
                     value = ir.Call(ir.Name("zeros"), extents)
                 yield ir.Assign(ir.Name(name), value, line, ".", is_real=is_real)
 
     def _sized(self, name: str, sizes: list[Node]) -> tuple[ir.Expr, ...]:
-        """The extents of an array; what its indices begin with is remembered."""
-        found: list[ir.Expr] = []
+        """The extents of an array; the first indices are remembered."""
+        extents: list[ir.Expr] = []
         lower: list[ir.Expr | None] = []
         for size in self.exprs(sizes):
             first, last = (size.first, size.last) if isinstance(size, ir.Range) else (None, size)
             by = None if first is None or first == _ONE else less_one(first)
             if last is None:
                 last = ir.Opaque("an extent that is not known")
-            found.append(last if by is None else ir.Binary("-", last, by))
+            extents.append(last if by is None else ir.Binary("-", last, by))
             lower.append(by)
-        self._extents[name], self._lower[name] = tuple(found), tuple(lower)
-        return tuple(found)
+        self._extents[name], self._lower[name] = tuple(extents), tuple(lower)
+        return tuple(extents)
 
     def _data_set(self, named: list[Node], values: Node, line: int) -> Iterator[ir.Statement]:
-        """``data a, x / 1.0, 3*0.0 /``: the entries of arrays are by columns; those of loops, and
-        of arrays of unknown sizes, are not known.
+        """``data a, x / 1.0, 3*0.0 /``: entries of arrays by columns; entries in loops, and of
+        arrays of unknown size, are unknown.
         """
         items: list[ir.Expr] = []
         value: ir.Expr
@@ -167,7 +167,7 @@ class FortranLowering(Lowering):
             is_known = is_known and self.is_a("name", node) and 0 < count <= len(items)
             target: ir.Expr = ir.Name(name)
             if not is_known:
-                # numbers are written, nobody knows where
+                # numbers at unknown places
                 yield ir.Assign(target, written, line, ".", is_real=True)
                 target, value = ir.Index(target, (_UNKNOWN,)), _UNKNOWN
             elif extents:
@@ -185,7 +185,7 @@ class FortranLowering(Lowering):
         return self.loop(node, "", ir.Range())
 
     def name(self, node: Node | None) -> str:
-        """A name in small letters, or as a matrix ``A`` is written first: case has no meaning."""
+        """A name in lower case, or for a matrix ``A`` as first written: case has no meaning."""
         text = self.text(node)
         plain = text.lower()
         return self._spelled.setdefault(plain, text if text[:2] in {"A", "A_"} else plain)
@@ -205,7 +205,7 @@ class FortranLowering(Lowering):
         return unmeant(node)
 
     def _called(self, callee: Node, given: Node) -> ir.Expr:
-        """A call, or an entry of an array: both are written with round brackets."""
+        """A call, or an entry of an array: both have parentheses."""
         args, named = self.arguments(self.children(given))
         name = self.name(callee)
         if name in _FUNCTIONS:
@@ -219,8 +219,8 @@ class FortranLowering(Lowering):
         return ir.Index(self.expr(callee), self._from_one(name, args))
 
     def _from_one(self, name: str, at: tuple[ir.Expr, ...]) -> tuple[ir.Expr, ...]:
-        """The indices of an array as they are when it begins with 1; counters of loops over arrays
-        of unknown length, which are vectors, stay as they are.
+        """The indices of an array counted from 1; counters of loops over vectors of unknown length
+        are unchanged.
         """
         lower = self._lower.get(name, ())
         if len(lower) != len(at):
@@ -232,15 +232,15 @@ class FortranLowering(Lowering):
         )
 
     def _number(self, expr: ir.Expr) -> int | None:
-        """A whole number, also by its name, as a sum or a difference; None for others."""
+        """An integer, also by its name, as a sum or a difference; None for others."""
         match expr:
             case ir.Literal(text, True):
                 return int(text)
             case ir.Name(name):
                 return self._numbers.get(name)
             case ir.Unary("-", of):
-                found = self._number(of)
-                return None if found is None else -found
+                value = self._number(of)
+                return None if value is None else -value
             case ir.Binary("+" | "-" as sign, left, right):
                 a, b = self._number(left), self._number(right)
                 return None if a is None or b is None else a + b if sign == "+" else a - b
@@ -248,7 +248,7 @@ class FortranLowering(Lowering):
 
 
 def _less(expr: ir.Expr, by: ir.Expr) -> ir.Expr:
-    """An index, or the ends of a slice, less a number."""
+    """An index, or the ends of a slice, minus a number."""
     if isinstance(expr, ir.Range):
         ends = (None if x is None else _less(x, by) for x in (expr.first, expr.last))
         return ir.Range(*ends)
@@ -266,8 +266,8 @@ def find(text: str, source: str) -> list[FoundTable]:
 
 
 def _free(text: str) -> str:
-    """A source of fixed form in free form, line by line: comments have a letter in column 1, lines
-    that go on with the one before a sign in column 6.
+    """A source in fixed form converted to free form, line by line: comments have a letter in column
+    1, continuation lines a sign in column 6.
     """
     lines = text.split("\n")
     last = -1
@@ -285,7 +285,7 @@ def _free(text: str) -> str:
 
 
 def _with_ends(lines: list[str]) -> list[str]:
-    """Loops up to a label, ``do 10 i = 1, n``, with an end behind the statement that has it."""
+    """Loops up to a label, ``do 10 i = 1, n``, with ``end do`` after the labelled statement."""
     open_loops: list[str] = []
     ended = 0
     for i, line in enumerate(lines):
@@ -312,7 +312,7 @@ _LABEL = re.compile(r" {0,4}(?P<label>\d+)\s+(?P<rest>\S.*)")
 _CODE = re.compile(r"(?:[^!'\"]|'[^']*'|\"[^\"]*\")*")
 """A line without its comment."""
 _IN_FIXED_FORM = re.compile(r"(?:(?:[cCdD*!#\t][^\n]*|[ 0-9]{5}[^\n]*|\s*)(?:\n|\Z))*")
-"""Lines that have comments, or nothing but labels, in their first five columns."""
+"""Lines with comments, labels or blanks only in their first five columns."""
 _FIXED = (".f", ".for", ".f77", ".ftn")
 _READER = reader(
     FortranLowering,

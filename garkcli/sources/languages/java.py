@@ -28,7 +28,7 @@ _NUMBER = re.compile(
     r"(?P<suffix>[fFdDlL]?)"
 )
 _LISTS = frozenset({"of", "asList"})
-"""Functions whose arguments are the list that they give."""
+"""Functions that return the list of their arguments."""
 _GETTER = re.compile(r"get(?=[A-Z])")
 
 
@@ -88,7 +88,7 @@ class JavaLowering(Lowering):
                 yield ir.Do(self._invoked(node, is_statement=True), line)
 
     def _owner(self, node: Node) -> str:
-        """The class that a constant of an enumeration is of."""
+        """The class of a constant of an enumeration."""
         while node.parent is not None and node.type != "enum_declaration":
             node = node.parent
         return self.text(part(node, "name"))
@@ -111,7 +111,7 @@ class JavaLowering(Lowering):
         return tuple(filter(None, (self.text(part(x, "name")) for x in given)))
 
     def _function(self, node: Node) -> ir.Scope:
-        """A method; one without parameters that gives a value is a property, also ``getX``."""
+        """A method; one without parameters that returns a value is a property, also ``getX``."""
         name, body = self.text(part(node, "name")), part(node, "body")
         parameters, gives = self._parameters(node), ""
         if not parameters and node.type == "method_declaration":
@@ -128,7 +128,7 @@ class JavaLowering(Lowering):
                 yield ir.Assign(name, self.expr(value), line_of(each), is_real=is_real)
 
     def case(self, node: Node) -> tuple[ir.Scope]:
-        """One of several ways, by its label."""
+        """One case of a switch, by its label."""
         inside = self.children(node)
         title = " ".join(map(self.text, self.children(inside[0]) if inside else ())).strip('"')
         return (ir.Scope("entry", title, self.block(inside[1:]), line_of(node)),)
@@ -138,11 +138,11 @@ class JavaLowering(Lowering):
         return self.text(node).partition("<")[0]
 
     def number(self, text: str) -> ir.Expr:
-        found = _NUMBER.fullmatch(text)
-        if not found:
+        match = _NUMBER.fullmatch(text)
+        if not match:
             return ir.Opaque(f"the number {text[:20]}")
-        digits = found["digits"]
-        is_whole = digits.replace("_", "").isdigit() and found["suffix"].lower() in {"", "l"}
+        digits = match["digits"]
+        is_whole = digits.replace("_", "").isdigit() and match["suffix"].lower() in {"", "l"}
         return ir.Literal(digits, is_whole)
 
     def other(self, node: Node, inside: list[Node]) -> ir.Expr:
@@ -174,8 +174,8 @@ class JavaLowering(Lowering):
         if of is None or (of.type == "identifier" and self.text(of)[:1].isupper()):
             return self.call(ir.Name(name), args)
         value = self.expr(of)
-        found = None if is_statement else method_called(value, name, args)
-        return found or ir.Call(ir.Field(value, name), args)
+        operation = None if is_statement else method_called(value, name, args)
+        return operation or ir.Call(ir.Field(value, name), args)
 
 
 READER = reader(

@@ -1,8 +1,8 @@
 """Julia.
 
-The grammar misreads some arithmetic without saying so: ``3*(2)^2`` is (3·2)² to it, ``5^(1/2)`` a
-product, ``[a -b]`` one entry. So the operands and signs of an expression are taken from it, and
-their order from Julia's own rules.
+The grammar silently misreads some arithmetic: ``3*(2)^2`` as (3·2)², ``5^(1/2)`` as a product, ``[a
+-b]`` as one entry. So the operands and operators of an expression come from the grammar, and their
+precedence from Julia's own rules.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _LEVELS = {
     "": 6,
     "^": 8,
 }
-"""How tightly operators hold, the empty one between factors; a sign is below the power."""
+"""Precedence of operators, the empty one between factors; a sign is below the power."""
 _SIGN_LEVEL = 7
 _PLAIN = {"": "*", "//": "/"}
 _PASSED = frozenset(
@@ -46,17 +46,17 @@ _PASSED = frozenset(
         *("@.", "@view", "@views", "@inbounds", "@fastmath"),
     }
 )
-"""Macros that give what they get."""
+"""Macros that return their argument."""
 _PARTED = frozenset({"block", "tried", "branch", "assignment"})
 _DEFINITIONS = frozenset({"function_definition", "struct_definition"})
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
 _TYPED = frozenset({"signature", "where_expression", "typed_expression"})
 _GENERAL = frozenset({"Type", "Val", "Number", "Real", "Integer", "Int", "Bool", "Union", "Any"})
-"""Types that say nothing of what a function belongs to."""
+"""General types, which own no functions."""
 _BY_COLUMNS = frozenset({"SMatrix", "MMatrix"})
-"""Types with their numbers of rows and columns, which take entries by columns."""
+"""Types with their numbers of rows and columns, with entries by columns."""
 _TYPE = re.compile(r"T[0-9]?")
-"""Arguments that are types, by their names."""
+"""Names of arguments that are types."""
 _FIELDS = frozenset({"identifier", "typed_expression"})
 _ARGUMENT = ir.Name("the argument")
 
@@ -84,7 +84,7 @@ class JuliaLowering(Lowering):
     )
 
     def __init__(self, text: str) -> None:
-        # what its grammar lacks: 2√2, and the minus sign of Unicode
+        # the grammar lacks 2√2 and the minus sign of Unicode
         super().__init__(_ROOT.sub("*√", text).replace("−", "-"))
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
@@ -116,7 +116,7 @@ class JuliaLowering(Lowering):
                 yield ir.Do(self.expr(node), line)
 
     def _macro(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
-        """A macro before a definition is passed over."""
+        """A macro; one before a definition is skipped."""
         name, args = self._macro_parts(inside)
         if args and name == "@unpack":
             first = self.children(args[0])
@@ -128,14 +128,14 @@ class JuliaLowering(Lowering):
             yield ir.Do(self.expr(node), line)
 
     def _macro_parts(self, inside: list[Node]) -> tuple[str, list[Node]]:
-        """The name of a macro, without that of its module, and what it is given."""
+        """The name of a macro without its module, and its arguments."""
         name = next((self.text(x) for x in inside if x.type == "macro_identifier"), "")
         return name, [] if inside[-1].type == "macro_identifier" else self.children(inside[-1])
 
     def assignment(
         self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
     ) -> Iterator[ir.Statement]:
-        """A target has a value, or a function one expression."""
+        """An assignment, or a definition of a function by one expression."""
         inside = self.children(node)
         if len(inside) < 3:
             return
@@ -150,7 +150,7 @@ class JuliaLowering(Lowering):
             yield from super().assignment(node, head, right, sign)
 
     def target(self, node: Node) -> ir.Expr:
-        """What is assigned to, or several."""
+        """The target of an assignment, or several."""
         is_several = node.type in {"open_tuple", "tuple_expression"}
         return ir.Items(self.exprs(node.named_children)) if is_several else self.expr(node)
 
@@ -170,7 +170,7 @@ class JuliaLowering(Lowering):
         statements = self.block(body)
         match statements[-1:]:
             case (ir.Do(value, last),) if not _is_for_effect(value):
-                # the last value is what the function gives
+                # the last value is returned
                 statements = (*statements[:-1], ir.Return(value, last))
         return ir.Scope("function", name, statements, line, parameters, frozenset(types), of=of)
 
@@ -183,7 +183,7 @@ class JuliaLowering(Lowering):
         return "" if is_general else name
 
     def _parameter(self, given: Node, types: set[str]) -> str:
-        """The name of a parameter; one that is a type is put among these."""
+        """The name of a parameter; a parameter that is a type is added to ``types``."""
         if given.type == "named_argument":
             given = given.named_children[0]
         text, known = self.text(given), self.first_name(given)
@@ -202,7 +202,7 @@ class JuliaLowering(Lowering):
         return super().expression(node, inside)
 
     def _is_arithmetic(self, node: Node, inside: list[Node]) -> bool:
-        """Whether a node is operands and signs; ``5^(1/2)`` has a call of ``^``."""
+        """Whether a node consists of operands and operators; ``5^(1/2)`` has a call of ``^``."""
         match node.type:
             case "binary_expression":
                 return len(inside) == 3
@@ -213,7 +213,7 @@ class JuliaLowering(Lowering):
         return node.type == "juxtaposition_expression"
 
     def _leaves(self, node: Node) -> Iterator[Node]:
-        """The operands and signs of an expression, in order; ``a (b)`` are two operands."""
+        """The operands and operators of an expression, in order; ``a (b)`` are two operands."""
         waiting = [node]
         while waiting:
             node = waiting.pop()
@@ -235,16 +235,16 @@ class JuliaLowering(Lowering):
         return text[1:] if text[:1] == "." and len(text) > 1 else text
 
     def _whole(self, leaves: Iterable[Node]) -> ir.Expr:
-        """The expression that leaves are; long ones count as deep ones."""
+        """The expression of leaves; long ones count as deep."""
         waiting = deque(leaves)
         longer = len(waiting) // 4
         self._depth += longer
-        found = self._ordered(waiting)
+        ordered = self._ordered(waiting)
         self._depth -= longer
-        return found
+        return ordered
 
     def _ordered(self, leaves: deque[Node], least: int = 0) -> ir.Expr:
-        """Their beginning, as far as its operators hold at least so tightly."""
+        """The beginning of the leaves, with operators of at least a precedence."""
         if self._depth >= MAX_NESTING:
             leaves.clear()
             return TOO_DEEP
@@ -331,25 +331,25 @@ class JuliaLowering(Lowering):
 
     def _each(self, node: Node, value: Node, over: Node) -> ir.Expr:
         """``[a[i, j] for i in 1:3, j in 1:2]``, a matrix with a row for each i."""
-        found = self.expr(value)
+        element = self.expr(value)
         for binding in reversed(self.children(over)):
             counter, *_, values = self.children(binding) or [binding]
             if counter.type != "identifier":
                 return unmeant(node)
-            each = ir.Lambda((self.text(counter),), found)
-            found = ir.Call(ir.Name("list of each"), (each, self.expr(values)))
-        return found
+            each = ir.Lambda((self.text(counter),), element)
+            element = ir.Call(ir.Name("list of each"), (each, self.expr(values)))
+        return element
 
     def _rows(self, rows: list[Node]) -> tuple[tuple[ir.Expr, ...], ...]:
         """The entries of rows."""
-        found: list[list[ir.Expr]] = []
+        rows_of_entries: list[list[ir.Expr]] = []
         for row in rows:
-            found.append([])
+            rows_of_entries.append([])
             for each in self.children(row):
                 first, *more = self._entries(each)
-                found[-1] += first
-                found += more
-        return tuple(map(tuple, found))
+                rows_of_entries[-1] += first
+                rows_of_entries += more
+        return tuple(map(tuple, rows_of_entries))
 
     def _index(self, of: Node, at: Node) -> ir.Expr:
         if at.type in {"matrix_expression", "comprehension_expression"}:
@@ -384,7 +384,7 @@ class JuliaLowering(Lowering):
 
 
 def _is_for_effect(value: ir.Expr) -> bool:
-    """Whether a call changes its arguments, or a statement is not known."""
+    """Whether a call changes its arguments, or a statement is unknown."""
     match value:
         case ir.Call(ir.Name(name) | ir.Field(name=name)):
             return name.endswith("!")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 NAME = "matlab"
 _SQUARE = frozenset({"zeros", "ones"})
-"""What a single number makes square."""
+"""Functions that make a square matrix from a single number."""
 
 
 class MatlabLowering(Lowering):
@@ -46,7 +46,7 @@ class MatlabLowering(Lowering):
                 name, body = self.text(part(node, "name")), self.block(inside[-1:])
                 gives = self._given(node) if len(parameters) == 1 else ""
                 if gives:
-                    # get.A(this) of a class gives the property A
+                    # get.A(this) of a class returns the property A
                     body += (ir.Return(ir.Name(gives), line),)
                 yield ir.Scope(
                     "function", name, body, line, parameters, gives=name if gives else ""
@@ -64,14 +64,14 @@ class MatlabLowering(Lowering):
                 yield ir.Do(self.expr(node), line)
 
     def _given(self, node: Node) -> str:
-        """The only value that a method of a class gives; empty for other functions."""
+        """The only return value of a method of a class; empty for other functions."""
         is_method = node.parent is not None and node.parent.type == "methods"
-        given = next((x for x in node.named_children if x.type == "function_output"), None)
-        names = [self.text(x) for x in self.children(given) if self.is_a("name", x)]
+        output = next((x for x in node.named_children if x.type == "function_output"), None)
+        names = [self.text(x) for x in self.children(output) if self.is_a("name", x)]
         return names[0] if is_method and len(names) == 1 else ""
 
     def way(self, condition: list[Node], inside: list[Node]) -> ir.Body:
-        """A branch on a text is named by it."""
+        """An arm of an ``if``, named by the text in its condition."""
         body, name = self.block(inside), "".join(map(self.title, condition))
         return (ir.Scope("entry", name, body, line_of(condition[0])),) if name else body
 
@@ -91,7 +91,7 @@ class MatlabLowering(Lowering):
                     return ir.Rows(rows, is_row_a_matrix=False)
                 return ir.Items(rows[0] if len(rows) == 1 else tuple(map(ir.Items, rows)))
             case "function_call":
-                # this@Base(…) makes what the class is of
+                # this@Base(…) constructs the base class
                 base = next((x for x in inside if x.type == "superclass"), None)
                 if base is not None:
                     return self._called(ir.Name(self.text(base).rpartition(".")[2]), node)
@@ -109,9 +109,11 @@ class MatlabLowering(Lowering):
         return unmeant(node)
 
     def _called(self, callee: ir.Expr, node: Node) -> ir.Expr:
-        """A call, or an entry of an array: both are written with round brackets."""
-        given = (y for x in node.named_children if x.type == "arguments" for y in self.children(x))
-        values = self.exprs(given)
+        """A call, or an entry of an array: both have parentheses."""
+        arguments = (
+            y for x in node.named_children if x.type == "arguments" for y in self.children(x)
+        )
+        values = self.exprs(arguments)
         if isinstance(callee, ir.Name) and callee.name in _SQUARE and len(values) == 1:
             values *= 2
         is_cell = any(x.type == "{" for x in node.children)

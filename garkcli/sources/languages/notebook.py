@@ -20,7 +20,7 @@ _LANGUAGES = {
     **dict.fromkeys(("c", "c++", "cpp"), c.find),
 }
 _MAGIC = re.compile(r"[ \t]*[%!?]")
-"""How a line begins that is for the kernel."""
+"""The beginning of a line for the kernel."""
 
 
 def find(text: str, source: str) -> list[FoundTable]:
@@ -40,12 +40,12 @@ def find(text: str, source: str) -> list[FoundTable]:
 
 
 def _language(notebook: object) -> str:
-    """The language of the kernel, in small letters; Python where nothing is said."""
+    """The language of the kernel, in lower case; Python by default."""
     about = _part(notebook, "metadata")
-    told = _part(_part(about, "kernelspec"), "language") or _part(
+    language = _part(_part(about, "kernelspec"), "language") or _part(
         _part(about, "language_info"), "name"
     )
-    return str(told or "python").lower()
+    return str(language or "python").lower()
 
 
 def _part(of: object, name: str) -> Any:
@@ -53,13 +53,13 @@ def _part(of: object, name: str) -> Any:
 
 
 def _lines(notebook: object) -> Iterator[tuple[str, str]]:
-    """The lines of all cells of code, each with the text that the file has for it."""
+    """The lines of all cells of code, each with its text in the file."""
     cells = _part(notebook, "cells")
     for cell in cells if isinstance(cells, list) else ():
-        given = _part(cell, "source")
+        source = _part(cell, "source")
         if _part(cell, "cell_type") == "code":
             # a cell is a list of lines, or one text
-            for text in given if isinstance(given, list) else [given]:
+            for text in source if isinstance(source, list) else [source]:
                 first, *more = str(text).splitlines() or [""]
                 yield first, str(text)
                 yield from ((x, x) for x in more)
@@ -68,7 +68,7 @@ def _lines(notebook: object) -> Iterator[tuple[str, str]]:
 def _placed(
     lines: Sequence[tuple[str, str]], plain: Iterable[str], file: Iterable[str]
 ) -> list[str]:
-    """The lines of code where the file has them, others behind the one before."""
+    """The lines of code at their lines in the file, others behind the one before."""
     places: dict[str, list[int]] = {form: [] for _, x in lines for form in _forms(x)}
     for i, each in enumerate(file):
         form = each.strip().removesuffix(",").removeprefix('"source": ').strip("[]")
@@ -83,13 +83,13 @@ def _placed(
 
 
 def _from(places: Sequence[int], first: int) -> Sequence[int]:
-    """The first of some places that is not before another."""
+    """The first of some places at or after another, in a list."""
     at = bisect_left(places, first)
     return places[at : at + 1]
 
 
 def _forms(text: str) -> tuple[str, str]:
-    """How a file may have a text."""
+    """The possible forms of a text in a file."""
     return json.dumps(text), json.dumps(text, ensure_ascii=False)
 
 

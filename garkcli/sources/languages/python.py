@@ -1,4 +1,4 @@
-"""Python, also what the Python that runs this cannot parse."""
+"""Python, including versions that the running one cannot parse."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 NAME = "python"
 _OF_LISTS = {"*": "list *", "+": "list +"}
-"""What signs behind a list do."""
+"""The functions of operators after a list."""
 _PROPERTIES = frozenset({"property", "cached_property", "functools.cached_property"})
 
 
@@ -80,7 +80,7 @@ class PythonLowering(Lowering):
         return ir.Do(value, line)
 
     def _decorated(self, inside: list[Node]) -> Iterator[ir.Statement]:
-        """A property is the value that it returns."""
+        """A decorated definition; a property is the value that it returns."""
         made = self.block(inside[-1:])
         is_property = any(self.text(x)[1:] in _PROPERTIES for x in inside[:-1])
         match made:
@@ -131,7 +131,7 @@ class PythonLowering(Lowering):
         if node.type == "call" and inside[-1].type == "generator_expression":
             # list(x for x in …)
             return ir.Call(self.expr(inside[0]), self.exprs(inside[1:]))
-        match found := super().expression(node, inside):
+        match lowered := super().expression(node, inside):
             case ir.Binary(sign, ir.Items() as left, right) if sign in _OF_LISTS:
                 return ir.Call(ir.Name(_OF_LISTS[sign]), (left, right))
             case ir.Call(ir.Name("dict"), (), named):
@@ -145,7 +145,7 @@ class PythonLowering(Lowering):
                         return value.body
             case ir.Index(ir.Field(name="r_"), at):
                 return ir.Items(at)
-        return found
+        return lowered
 
     def _pairs(self, inside: list[Node]) -> Iterator[tuple[str, ir.Expr]]:
         for each in inside:
@@ -155,25 +155,25 @@ class PythonLowering(Lowering):
 
 
 def _imported(name: str) -> ir.Expr:
-    """The expression that an imported name stands for: a function of one argument, or itself."""
+    """The expression of an imported name: a function of one argument, or the name itself."""
     if name in CALLS and name not in CONVERSIONS:
         return ir.Lambda(("x",), ir.Call(ir.Name(name), (ir.Name("x"),)))
     return ir.Name(name)
 
 
 _TYPED = re.compile(r"^([ \t]*)(?:c|cp)def[ \t]+(.*)$|^([ \t]*)DEF[ \t]+(?=\w)", re.MULTILINE)
-"""What Cython declares: a class, a function, a name with its value."""
+"""Declarations of Cython: a class, a function, a name with its value."""
 _WORD = re.compile(r"\w+")
 _ARRAY = re.compile(r"(\w+)[ \t]*((?:\[\w+\])+)[ \t]*$")
 
 
 def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a Python source; of Cython without its types."""
+    """The tables of a Python source, or of Cython without its types."""
     return _READER.find(_TYPED.sub(_plain, text) if source.endswith(_CYTHON) else text, source)
 
 
 def _plain(found: re.Match[str]) -> str:
-    """A line of Cython as Python has it; ``pass`` where a name has no value."""
+    """A line of Cython in Python; ``pass`` for a name without a value."""
     indent, rest = found[1] or found[3] or "", found[2]
     if rest is None or rest.startswith("class"):
         return indent + (rest or "")

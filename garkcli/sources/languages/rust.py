@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 NAME = "rust"
 _WRAPPERS = re.compile(rb"\b(?:vec|array)!(?=\s*\[)|\blazy_static!(?=\s*\{)|(?<=\bstatic )ref\b")
-"""What is around lists and constants and says nothing of them."""
+"""Wrappers around lists and constants."""
 _MATRICES = frozenset({"matrix", "dmatrix", "vector", "dvector"})
 _NUMBER = re.compile(
     r"(?P<digits>[0-9][0-9_]*(?:\.[0-9_]*)?(?:[eE][-+]?[0-9_]+)?)_?(?P<suffix>[fiu]\w+)?"
@@ -32,15 +32,15 @@ _NUMBER = re.compile(
 _WHOLE_TYPES = re.compile(r"[iu](?:8|16|32|64|128|size)")
 _ZERO = re.compile(r"0\.0*(?:_?f(?:32|64))?")
 _MAKERS = frozenset({"new", "default"})
-"""Functions that make what they are in."""
+"""Functions that construct their type."""
 _ENTRIES = re.compile(r"S?(?:Row)?(?:Matrix|Vector)[1-9](?:x[1-9])?")
-"""Types of nalgebra that are made of their entries, by rows."""
+"""Types of nalgebra with a constructor from their entries, by rows."""
 _TYPE_ARGUMENTS = re.compile(r"(?:::)?<.*>", re.DOTALL)
 _TESTS = re.compile(r"#\[cfg\(test\)\]")
 _VALUES = ("expression", "invocation", "identifier", "literal")
-"""How the kinds of nodes end that are values."""
+"""Endings of the kinds of nodes that are values."""
 _GIVING = frozenset({"expression_statement", "let_declaration", "return_expression"})
-"""What ends a block without being its value."""
+"""Ends of a block that are not its value."""
 
 
 class RustLowering(Lowering):
@@ -85,7 +85,7 @@ class RustLowering(Lowering):
             case "function_item":
                 yield self._function(node)
             case "mod_item" if any(map(_TESTS.search, islice(self._attributes(node), 5))):
-                # what is wrong there may be so on purpose
+                # errors there may be on purpose
                 yield ir.Do(ir.Opaque("a module of tests"), line)
             case "impl_item" | "trait_item" | "mod_item":
                 yield self._scope(node)
@@ -121,7 +121,7 @@ class RustLowering(Lowering):
                 self.declares(name, self._parameters(each))
 
     def _scope(self, node: Node) -> ir.Scope:
-        """An implementation, which is a class; a module, whose names are its own."""
+        """An implementation as a class; a module with its own names."""
         name = self.name(part(node, "type") or part(node, "name"))
         trait, body = self.name(part(node, "trait")), part(node, "body")
         around, self._owner = self._owner, name
@@ -134,7 +134,7 @@ class RustLowering(Lowering):
         return tuple(filter(None, map(self.first_name, given)))
 
     def _function(self, node: Node) -> ir.Scope:
-        """A function; one of ``self`` alone is a property."""
+        """A function; with ``self`` as its only parameter it is a property."""
         body = part(node, "body")
         name, parameters = self.text(part(node, "name")), self._parameters(node)
         name = self._owner or name if name in _MAKERS else name
@@ -163,21 +163,21 @@ class RustLowering(Lowering):
         return (*self.block(inside[:-1]), ir.Return(self.expr(last), line_of(last)))
 
     def case(self, node: Node) -> tuple[ir.Scope]:
-        """One of several ways, by its pattern."""
+        """One arm of a match, by its pattern."""
         pattern, value = part(node, "pattern"), part(node, "value")
         title = self.text(pattern).rpartition("::")[2]
         return (ir.Scope("entry", title, self.block([value]), line_of(node)),)
 
     def name(self, node: Node | None) -> str:
-        """A name without type arguments, and without the class that it is in."""
+        """A name without type arguments, and without its own class."""
         plain = _TYPE_ARGUMENTS.sub("", self.text(node))
         return plain.removeprefix("Self::").removeprefix("self::")
 
     def number(self, text: str) -> ir.Expr:
-        found = _NUMBER.fullmatch(text)
-        if not found:
+        match = _NUMBER.fullmatch(text)
+        if not match:
             return ir.Opaque(f"the number {text[:20]}")
-        digits, suffix = found["digits"], found["suffix"] or ""
+        digits, suffix = match["digits"], match["suffix"] or ""
         return ir.Literal(digits, digits.replace("_", "").isdigit() and suffix[:1] != "f")
 
     def other(self, node: Node, inside: list[Node]) -> ir.Expr:
@@ -207,7 +207,7 @@ class RustLowering(Lowering):
         return unmeant(node)
 
     def _list(self, node: Node, inside: list[Node]) -> ir.Expr:
-        """A list; ``[x; n]`` is one of n times the same."""
+        """A list; ``[x; n]`` repeats x."""
         size = part(node, "length")
         if size is None:
             is_repeated = any(x.type == ";" for x in node.children) and len(inside) == 2
@@ -249,7 +249,7 @@ class RustLowering(Lowering):
         return ir.Items(lists[0]) if len(lists) == 1 else ir.Items(tuple(map(ir.Items, lists)))
 
     def _fragment(self, text: str) -> ir.Expr:
-        """The expression that a macro is given."""
+        """The expression in the argument of a macro."""
         inner = RustLowering(f"const X: T = {text};")
         inner._depth = self._depth
         match inner.module():
@@ -258,7 +258,7 @@ class RustLowering(Lowering):
         return ir.Opaque("the argument of a macro")
 
     def range_of(self, node: Node, first: ir.Expr | None, last: ir.Expr | None) -> ir.Range:
-        """``a..b`` is without its end, ``a..=b`` with it."""
+        """``a..b`` excludes its end, ``a..=b`` includes it."""
         is_closed = any(x.type == "..=" for x in node.children)
         return ir.Range(first, last if is_closed or last is None else less_one(last))
 
