@@ -7,10 +7,8 @@ import itertools
 import re
 import tomllib
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import pytest
 from click.testing import CliRunner
 
 from garkcli.cli.main import gark
@@ -62,8 +60,6 @@ INSIDE = re.compile(
     re.IGNORECASE,
 )
 """Phrases that docstrings and comments do without."""
-NOT_CLEAN = {"sources"}
-"""Rooms, and files beside them, whose docstrings and comments are still to be rewritten."""
 DOCSTRING = re.compile(r'^ *r?"""(.*?)"""', re.MULTILINE | re.DOTALL)
 COMMENT = re.compile(r"^(?:.*?  | *)# (?!noqa|type:)(.+)$", re.MULTILINE)
 
@@ -156,29 +152,10 @@ def puzzles(source: str) -> Iterator[str]:
                 yield f"…{text[max(0, phrase.start() - 20) : phrase.end() + 40]}…"
 
 
-def room_of(path: Path) -> str:
-    """The room of a file, or its name beside the rooms."""
-    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
-
-
-@pytest.fixture(scope="module")
-def offences() -> dict[str, list[str]]:
-    """The puzzling texts of each room, with their files."""
-    found: dict[str, list[str]] = {}
-    for path in sorted(PACKAGE.rglob("*.py")):
-        texts_of_file = puzzles(path.read_text(encoding="utf-8"))
-        found.setdefault(room_of(path), []).extend(f"{path.name}: {x}" for x in texts_of_file)
-    return found
-
-
-def test_docstrings_say_what_they_are_about(offences: dict[str, list[str]]) -> None:
-    """In every room that was rewritten; see the second table of the style page."""
-    assert [x for room, texts in offences.items() if room not in NOT_CLEAN for x in texts] == []
-
-
-def test_the_list_of_rooms_shrinks(offences: dict[str, list[str]]) -> None:
-    """A room without puzzling texts is taken off the list, and guarded from then on."""
-    assert sorted(room for room in NOT_CLEAN if not offences.get(room)) == []
+def test_docstrings_say_what_they_are_about() -> None:
+    """In every file of the package; see the second table of the style page."""
+    sources = [(path, path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))]
+    assert [f"{path}: {x}" for path, source in sources for x in puzzles(source)] == []
 
 
 def test_data_and_templates_have_a_subject() -> None:
