@@ -9,7 +9,14 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
-from garkcli.errors import GarkError, HasFreeParameters, MethodError, MethodFileError, Remark
+from garkcli.errors import (
+    GarkError,
+    HasFreeParameters,
+    MethodError,
+    MethodFileError,
+    Remark,
+    UsageProblem,
+)
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
@@ -109,7 +116,7 @@ def check_method(
         return _check_other_kind(method, reach, want_constants)
     try:
         analysis = analyse(method.tableau, reach, method.tolerance, method.further)
-    except MethodError as error:  # it has too many stages
+    except (MethodError, UsageProblem) as error:  # it has too many stages, or needs numpy
         fault = Remark(error.message, error.help, code=error.code)
         return Outcome(method.source, method.name, faults=(fault,), text=method.text)
     claims = verify(method.claims, analysis)
@@ -149,6 +156,6 @@ def _constants(analysis: AnyAnalysis) -> ErrorConstants | None:
     """Returns the error constants; None if no condition is known to fail."""
     if analysis.order.is_lower_bound:
         return None
-    from garkcli.order.constants import error_constants  # numpy is paid for here
+    from garkcli.order.constants import error_constants
 
     return error_constants(analysis.tableau, analysis.order.order + 1)

@@ -441,13 +441,14 @@ def _independent(
 
 
 def _table(colours: int, orders: range) -> Iterator[ConditionRow]:
-    from garkcli.ntrees.blocks import iter_blocks
+    from garkcli.ntrees.count import Admissible
+    from garkcli.ntrees.listing import trees_of
     from garkcli.report.conditions import ConditionRow
 
+    admissible = Admissible.of(colours or 1)
     for n in orders:
-        for block in iter_blocks(colours or 1, n, block_size=BLOCK_SIZE):
-            for tree in block.trees():
-                yield ConditionRow(tree, is_shape=not colours)
+        for tree in trees_of(admissible, n):
+            yield ConditionRow(tree, is_shape=not colours)
 
 
 def _badness(row: ConditionRow) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from flint import arb
 
@@ -10,7 +10,7 @@ from garkcli.comparison.grid import DIGITS, CellRows, Grid, Likeness, difference
 from garkcli.exact.display import to_ball
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.count import Admissible, counts_of
-from garkcli.ntrees.tree import Tree
+from garkcli.ntrees.listing import trees_of
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.order.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
@@ -189,7 +189,7 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
         reached = order
         if order <= min(orders):
             continue
-        trees = list(_trees(graph, order, roots))
+        trees = list(trees_of(graph, order, roots))
         if order <= orders[0]:
             trees = [x.tree for x in conditions(other, trees) if not x.holds]
         elif order <= orders[1]:
@@ -209,10 +209,3 @@ def _in_both(one: Admissible, other: Admissible) -> Admissible:
         tuple(tuple(m for m in row if m in second) for row, second in rows),
         tuple(replace(kind, arity=kind.arity & second.arity) for kind, second in kinds),
     )
-
-
-def _trees(graph: Admissible, order: int, roots: Sequence[int]) -> Iterator[Tree]:
-    from garkcli.ntrees.blocks import blocks_of  # numpy is paid for here
-
-    for block in blocks_of(graph, order, roots=roots):
-        yield from block.trees()

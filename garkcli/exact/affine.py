@@ -14,9 +14,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
 from flint import arb, arb_mat, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.exact.display import digits_here, to_ball, to_float
 from garkcli.exact.enclosing import scalar_product
 from garkcli.exact.field import Algebraic

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.doing import doing
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
@@ -57,8 +58,6 @@ def drift_of(errors: Floats, angle: float | None) -> FittedLine:
 
     ``angle`` is 2θ, the angle of the oscillation per step; None without one.
     """
-    import numpy as np
-
     slope = _slope(errors, angle)
     half = len(errors) // 2
     rounding = ROUNDING * float(np.abs(errors).max()) / len(errors)
@@ -70,8 +69,6 @@ def drift_of(errors: Floats, angle: float | None) -> FittedLine:
 
 def _slope(errors: Floats, angle: float | None) -> float:
     """The slope per step, by normal equations, whose columns are nearly orthogonal."""
-    import numpy as np
-
     largest = float(np.abs(errors).max())
     last = len(errors) - 1
     if last < 1 or largest == 0:
@@ -131,8 +128,6 @@ def oscillator_run(
     Raises ``UsageProblem`` if the split does not fit the structure, the step does not divide the
     time, there are more than ``MAX_STEPS`` steps, or the stage equations are singular.
     """
-    import numpy as np
-
     count = count_steps(t_end, step)
     R = linear_step(tableau, problem).at(step)
     fate = stability(R)
@@ -164,8 +159,6 @@ def _history(
     """The history of the energy; ``excused`` is the error that rounded coefficients can cause, and
     ``kept`` has the indices of the errors that are kept.
     """
-    import numpy as np
-
     verdict = _verdict(errors, energy, fate, line, excused)
     drift, uncertainty = None, None
     if not errors.blew_up:
@@ -194,8 +187,6 @@ def _history(
 
 def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
     """The energy errors of ``count`` steps, fewer after a blow-up."""
-    import numpy as np
-
     is_exact = conserves_energy(R, omega)
     if is_exact:
         values: Floats = np.zeros(count + 1)
@@ -284,8 +275,6 @@ def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | Non
 
 
 def _in_floats(balls: list[arb]) -> Floats:
-    import numpy as np
-
     return np.array([float(x) for x in balls])
 
 
@@ -332,8 +321,6 @@ def _are_sharp(balls: list[arb]) -> bool:
 
 def _angle(R: Matrix, omega: fmpq) -> float | None:
     """2θ in [0, 2π), twice the argument of the eigenvalues of R; None if they are real."""
-    import numpy as np
-
     a, b, c, d = map(float, _scaled(R, omega, 128).entries())
     # the eigenvalues are those of λ² − (a + d) λ + (ad − bc)
     real = (a + d) / 2

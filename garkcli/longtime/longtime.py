@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.doing import counting, doing
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
@@ -117,8 +118,6 @@ def _noise(record: RunRecord, bound: Binding, step: fmpq, digits: int) -> Floats
     """The uncertainty of the errors at the end, as powers of ten: each step rounds each summand of
     an invariant once, to leading order; at least that found on the first steps.
     """
-    import numpy as np
-
     if record.blew_up or not record.has_moved:
         return np.zeros(len(record.largest))
     by_state = [record.measure.sizes(y) for y in record.states.values()]
@@ -170,8 +169,6 @@ class _Judge(Frozen):
 
     def history(self, k: int, noise: float) -> InvariantHistory:
         """The history of the invariant ``k``, whose errors have the uncertainty ``noise``."""
-        import numpy as np
-
         record, h = self.record, to_float(self.step)
         # the bound is one of the energy; other invariants are taken to change in proportion
         share = 1.0 if k == 0 else self._size(k) / self._size(0)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
+from garkcli import numpy_on_use as np
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import BITS_OF_A_DIGIT, to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
@@ -69,8 +70,6 @@ class Measure:
         """I(y) − I(y_0) of each state y, shape (states, invariants); nan if I has no value,
         infinite if it is too large for a float.
         """
-        import numpy as np
-
         if not self._bits:
             first: Floats = np.array(self._first)
             return np.array([self._values_of(y) for y in states], dtype=np.float64) - first
@@ -86,8 +85,6 @@ class Measure:
         """The sums of the sizes of the summands of each invariant at the state y, in floats; nan if
         one has no value.
         """
-        import numpy as np
-
         at = [float(x) for x in y]
         return np.array([sum(map(abs, _values_of(own, at))) for own in self._summands])
 

@@ -7,6 +7,7 @@ from itertools import islice
 from math import ceil
 from typing import TYPE_CHECKING, Any
 
+from garkcli import numpy_on_use as np
 from garkcli.longtime.history import BLOW_UP
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.rounding import Exchange
@@ -34,15 +35,11 @@ class Excursions:
     """
 
     def __init__(self) -> None:
-        import numpy as np
-
         self._shape_for(0)
         self._positions: Floats = np.zeros(0)  # at the end
 
     def _shape_for(self, d: int) -> None:
         """Prepares for d degrees of freedom."""
-        import numpy as np
-
         # turns of each coordinate, and the step of the last turn of each pair (q, p)
         self._turned: Integers = np.zeros(2 * d, dtype=np.int64)
         self._last_turns: Integers = np.zeros(d, dtype=np.int64)
@@ -69,8 +66,6 @@ class Excursions:
         """Adds the states of the steps ``first``, ``first`` + 1, …, shape (m, 2d); pieces overlap
         in two states.
         """
-        import numpy as np
-
         d = states.shape[1] // 2
         if not self._turned.size:
             self._shape_for(d)
@@ -139,8 +134,6 @@ class RunRecord:
     """
 
     def __init__(self, measure: Measure, count: int, points: int) -> None:
-        import numpy as np
-
         signals = len(measure.names)
         self.measure = measure
         self.count = count
@@ -166,15 +159,11 @@ class RunRecord:
     @property
     def kept_numbers(self) -> Integers:
         """The steps whose errors are kept: extremes of equal spans, and both ends."""
-        import numpy as np
-
         return np.array(self._numbers)
 
     @property
     def kept_errors(self) -> Floats:
         """The errors of these steps, shape (steps, invariants)."""
-        import numpy as np
-
         return np.concatenate(self._errors)
 
     def take(self, path: Iterator[list[Any]]) -> None:
@@ -199,8 +188,6 @@ class RunRecord:
             self._add(states)
 
     def _add(self, states: Sequence[list[Any]]) -> None:
-        import numpy as np
-
         if not states:
             return
         start = self.done + 1
@@ -236,8 +223,6 @@ class RunRecord:
 
         ``errors`` are those from there on, shape (m, invariants), changed in place.
         """
-        import numpy as np
-
         for k, own in enumerate(errors.T):
             missing = np.flatnonzero(~(np.abs(own) < _TOO_LARGE))
             if missing.size:
@@ -247,8 +232,6 @@ class RunRecord:
                 own[max(0, self.lost[k] - start) :] = np.nan
 
     def _chosen(self, errors: Floats, start: int) -> list[int]:
-        import numpy as np
-
         if self._span == 1:
             return list(range(len(errors)))
         chosen: set[int] = set()
@@ -262,8 +245,6 @@ class RunRecord:
 
     def _watch(self, states: Floats) -> None:
         """Follows the motion; two states are carried over from piece to piece."""
-        import numpy as np
-
         first = self.done - len(states) + 1
         if self._last.size:
             first -= len(self._last)
@@ -283,8 +264,6 @@ class RunRecord:
 
 def extremes(errors: Floats, points: int) -> Integers:
     """Indices of the minimum and maximum of equal spans, so that plots keep the height of waves."""
-    import numpy as np
-
     if len(errors) <= points:
         return np.arange(len(errors))
     spans = np.array_split(np.arange(len(errors)), points // 2)

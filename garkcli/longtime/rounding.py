@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.righthandside import RightHandSide
@@ -64,8 +65,6 @@ class Exchange:
 
     def add(self, states: Floats) -> None:
         """Adds consecutive states, shape (m, 2d); pieces overlap in two states."""
-        import numpy as np
-
         if len(states) < 3:
             return
         d = states.shape[1] // 2

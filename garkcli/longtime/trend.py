@@ -27,6 +27,7 @@ from __future__ import annotations
 from math import ceil, floor, sqrt
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from garkcli import numpy_on_use as np
 from garkcli.frozen import Frozen
 
 if TYPE_CHECKING:
@@ -120,8 +121,6 @@ class Trends:
     """
 
     def __init__(self, count: int, signals: int) -> None:
-        import numpy as np
-
         windows = len(_WINDOWS)
         self.count = count
         self.largest = np.zeros(signals)
@@ -142,16 +141,12 @@ class Trends:
 
     def add(self, first: int, errors: Floats) -> None:
         """Adds the errors e_first, e_{first+1}, …, shape (m, signals)."""
-        import numpy as np
-
         np.maximum(self.largest, np.abs(errors).max(axis=0), out=self.largest)
         self._add_to_ranges(first, errors)
         for k, _ in enumerate(_WINDOWS):
             self._add_to_window(k, first, errors)
 
     def _add_to_ranges(self, first: int, errors: Floats) -> None:
-        import numpy as np
-
         middle = self.count // 2
         for half, (start, end) in enumerate(((0, middle), (middle, self.count))):
             part = errors[max(start - first, 0) : max(end + 1 - first, 0)]
@@ -164,8 +159,6 @@ class Trends:
             np.maximum(greatest, high, out=greatest)
 
     def _add_to_window(self, k: int, first: int, errors: Floats) -> None:
-        import numpy as np
-
         a, b = _WINDOWS[k]
         begin, stop = self._bounds[k]
         start = max(begin, first)
@@ -192,8 +185,6 @@ class Trends:
 
     def _fitted(self, signal: int) -> Windows:
         """The lines through all windows."""
-        import numpy as np
-
         W, Wu, Wuu = self._weights.T
         X, Xu, Xx = self._sums[:, :, signal].T
         # the normal equations of level + slope · u, by Cramer's rule
@@ -271,8 +262,6 @@ def _move_of_an_end(found: Windows, least: float) -> float:
 
 def _uncertainty(found: Windows) -> float:
     """The uncertainty of the slope of the whole run, per run, without rounding."""
-    import numpy as np
-
     slope = found.slopes[0]
     of_halves = found.slopes[OF_HALVES] - slope
     of_quarters = found.slopes[OF_QUARTERS] - slope
@@ -288,8 +277,6 @@ def _climbs(found: Windows, least: float) -> bool:
     """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly from
     eighth to eighth, or by its height from eighth to eighth and clearly in total.
     """
-    import numpy as np
-
     levels = found.levels[OF_EIGHTHS]
     heights = found.heights[OF_EIGHTHS]
     moves = np.diff(levels)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from garkcli import numpy_on_use as np
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, Edges
 from garkcli.ntrees.table import Columns, Places, TreeTable, segments_of

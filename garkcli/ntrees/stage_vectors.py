@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
-import numpy as np
+from garkcli import numpy_on_use as np
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

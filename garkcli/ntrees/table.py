@@ -20,8 +20,7 @@ from functools import cached_property
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
+from garkcli import numpy_on_use as np
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, Counts, Edges, counts_upto

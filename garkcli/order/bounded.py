@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
 from flint import arb, ctx, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.exact.affine import UNIT, Forms
 from garkcli.exact.display import to_float

@@ -12,6 +12,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.count import Admissible, counts_of
+from garkcli.ntrees.listing import trees_of
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import required_of
 from garkcli.order.tree_vectors import TreeVectors
@@ -177,7 +178,4 @@ def all_conditions(method: AnyTableau, order: int) -> Iterator[Condition]:
 
 def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
     """The admissible trees of ``order``, with one root colour of each group of twins."""
-    from garkcli.ntrees.blocks import blocks_of  # numpy is paid for here
-
-    for block in blocks_of(coupling_graph(tableau), order, 1 << 14, twin_roots(tableau)):
-        yield from block.trees()
+    return trees_of(coupling_graph(tableau), order, twin_roots(tableau))

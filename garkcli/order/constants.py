@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, ctx
 
+from garkcli import numpy_on_use as np
 from garkcli.doing import doing
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
@@ -23,8 +24,6 @@ from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-
-    import numpy as np
 
 
 EXACT_CONDITIONS = 3_000
@@ -135,8 +134,6 @@ def _exact_norms(coefficients: Sequence[_Coefficient]) -> Norms:
 
 
 def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
-    import numpy as np
-
     from garkcli.ntrees.stage_vectors import elementary_weights
     from garkcli.ntrees.table import TreeTable
 

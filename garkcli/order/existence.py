@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from flint import arb, arb_mat, ctx, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import counts_upto

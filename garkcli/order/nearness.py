@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from flint import ctx, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.exact.affine import Affine
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen

@@ -8,9 +8,9 @@ from functools import cached_property
 from itertools import islice
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
 from flint import arb, ctx, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.exact.affine import Forms
 from garkcli.exact.display import to_float

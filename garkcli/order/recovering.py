@@ -14,9 +14,9 @@ from copy import copy
 from functools import cached_property, partial
 from typing import Any
 
-import numpy as np
 from flint import arb, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.exact.affine import Affine
 from garkcli.exact.display import to_float

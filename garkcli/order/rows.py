@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeAlias
 
-import numpy as np
 from flint import arb, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.exact.affine import UNIT, Forms
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree

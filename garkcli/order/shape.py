@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-import numpy as np
-
+from garkcli import numpy_on_use as np
 from garkcli.ntrees.kind import ONE_BRANCH
 from garkcli.ntrees.tree import Tree
 from garkcli.order.bounded import compromise, scaled

@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Container, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
 from flint import fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.exact.affine import Affine
 from garkcli.exact.display import to_float

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import isfinite, log10
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.design.search.curve import Curve as Optima
 from garkcli.design.stable_plane import End, Part, StablePlane, Strip
 from garkcli.errors import MethodError
 from garkcli.exact.cells import between
@@ -20,6 +20,9 @@ from garkcli.plots.scene import Axis, Curve, Panel, Point, Scene, Shape, polygon
 from garkcli.sweep.plan import number
 from garkcli.sweep.report import SweepReport, kept, pareto_front
 from garkcli.sweep.row import Row
+
+if TYPE_CHECKING:
+    from garkcli.design.search.curve import Curve as Optima
 
 FACTOR = 20.0
 """An axis is logarithmic if its largest number is more than this times the smallest."""

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, TypeAlias
-
-import numpy as np
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from math import inf, isnan, log
+from typing import TypeAlias
 
 from garkcli.plots.scene import Axis, Point
 
-if TYPE_CHECKING:
-    from garkcli.arrays import Floats
-
+Row: TypeAlias = Sequence[float]
+Sizes: TypeAlias = Callable[[Sequence[complex]], Row]
+"""Sizes of a function at complex numbers."""
 _Edge: TypeAlias = tuple[int, int, bool]
 """The row and column of the start of an edge of the grid, and whether the edge is vertical."""
 _FAR = 1.0
@@ -25,36 +25,57 @@ _FLAT = 3.0
 _THINNED = 0.06  # cells
 
 
-def compared(
-    small: Callable[[Any], Any], large: Callable[[Any], Any], x: Axis, y: Axis
-) -> list[list[Point]]:
-    """Returns the outlines of the region ``small(z)`` ≤ ``large(z)``, for functions of arrays."""
-    across = np.linspace(x.low, x.high, _NODES)
-    up = np.linspace(y.low, y.high, _NODES)
-    z = across + 1j * up[:, np.newaxis]
-    with np.errstate(all="ignore"):
-        return outlined(across, up, np.log(small(z) / large(z)))
+def compared(small: Sizes, large: Sizes, x: Axis, y: Axis) -> list[list[Point]]:
+    """Returns the outlines of the region ``small`` ≤ ``large``, for sizes that are the same at
+    conjugate numbers.
+    """
+    across, up = _nodes(x), _nodes(y)
+    is_mirrored = y.low == -y.high
+    level = []
+    for b in up[_NODES // 2 :] if is_mirrored else up:
+        row = [complex(a, b) for a in across]
+        level.append(_logarithms(small(row), large(row)))
+    return outlined(across, up, level[::-1] + level if is_mirrored else level)
 
 
-def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
+def _nodes(axis: Axis) -> list[float]:
+    step = (axis.high - axis.low) / (_NODES - 1)
+    return [axis.low + step * k for k in range(_NODES - 1)] + [axis.high]
+
+
+def _logarithms(small: Row, large: Row) -> list[float]:
+    pairs = [*zip(small, large, strict=True)]
+    try:
+        return [log(over / under) for over, under in pairs]
+    except (ValueError, ZeroDivisionError):
+        return [_logarithm(over, under) for over, under in pairs]
+
+
+def _logarithm(over: float, under: float) -> float:
+    ratio = over / under if under else inf
+    return log(ratio) if ratio else -inf
+
+
+def outlined(x: Row, y: Row, level: Sequence[Row]) -> list[list[Point]]:
     """Returns the outlines of the region ``level`` ≤ 0 on the grid of x and y, with the region on
     their left.
 
     Points whose level is NaN are outside.
     """
-    across, up = float(x[1] - x[0]), float(y[1] - y[0])
-    left, bottom = float(x[0]), float(y[0])
-    loops = outlines(np.clip(np.nan_to_num(level, nan=_FLAT), -_FLAT, _FLAT), _THINNED)
+    across, up = x[1] - x[0], y[1] - y[0]
+    left, bottom = x[0], y[0]
+    loops = outlines(level, _THINNED)
     return [[(left + column * across, bottom + row * up) for column, row in loop] for loop in loops]
 
 
-def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
+def outlines(level: Sequence[Row], tolerance: float) -> list[list[Point]]:
     """Returns the closed outlines of the region ``level`` ≤ 0, simplified.
 
-    ``level`` has finite values at the nodes, rows first; points within ``tolerance`` of the line,
-    in cells, are dropped.
+    ``level`` has the values at the nodes, rows first; points within ``tolerance`` of the line, in
+    cells, are dropped.
     """
-    padded = np.pad(level, 1, constant_values=_FAR)
+    border = [_FAR] * (len(level[0]) + 2)
+    padded = [border, *([_FAR, *row, _FAR] for row in level), border]
     pieces = dict(_pieces(padded))
     found = []
     while pieces:
@@ -68,32 +89,45 @@ def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
     return [loop for loop in found if len(loop) > 2]
 
 
-def _pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
+def _pieces(padded: Sequence[Row]) -> Iterator[tuple[_Edge, _Edge]]:
     """Yields the pieces of outlines in all cells, as start and end edges.
 
     Going around a cell, a piece starts where the region ends, and ends where the region starts: at
     the next such place if the middle is inside, otherwise at the previous one.
     """
-    corners = padded[:-1, :-1], padded[:-1, 1:], padded[1:, 1:], padded[1:, :-1]
-    inside = np.stack(corners, axis=-1) <= 0
-    for i, j in np.argwhere(inside.any(axis=-1) & ~inside.all(axis=-1)).tolist():
-        # the bottom, the right side, the top, the left side
-        edges = (i, j, False), (i, j + 1, True), (i + 1, j, False), (i, j, True)
-        here = inside[i, j].tolist()
-        there = [*here[1:], here[0]]
-        ends = [k for k in range(4) if here[k] and not there[k]]
-        starts = [k for k in range(4) if there[k] and not here[k]]
-        nearest = min if padded[i : i + 2, j : j + 2].mean() <= 0 else max
-        for k in ends:
-            yield edges[k], edges[(k + nearest((other - k) % 4 for other in starts)) % 4]
+    inside = [[value <= 0 for value in row] for row in padded]
+    for i, (below, above) in enumerate(pairwise(inside)):
+        for j in _mixed(below, above):
+            # the bottom, the right side, the top, the left side
+            edges = (i, j, False), (i, j + 1, True), (i + 1, j, False), (i, j, True)
+            here = below[j], below[j + 1], above[j + 1], above[j]
+            there = (*here[1:], here[0])
+            ends = [k for k in range(4) if here[k] and not there[k]]
+            starts = [k for k in range(4) if there[k] and not here[k]]
+            middle = sum(map(_cut, (*padded[i][j : j + 2], *padded[i + 1][j : j + 2])))
+            nearest = min if middle <= 0 else max
+            for k in ends:
+                yield edges[k], edges[(k + nearest((other - k) % 4 for other in starts)) % 4]
 
 
-def _crossing(padded: Floats, edge: _Edge) -> complex:
+def _mixed(below: Sequence[bool], above: Sequence[bool]) -> Iterator[int]:
+    """Yields the cells between two rows whose corners are not all inside or all outside."""
+    columns = [a + b for a, b in zip(below, above, strict=True)]
+    for j, (left, right) in enumerate(pairwise(columns)):
+        if 0 < left + right < 4:
+            yield j
+
+
+def _crossing(padded: Sequence[Row], edge: _Edge) -> complex:
     """Returns the point where the outline crosses an edge, in the grid without its border."""
     i, j, is_upward = edge
-    here = float(padded[i, j])
-    part = here / (here - float(padded[(i + 1, j) if is_upward else (i, j + 1)]))
+    here, there = _cut(padded[i][j]), _cut(padded[i + is_upward][j + (not is_upward)])
+    part = here / (here - there)
     return complex(j - 1, i - 1) + part * (1j if is_upward else 1)
+
+
+def _cut(value: float) -> float:
+    return _FLAT if isnan(value) else max(-_FLAT, min(value, _FLAT))
 
 
 def _thinned(points: list[complex], tolerance: float) -> list[complex]:

@@ -125,18 +125,18 @@ def springs_panel(plane: SpringsPlane) -> Panel:
 
     def is_unstable(x: float, y: float) -> bool:
         column, row = (
-            round(at / float(side[-1]) * (len(side) - 1)) for at, side in ((x, fast), (y, slow))
+            round(at / side[-1] * (len(side) - 1)) for at, side in ((x, fast), (y, slow))
         )
-        return bool(half[row, column] > 1)
+        return half[row][column] > 1
 
     def outlines(*_: Axis) -> Loops:
         from garkcli.plots.plane import outlined
 
-        return outlined(fast, slow, 1.0 - half)
+        return outlined(fast, slow, [[1.0 - value for value in row] for row in half])
 
     resonances = Area(1, is_unstable, outlines, 0.45, has_outline=False)
-    x = Axis("hω of the fast spring", float(fast[0]), float(fast[-1]))
-    y = Axis("hω of the slow spring", float(slow[0]), float(slow[-1]))
+    x = Axis("hω of the fast spring", fast[0], fast[-1])
+    y = Axis("hω of the slow spring", slow[0], slow[-1])
     description = (
         f"The plane of both frequencies, the fast one to {x.high:.3g} and the slow one to "
         f"{y.high:.3g}, filled where the steps are unstable."
@@ -146,6 +146,8 @@ def springs_panel(plane: SpringsPlane) -> Panel:
 
 Named: TypeAlias = tuple[str, StabilityFunction]
 """A stability function and its label in the legend."""
+_MOST_GROWTH = 700.0
+"""The largest exponent whose exponential is a float."""
 _EDGE = 1 + 1e-9
 """Keeps points on the boundary inside on every machine."""
 FILLED = "Filled: |R(z)| ≤ 1."
@@ -327,11 +329,23 @@ def _floats(p: Polynomial) -> list[float]:
     return [min(max(to_float(a), -float_info.max), float_info.max) for a in p.coefficients[::-1]]
 
 
-def _value(coefficients: Sequence[float], z: Any) -> Any:
-    value = 0 * z
+def _value(coefficients: Sequence[float], x: float) -> float:
+    value = 0.0
     for a in coefficients:
-        value = value * z + a
+        value = value * x + a
     return value
+
+
+def _sizes_at(coefficients: Sequence[float], row: Sequence[complex]) -> list[float]:
+    """Returns the absolute values of a polynomial, infinite beyond floats."""
+    first, *rest = coefficients
+    values = [complex(first)] * len(row)
+    for a in rest:
+        values = [value * z + a for value, z in zip(values, row, strict=True)]
+    try:
+        return [*map(abs, values)]
+    except OverflowError:
+        return [math.hypot(value.real, value.imag) for value in values]
 
 
 def _area(
@@ -345,19 +359,20 @@ def _area(
     """Returns the region |R(z)| ≤ 1, or |R(z)| > |e^z|."""
     P, Q = _floats(R.numerator), _floats(R.denominator)
 
-    def over(z: Any) -> Any:
-        return abs(_value(P, z))
+    def over(row: Sequence[complex]) -> list[float]:
+        return _sizes_at(P, row)
 
-    def under(z: Any) -> Any:
-        return abs(_value(Q, z)) * (math.e**z.real if is_order_star else 1)
+    def under(row: Sequence[complex]) -> list[float]:
+        sizes = _sizes_at(Q, row)
+        if not is_order_star:
+            return sizes
+        return [x * math.exp(min(z.real, _MOST_GROWTH)) for x, z in zip(sizes, row, strict=True)]
 
     small, large = (under, over) if is_order_star else (over, under)
 
     def holds(x: float, y: float) -> bool:
-        try:
-            return bool(small(complex(x, y)) <= large(complex(x, y)) * edge)
-        except OverflowError:
-            return False
+        point = [complex(x, y)]
+        return small(point)[0] <= large(point)[0] * edge
 
     def outlines(x: Axis, y: Axis) -> Loops:
         from garkcli.plots.plane import compared

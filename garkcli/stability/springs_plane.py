@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
 from flint import fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.exact.cells import Interval
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
@@ -29,9 +29,9 @@ class SpringsPlane(Frozen):
     fast).
     """
 
-    fast: Floats
-    slow: Floats
-    half_trace: Floats
+    fast: list[float]
+    slow: list[float]
+    half_trace: list[list[float]]
 
 
 def springs_plane(
@@ -64,7 +64,8 @@ def springs_plane(
                 continue
             M = np.eye(2) + weights @ solved
             half[i, j] = abs(np.trace(M)) / 2
-    return SpringsPlane(fast, slow, np.nan_to_num(half, nan=np.inf, posinf=np.inf))
+    half = np.nan_to_num(half, nan=np.inf, posinf=np.inf)
+    return SpringsPlane(fast.tolist(), slow.tolist(), half.tolist())
 
 
 def plane_with_ends_of(

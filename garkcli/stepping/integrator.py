@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli import numpy_on_use as np
 from garkcli.doing import doing
 from garkcli.errors import GarkError
 from garkcli.exact.display import to_ball
@@ -217,14 +218,10 @@ def _precision(digits: int) -> Any:
 
 
 def _inverted(entries: list[float], n: int) -> Floats:
-    import numpy as np
-
     return np.asarray(np.linalg.inv(np.array(entries).reshape(n, n)), dtype=np.float64)
 
 
 def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
-    import numpy as np
-
     with np.errstate(all="ignore"):  # an infinite number ends the step
         corrections: list[float] = (inverse @ residuals).tolist()
     return corrections

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, TypeAlias
 
+from garkcli import numpy_on_use as np
 from garkcli.frozen import Frozen
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock, Vertex
 from garkcli.stepping.stagewriter import StageWriter
@@ -77,8 +78,6 @@ class ChainRule:
         ``derivatives`` are those of the fields by their ``arguments``, a matrix (d, d) each, row by
         row; ``weights`` are all numbers w.
         """
-        import numpy as np
-
         d = self.d
         n = d * len(self.unknowns)
         fields = dict(zip(self.arguments, np.array(derivatives).reshape(-1, d, d), strict=True))
@@ -115,8 +114,6 @@ def _sorted_out(vertices: Iterable[Vertex]) -> tuple[list[Stage], list[FieldEval
 
 def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Floats) -> Floats:
     """The derivatives of ``count`` sums of w f, shape (count, d, n)."""
-    import numpy as np
-
     W = np.zeros((count, len(of_fields)))
     rows, columns, numbers = np.array(entries).T
     W[rows, columns] = w[numbers]

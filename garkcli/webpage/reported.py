@@ -129,7 +129,8 @@ def reported(
         method = method_of(given, is_any_kind=True)
     if isinstance(method, MethodFile):
         about = method.reference, method.bibliography, method.description
-        return Reported(check_method(method), method, *about, order, has_pictures)
+        outcome = check_method(method)
+        return Reported(outcome, method if outcome.is_read else None, *about, order, has_pictures)
     name = method.name or "the method"
     outcome = whole(analyse(method), name)
     return Reported(outcome, method, wanted_order=order, has_pictures=has_pictures)

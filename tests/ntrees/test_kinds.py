@@ -13,6 +13,7 @@ from garkcli.errors import TreeError
 from garkcli.ntrees.blocks import blocks_of
 from garkcli.ntrees.count import Admissible, counts_of, counts_upto
 from garkcli.ntrees.kind import LEAF, LINEAR, PLAIN, Kind
+from garkcli.ntrees.listing import FEW, listed, trees_of
 from garkcli.ntrees.notation import format_tree
 from garkcli.ntrees.table import TreeTable
 from garkcli.ntrees.tree import Tree
@@ -81,6 +82,7 @@ def test_every_tree_once(name: str) -> None:
         trees = by_definition(admissible, n)
         assert [table.tree(i) for i in table.ids(n)] == trees
         assert [u for block in blocks_of(admissible, n, 3) for u in block.trees()] == trees
+        assert [*listed(admissible, n, range(admissible.colours))] == trees
         by_root = tuple(sum(u.root == l for u in trees) for l in range(admissible.colours))
         assert counts[n - 1] == counts_of(admissible, n) == by_root
         for i, u in zip(table.ids(n), trees, strict=True):
@@ -137,3 +139,17 @@ def test_table_in_python_integers_with_bare_stems() -> None:
     assert counts_upto(admissible, 24)[-1] == (0, 1)
     (last,) = table.ids(24)
     assert table.gamma[last] == prod(range(1, 25))
+
+
+def test_few_trees_are_listed_as_many_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One by one and in blocks they are the same, in one order, also with some roots alone."""
+    admissible = CASES["two orders"]
+    for n in range(1, 7):
+        some = [*trees_of(admissible, n)]
+        first = [*trees_of(admissible, n, [0])]
+        assert 0 < len(some) <= FEW
+        with monkeypatch.context() as patched:
+            patched.setattr("garkcli.ntrees.listing.FEW", -1)
+            assert [*trees_of(admissible, n)] == some
+            assert [*trees_of(admissible, n, [0])] == first
+        assert first == [u for u in some if u.root == 0]

@@ -40,7 +40,7 @@ def stability_of(*names: str, is_order_star: bool = False) -> Scene:
 def scenes() -> list[Scene]:
     """A scene of each kind that results have."""
     rk4, euler = converge("rk4"), converge("forward-euler")
-    side = np.linspace(0, 2, 9)
+    side = [k / 4 for k in range(9)]
     return [
         errors_scene([("RK4", rk4)]),
         errors_scene([("RK4", rk4), ("Euler", euler)]),
@@ -50,7 +50,10 @@ def scenes() -> list[Scene]:
         stability_of("gauss-3", is_order_star=True),
         stability_of("stoermer-verlet"),
         stability_of("stoermer-verlet", "forest-ruth"),
-        Scene("springs", [springs_panel(SpringsPlane(side, side, np.outer(side, side)))]),
+        Scene(
+            "springs",
+            [springs_panel(SpringsPlane(side, side, [[a * b for b in side] for a in side]))],
+        ),
     ]
 
 

@@ -160,12 +160,12 @@ def test_the_plane_of_springs_has_the_exact_traces() -> None:
     tableau = load("methods/three-colours.gark.yaml").tableau
     split = springs(tableau, 1)
     plane = springs_plane(tableau, split, 3.0, 6.0, points=4)
-    assert (plane.slow.tolist(), plane.fast.tolist()) == ([0, 1, 2, 3], [0, 2, 4, 6])
+    assert (plane.slow, plane.fast) == ([0, 1, 2, 3], [0, 2, 4, 6])
     for i, slow in enumerate((0, 1, 2, 3)):
         trace = two_frequencies(tableau, split, fmpq(slow**2)).trace
         for j, fast in enumerate((0, 2, 4, 6)):
             value = trace.numerator(fmpq(fast**2)) / trace.denominator(fmpq(fast**2))
-            assert plane.half_trace[i, j] == pytest.approx(abs(float(value)) / 2, rel=1e-12)
+            assert plane.half_trace[i][j] == pytest.approx(abs(float(value)) / 2, rel=1e-12)
 
 
 def test_one_spring_is_two_without_the_slow_one() -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, TypeAlias
 
-import numpy as np
+from garkcli import numpy_on_use as np
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array

@@ -5,11 +5,11 @@ coordinates: every point it evaluates is a solution.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from math import inf
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
 
-import numpy as np
-
+from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.design.search.chart import Chart, OutsideError
 from garkcli.frozen import Frozen
@@ -63,7 +63,7 @@ class Task(ABC):
     """
 
     levels = 0
-    enough = -np.inf
+    enough = -inf
 
     @abstractmethod
     def at(self, z: Array) -> Look:

@@ -7,8 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
+from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.design.search.rational import Polynomial, RationalFunction, as_float
 from garkcli.ntrees.stage_vectors import StageVectors

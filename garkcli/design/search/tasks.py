@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from garkcli import numpy_on_use as np
 from garkcli.design.search.descent import Look, Task
 from garkcli.design.search.goals import Bound, Goal, Reach, Smooth, kept
 

@@ -1,0 +1,3 @@
+"""numpy's names, for type checkers."""
+
+from numpy import *  # noqa: F403
