@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple, Never, TypeAlias
+from math import isqrt
+from typing import TYPE_CHECKING, NamedTuple, Never, TypeAlias, TypeVar
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.display import BITS_OF_A_DIGIT, to_ball, to_text
-from garkcli.exact.field import Number
+from garkcli.exact.display import BITS_OF_A_DIGIT, plain_decimal, to_ball, to_text
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
@@ -25,7 +26,8 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.plots.regions import stability_scene
 from garkcli.reason import NO_REASON, Formula, Reason
-from garkcli.stability.ball_polynomials import Bounds
+from garkcli.stability.ball_polynomials import OPEN, Bounds
+from garkcli.stability.damping import Ray, explicit_colour
 from garkcli.stability.fraction import MOST_LINES, Fraction
 from garkcli.stability.linear import poles_are_right
 from garkcli.stability.summary import AtPoint, Colours, LinearStability, Stability
@@ -52,13 +54,14 @@ from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
-    from garkcli.stability.damping import ImexPair, Ray
+    from garkcli.stability.damping import ImexPair
     from garkcli.stability.oscillator import OscillatorStability
     from garkcli.stability.springs_plane import SpringsPlane
     from garkcli.stability.ssp import AdditiveRadius, SspCoefficient
     from garkcli.tell.dialect import Plain
     from garkcli.tell.facts import Wording
 
+T = TypeVar("T")
 HEADLINE, USUAL, DETAIL, DATA = Level
 Extent: TypeAlias = "Sequence[Interval] | Bounds"
 """A part of an axis."""
@@ -366,6 +369,9 @@ OF_COLOUR: Section[LinearStability] = Section(
 )
 
 
+OF_ALL: Section[LinearStability] = Section(
+    LINEAR, title=lambda _, d: d.prose("one λ for both parts")
+)
 OF_EMBEDDED: Section[LinearStability] = Section(
     LINEAR[0].but(label="R̂(z)"),
     LINEAR[1].but(label="R̂(∞)"),
@@ -570,6 +576,104 @@ OF_COLOURS: Rows[Colours] = (
 )
 
 
+class ImexParts(NamedTuple):
+    """Both parts of an implicit-explicit method, each driven alone."""
+
+    explicit: LinearStability
+    implicit: LinearStability
+
+
+def imex_parts(x: StabilityReport) -> ImexParts | None:
+    """The parts of an implicit-explicit method; None for other methods."""
+    explicit = explicit_colour(x.found.tableau) if x.found.linear else None
+    if explicit is None:
+        return None
+    alone = x.found.linear[1:]
+    return ImexParts(alone[explicit], alone[1 - explicit])
+
+
+PLACES = 3
+"""Decimals in the first line."""
+
+
+def _cut(end: RealRoot | fmpq, power: int) -> str:
+    """The root of an end in few decimals, cut off: up to there the method is stable."""
+    value = end if isinstance(end, fmpq) else end.exact
+    scale = 10 ** (PLACES * power)
+    if value is None:
+        assert isinstance(end, RealRoot)
+        whole = int((end.ball(128) * scale).floor().unique_fmpz())
+    else:
+        whole = int((value * scale).floor())
+    return plain_decimal(fmpq(isqrt(whole) if power == 2 else whole, 10**PLACES))
+
+
+def _end_of(found: Extent | Ray) -> RealRoot | fmpq | None:
+    """A lower bound of the end of the interval from 0 on; None for ∞."""
+    if isinstance(found, Bounds):
+        return found.low
+    if isinstance(found, Ray):
+        return found.end
+    first = found[0] if found else None
+    if first is None or first.is_point or first.start is None or first.start.exact != 0:
+        return ZERO
+    return first.end
+
+
+def _interval(axis: str, found: Extent | Ray | None, d: Plain, power: int = 1) -> str:
+    """The interval of z on an axis, its end being a square with ``power`` 2."""
+    if found is None or found == OPEN:
+        return d.prose(f"{axis} interval not decided")
+    end = _end_of(found)
+    if end is None:
+        return d.prose(f"all of the {axis} axis")
+    size = _cut(end, power)
+    if size == "0":
+        return d.prose(f"no {axis} interval")
+    interval = f"[-{size}, 0]" if axis == "real" else f"[-{size}i, {size}i]"
+    return d.prose(f"{axis} interval ") + d.formula(interval, interval.replace("-", "−"))
+
+
+def _explicit_words(x: LinearStability, d: Plain) -> str:
+    of = x.within or x
+    return f"{_interval('real', of.real, d)}, {_interval('imaginary', of.imaginary, d, 2)}"
+
+
+def _coupled_words(x: Imex, d: Plain) -> str:
+    real, imaginary = x.colours.real, x.colours.imaginary
+    return f"{_interval('real', real, d)}, {_interval('imaginary', imaginary, d)}"
+
+
+def _after_colon(words: Wording[T]) -> Kind[T]:
+    return told(words, lambda name, x, _, d: f"{name}: {words(x, d)}")
+
+
+def _implicit_words(x: LinearStability, d: Plain) -> str:
+    if x.l_stable:
+        return "L-stable"
+    cosine = None if x.sector is None else x.sector.cosine
+    if x.a_stable is False and cosine is not None:
+        return d.prose(f"A(α)-stable, α = {_degrees(cosine, 4)}°")
+    return d.prose(x.words)
+
+
+def _line(section: Section[T]) -> Kind[T]:
+    """A part for people alone."""
+    return Kind(None, part(section).shown)
+
+
+def coupled(x: StabilityReport) -> Imex | Answer[Never]:
+    """The implicit-explicit pair, or why its interval is not known."""
+    if x.found.colours is None:
+        return Answer(None, Status(open=ROUNDED))
+    found = imex(x)
+    if found is not None:
+        return found
+    R = fraction(x.found.colours)
+    assert isinstance(R, Answer)
+    return Answer(None, Status(open=R.status.open or R.reason))
+
+
 def _colours(x: StabilityReport) -> Colours | None:
     return x.found.colours
 
@@ -584,6 +688,39 @@ SEVERAL: Rows[StabilityReport] = [
     *via(_colours, OF_COLOURS[1:]),
     maybe("pair", part(IMEX), imex),
 ]
+
+
+EXPLICIT: Section[LinearStability] = Section(LINEAR[5:8])
+IMPLICIT: Section[LinearStability] = Section(LINEAR[1], LINEAR[4], LINEAR[7])
+OF_BOTH: Rows[ImexParts] = [
+    Row("implicit_part", told(_implicit_words), lambda x: x.implicit, HEADLINE),
+    Row("explicit_part", _after_colon(_explicit_words), lambda x: x.explicit, HEADLINE),
+    Row("of_implicit", _line(IMPLICIT), lambda x: x.implicit, label="implicit part", is_short=True),
+    Row("of_explicit", _line(EXPLICIT), lambda x: x.explicit, label="explicit part", is_short=True),
+]
+PARTS: Rows[StabilityReport] = [
+    *via(imex_parts, OF_BOTH),
+    Row("coupled", _after_colon(_coupled_words), coupled, HEADLINE),
+]
+"""An implicit-explicit method by its parts: what one λ for both says comes with -v."""
+ONE_LAMBDA: Row[StabilityReport] = Row(
+    "one_lambda", _line(OF_ALL), lambda x: x.found.linear[0], DETAIL, label="one λ"
+)
+
+
+def _by_parts(rows: Rows[StabilityReport]) -> Rows[StabilityReport]:
+    """The rows of an implicit-explicit method, its parts first."""
+    of_one_lambda = {row.key for row in LINEAR} - {"points"} | {"R_alike"}
+    changes = {"pair": {"label": "coupled"}, "points": {"label": "at points, z1 = z2"}}
+    return [
+        *PARTS,
+        *rows[:1],
+        *(
+            x.but(level=DATA) if x.key in of_one_lambda else x.but(**changes.get(x.key, {}))
+            for x in rows[1:]
+        ),
+        ONE_LAMBDA,
+    ]
 
 
 def _waves(linear: str, waves: str) -> Rows[StabilityReport]:
@@ -608,11 +745,20 @@ LINEARS: dict[str, Rows[StabilityReport]] = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, ALONE, EMBEDDED],
     "several": [*head("linear"), *SEVERAL, EMBEDDED],
+    "parts": [*head("linear"), *_by_parts([*SEVERAL, EMBEDDED])],
+    "rounded parts": [*head("linear"), *_by_parts([*ALIKE, ALONE, EMBEDDED])],
 }
 """Rows by the colours on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
+COLUMNS_OF_PARTS = ("file", "implicit_part", "explicit_part", "coupled")
 FORMS = {
-    (linear, waves): Section(rows, _waves(linear, waves), TAIL, title=title, columns=COLUMNS)
+    (linear, waves): Section(
+        rows,
+        _waves(linear, waves),
+        TAIL,
+        title=title,
+        columns=COLUMNS_OF_PARTS if "parts" in linear else COLUMNS,
+    )
     for (linear, rows), waves in product(LINEARS.items(), WAVES)
 }
 
@@ -671,6 +817,8 @@ def form(x: StabilityReport) -> Section[StabilityReport]:
     if x.springs is not None:
         return SPRINGS
     linear = "none" if not x.found.linear else "alike" if x.found.colours is None else "several"
+    if imex_parts(x) is not None:
+        linear = "parts" if linear == "several" else "rounded parts"
     late = "late" if "oscillator" in x.found.late else "none"
     return FORMS[linear, late if x.found.oscillator is None else "known"]
 

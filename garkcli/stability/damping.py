@@ -196,14 +196,20 @@ def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
 
     ``R`` is its stability function; None if it is too large.
     """
-    if tableau.size != 2 or R is None:
+    explicit = explicit_colour(tableau)
+    if explicit is None or R is None:
         return None
-    first = _is_explicit(tableau, 0)
-    second = _is_explicit(tableau, 1)
+    return ImexPair(explicit, 1 - explicit, R)
+
+
+def explicit_colour(tableau: Tableau) -> int | None:
+    """The explicit colour of two, the other being implicit; None for other methods."""
+    if tableau.size != 2:
+        return None
+    first, second = (_is_explicit(tableau, l) for l in range(2))
     if first == second:
         return None
-    explicit = 0 if first else 1
-    return ImexPair(explicit, 1 - explicit, R)
+    return 0 if first else 1
 
 
 def _is_explicit(tableau: Tableau, l: int) -> bool:

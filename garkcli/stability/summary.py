@@ -20,7 +20,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen, replace
 from garkcli.order.meant import AnyTableau, meant, printed
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
-from garkcli.stability.damping import ImexPair, Ray, imex_pair
+from garkcli.stability.damping import ImexPair, Ray, explicit_colour, imex_pair
 from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
 from garkcli.stability.linear import (
     Complex,
@@ -243,6 +243,9 @@ class Stability(Shown, Frozen):
     def __repr__(self) -> str:
         if not self.linear:
             return f"<Stability of {self.tableau!r} on the oscillator>"
+        explicit = explicit_colour(self.tableau)
+        if explicit is not None:
+            return f"<Stability of the implicit part: {self.linear[2 - explicit].words}>"
         return f"<Stability {self.linear[0].words}>"
 
 

@@ -252,12 +252,12 @@ def many(
     form: Callable[[T], Section[T]], wholes: Sequence[T], dialect: Callable[[T], Plain]
 ) -> Iterator[str]:
     """Several results, a line each."""
-    keys = form(wholes[0]).columns
+    keys = [*dict.fromkeys(key for whole in wholes for key in form(whole).columns)]
     heads = list(keys)
     rows = []
     for whole in wholes:
         d = dialect(whole)
-        facts = form(whole).named(whole, keys)
+        facts = form(whole).named(whole, form(whole).columns)
         rows.append([cell(facts[key], d) if key in facts else "" for key in keys])
         heads = [
             label(facts[x], d) if x in facts else head for x, head in zip(keys, heads, strict=True)

@@ -32,7 +32,10 @@ def test_methods_of_the_paper(path: str) -> None:
     (data,) = json.loads(run(path, "--format", "json").output)["files"]
     said = {True: "A-stable", False: "not A-stable: ", None: "A-stable not decided"}
     first, *rest = text.output.splitlines()
-    if "a_stable" in data:
+    if data.get("pair"):
+        implicit = {x["name"]: x for x in data["colours"]}[data["pair"]["implicit"]]
+        assert first.startswith(f"{path}: implicit part L-stable; ") == implicit["l_stable"]
+    elif "a_stable" in data:
         assert first.startswith(f"{path}: {said[data['a_stable']]}")
     else:
         assert "A-stable" not in text.output
@@ -41,6 +44,40 @@ def test_methods_of_the_paper(path: str) -> None:
         if data.get(key) is not None:
             (row,) = [" ".join(row) for row in rows if " ".join(row).startswith(label)]
             assert row.startswith(f"{label} {'yes' if data[key] else 'no: '}")
+
+
+def test_parts_come_first() -> None:
+    """Of an implicit-explicit method: its parts, then both, each interval cut off and not rounded.
+
+    The explicit Euler step is stable on [−2, 0], that of ARS(3,4,3) as the one of RK4 nearly is; with
+    one λ for both none of this could be seen.
+    """
+    first, *rest = " ".join(run("imex-euler").output.split()).partition(" R(z1, z2, …)")
+    assert first.startswith(
+        "ars-111: implicit part L-stable; explicit part: real interval [−2, 0], no imaginary"
+        " interval; coupled: real interval [−2, 0], no imaginary interval"
+    )
+    assert "A-stable" not in "".join(rest).replace("algebraically stable", "")
+    (data,) = json.loads(run("ars-343", "--format", "json").output)["files"]
+    ends = [data["colours"][0]["real_interval"], data["pair"]["real_interval"]]
+    assert [float(x["to"]["decimal"]) for x in ends] == pytest.approx([2.78529356483] * 2)
+    square = float(data["colours"][0]["imaginary_interval"]["to"]["decimal"])
+    assert 2.828 < square**0.5 < 2.8284271247
+    text = " ".join(run("ars-343").output.split())
+    assert "explicit part: real interval [−2.785, 0], imaginary interval [−2.828i, 2.828i]" in text
+    assert "one λ for both parts" in run("ars-343", "-v").output
+
+
+def test_rounded_parts_come_first_too() -> None:
+    """What is coupled is not decided, and a table has the columns of all its methods."""
+    text = " ".join(run("ark-324").output.split())
+    assert "within 1e-25: implicit part L-stable; explicit part: real interval [−3.664, 0]" in text
+    assert "coupled not decided: coefficients are rounded" in text
+    table = run("ark-324", "rk4", "--format", "markdown").output.splitlines()
+    assert table[0].startswith("| file | implicit part | explicit part | coupled | A-stable |")
+    assert table[2].split("|")[2].strip() == "L-stable"
+    assert table[2].split("|")[5].strip() == ""
+    assert table[3].split("|")[2].strip() == ""
 
 
 def test_the_page_shows_what_the_program_prints() -> None:
