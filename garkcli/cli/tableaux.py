@@ -437,7 +437,7 @@ def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodF
     Raises UsageProblem for an unknown parameter.
     """
     from garkcli.methodfile.carried import parameter_names
-    from garkcli.methodfile.load import loads, read_method_text
+    from garkcli.methodfile.load import loads, noted, read_method_text
 
     methods = []
     known: set[str] = set()
@@ -446,7 +446,7 @@ def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodF
         names = parameter_names(text, source)
         known.update(names)
         own = {name: x for name, x in settings.items() if name in names}
-        methods.append(loads(text, source, own))
+        methods.append(noted(loads(text, source, own)))
     for name in settings:
         if name not in known:
             message = f"--set {name}: neither file has such a parameter"

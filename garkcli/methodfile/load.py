@@ -52,6 +52,13 @@ def noting() -> Iterator[list[MethodFile]]:
         _READ.reset(token)
 
 
+def noted(method: MethodFile) -> MethodFile:
+    """The method, which is now among those that ``noting`` collects."""
+    if (methods := _READ.get()) is not None:
+        methods.append(method)
+    return method
+
+
 def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
     """Reads a method file, or standard input for ``-``, or a method of the catalogue by its name or
     alias.
@@ -60,10 +67,7 @@ def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
     all faults of the file.
     """
     with doing(f"reading {path}"):
-        method = loads(*read_method_text(path), settings)
-    if (noted := _READ.get()) is not None:
-        noted.append(method)
-    return method
+        return noted(loads(*read_method_text(path), settings))
 
 
 def read_method_text(path: str) -> tuple[str, str]:

@@ -77,6 +77,8 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         if outcome.analysis is not None:
             told += hint_rows(hints(outcome), d)
         yield from d.rows(told)
+    elif outcome.remark is not None and not is_quiet:
+        yield from d.rows(hint_rows(hints(outcome), d))
 
 
 def _summary(outcomes: Sequence[Outcome], d: Plain) -> str:

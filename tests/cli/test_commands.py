@@ -619,12 +619,15 @@ def test_help_says_what_stands_for_a_method(name: str) -> None:
 
 OF_DECIMALS = [
     *("stability", "show", "tableau", "conjugate", "modified", "convert", "claims", "certificate"),
-    *("conditions", "export --to json", "energy --step 1/2 --t-end 10"),
+    *("conditions", "export --to json", "energy --step 1/2 --t-end 10", "diff rk4", "plot"),
+    *("converge", "report -o page.html"),
 ]
 
 
 @pytest.mark.parametrize("command", OF_DECIMALS)
-def test_every_command_says_that_coefficients_look_rounded(command: str, tmp_path: Path) -> None:
+def test_every_command_says_that_coefficients_look_rounded(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A method in decimals without tolerance is pointed out by every command that reads it, once; with
     the line, or quietly, there is nothing to say.
     """
@@ -635,10 +638,24 @@ def test_every_command_says_that_coefficients_look_rounded(command: str, tmp_pat
     place, exact = tmp_path / "sdirk.gark.yaml", tmp_path / "within.gark.yaml"
     place.write_text(text, encoding="utf-8")
     exact.write_text(f"{text}tolerance: 1e-15\n", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
     name, *options = command.split()
     hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-15  order 2 holds"
     assert gark(name, str(place), *options).err.count(hint) == 1
     assert "look rounded" not in gark(name, str(exact), *options).err
+
+
+def test_a_line_of_several_checks_says_it_too(tmp_path: Path) -> None:
+    """``gark check`` of several files has the missing line below each one that lacks it."""
+    place = tmp_path / "heun.yaml"
+    place.write_text(
+        "A: [[0, 0, 0], [0.3333333333, 0, 0], [0, 0.6666666667, 0]]\nb: [1/4, 0, 3/4]\n"
+    )
+    run = gark("check", str(place), "rk4")
+    (hint,) = [x for x in run.out.splitlines() if x.startswith("  hint")]
+    assert hint == "  hint  the coefficients look rounded to 10 decimal places; with the line"
+    assert "        tolerance: 1e-10 order 3 holds\nok   rk4" in run.out
+    assert "hint" not in gark("check", str(place), "rk4", "-q").out
 
 
 def test_nobody_looks_for_rounding_that_nobody_reads(
