@@ -27,17 +27,29 @@ def to_text(number: Number) -> str:
 
 
 def shortest(number: Number) -> str:
-    """The number as people read it: decimals for a long fraction if all of them are shorter.
+    """The number as people read it: decimals for long fractions if all of them are shorter.
 
     >>> shortest(fmpq(732233047, 2500000000)), shortest(fmpq(1, 20)), shortest(fmpq(1, 30000))
     ('0.2928932188', '1/20', '1/30000')
     """
+    if isinstance(number, Algebraic):
+        text = ""
+        for coefficient, word in number.terms():
+            size = _short_decimal(abs(coefficient))
+            text += f" {'-' if coefficient < 0 else '+'} {number.term(coefficient, word, size)}"
+        return "-" + text[3:] if text.startswith(" -") else text[3:]
     text = to_text(number)
-    if isinstance(number, fmpq) and number.q >= _LONG_DENOMINATOR:
-        size = abs(number)
-        decimals = decimal(size) if size < _SMALL else plain_decimal(size)
-        return min(text, f"-{decimals}" if number < 0 else decimals, key=len)
+    if isinstance(number, fmpq) and (decimals := _short_decimal(abs(number))):
+        return f"-{decimals}" if number < 0 else decimals
     return text
+
+
+def _short_decimal(size: fmpq) -> str:
+    """The decimals of a positive fraction; empty unless all of them are shorter than it."""
+    if size.q < _LONG_DENOMINATOR:
+        return ""
+    decimals = decimal(size) if size < _SMALL else plain_decimal(size)
+    return decimals if len(decimals) < len(str(size)) else ""
 
 
 def decimal_latex(text: str) -> str:

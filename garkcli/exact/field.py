@@ -266,18 +266,22 @@ class Algebraic:
         text = ""
         for coefficient, word in self.terms():
             sign = " - " if coefficient < 0 else " + "
-            text += sign + self._term(coefficient, word)
+            text += sign + self.term(coefficient, word)
         if text.startswith(" - "):
             return "-" + text.removeprefix(" - ")
         return text.removeprefix(" + ")
 
-    def _term(self, coefficient: fmpq, word: Word) -> str:
-        """An unsigned multiple of a product of radicals: ``4*sqrt(3)/27``."""
+    def term(self, coefficient: fmpq, word: Word, size: str = "") -> str:
+        """An unsigned multiple of a product of radicals, ``4*sqrt(3)/27``; ``size`` is the text of
+        the rational number if that is not a fraction.
+        """
         factors = []
         for factor, power in self.field.powers(word):
             if power > 1:
                 factor += f"**{power}"
             factors.append(factor)
+        if size:
+            return "*".join([size, *factors])
         numerator = abs(coefficient.p)
         denominator = coefficient.q
         if numerator != 1 or not factors:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-from flint import arb, ctx, fmpq, fmpz
+from flint import arb, fmpq, fmpz
 
-from garkcli.exact.display import BITS_OF_A_DIGIT
+from garkcli.exact.display import BITS_OF_A_DIGIT, to_ball
 from garkcli.exact.domain import square_free
-from garkcli.exact.field import Number
+from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.parametric import Parametric
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
-LONG_COEFFICIENT = 24
-"""Longer rational numbers are not printed."""
+LONG_COEFFICIENT = 16
+"""Longer rational numbers are decimals where these are enough."""
 
 
 def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
@@ -53,24 +53,32 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
 
 
 def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
-    """A polynomial with rational coefficients rounded to decimals, without trailing zeros.
+    """A polynomial with coefficients rounded to decimals, without trailing zeros.
 
     >>> polynomial_decimals(Polynomial([fmpq(1), fmpq(10**30 + 1, 7 * 10**30)]), "z")
     '0.14285714*z + 1'
     """
-    terms: list[tuple[Number | str, str]] = []
-    with ctx.workprec(int(digits * BITS_OF_A_DIGIT) + 64):
-        for k, a in reversed([*enumerate(p.coefficients)]):
-            number: Number | str = a
-            if isinstance(a, fmpq) and a:
-                number = ball_decimal(arb(a), digits)
-            terms.append((number, power_text(variable, k)))
-    return sum_text(terms)
+    powers = reversed([*enumerate(p.coefficients)])
+    return sum_text([(_rounded(a, digits), power_text(variable, k)) for k, a in powers])
+
+
+def _rounded(a: Number, digits: int) -> str:
+    return ball_decimal(to_ball(a, digits + 4), digits) if a else ""
+
+
+def is_long(a: Number) -> bool:
+    """Whether a rational number, or one in a sum of roots, has many digits."""
+    rationals = [x for x, _ in a.terms()] if isinstance(a, Algebraic) else [a]
+    return any(len(str(x)) > LONG_COEFFICIENT for x in rationals)
 
 
 def has_long_coefficients(*polynomials: Polynomial) -> bool:
-    numbers = (a for p in polynomials for a in p.coefficients)
-    return any(isinstance(a, fmpq) and len(str(a)) > LONG_COEFFICIENT for a in numbers)
+    return any(is_long(a) for p in polynomials for a in p.coefficients)
+
+
+def multivariate_decimals(p: Multivariate, variables: Sequence[str], digits: int = 8) -> str:
+    """A polynomial in several variables with coefficients rounded to decimals."""
+    return sum_text((_rounded(a, digits), power) for a, power in _terms(p, variables))
 
 
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
@@ -79,11 +87,13 @@ def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
     >>> multivariate_text(Multivariate.of(2, {(1, 1): fmpq(-3), (0, 0): fmpq(1)}), ["x", "y"])
     '-3*x*y + 1'
     """
-    terms = []
+    return sum_text(_terms(p, variables))
+
+
+def _terms(p: Multivariate, variables: Sequence[str]) -> Iterator[tuple[Number, str]]:
     for exponents, a in p.terms:
         powers = [power_text(x, k) for x, k in zip(variables, exponents, strict=True) if k]
-        terms.append((a, "*".join(powers)))
-    return sum_text(terms)
+        yield a, "*".join(powers)
 
 
 def sum_text(terms: Iterable[tuple[Number | Parametric | str, str]]) -> str:

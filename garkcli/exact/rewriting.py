@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from flint import fmpq
 
 from garkcli.errors import LimitExceeded, UndefinedValue, did_you_mean
 from garkcli.exact.expression import INDEX_OF_ROOT
+from garkcli.exact.letters import letter_of
 from garkcli.exact.nodes import (
     AlgebraicRoot,
     Call,
@@ -145,7 +146,9 @@ def format_expression(expression: Expression, latex: bool = False) -> str:
 
 
 class PlainText:
-    """Writes expressions in the grammar of ``parse``."""
+    """Writes expressions in the grammar of ``parse``; roots with letters as these."""
+
+    is_latex: ClassVar[bool] = False
 
     def written(self, expression: Expression) -> str:
         match expression:
@@ -164,7 +167,7 @@ class PlainText:
             case Root(radicand=radicand, index=index):
                 return self.root(self.written(radicand), index)
             case AlgebraicRoot():
-                return self.algebraic(expression)
+                return letter_of(expression, self.is_latex) or self.algebraic(expression)
         raise TypeError(f"no expression: {expression!r}")
 
     def chain(self, chain: Chain) -> str:
@@ -267,6 +270,8 @@ class _Latex(PlainText):
     -2a_{12,31}\left(-x^{2}+\tau \right)
     -\frac{\left(-2\cdot \frac{3}{4}\right)}{x}
     """
+
+    is_latex = True
 
     def name(self, name: str) -> str:
         return name_latex(name)

@@ -11,12 +11,15 @@ from flint import arb, fmpq
 from garkcli.exact.display import decimal, plain_decimal, to_ball, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
+from garkcli.exact.letters import NAMES, Letters, lettered
 from garkcli.exact.matrix import Matrix, Vector, apply
+from garkcli.exact.rewriting import format_expression
 from garkcli.frozen import replace
 from garkcli.grammar.editing import quoted, row_text
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.letters import letters_of
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
@@ -41,19 +44,32 @@ def write_tableau_file(
     writes a coefficient, ``parameters`` has a text such as ``tau: free`` for each parameter.
     """
     tableau.demand_fields("a method file")
+    letters = None if parameters else letters_of(tableau, NAMES)
+    with lettered(letters):
+        spelled_out = _spelled_out(tableau, text, further)
+    parameters = [*parameters, *_defined(letters)]
     lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]
     if parameters:
         lines.append(f"parameters: {{{', '.join(parameters)}}}")
-    if _is_prk(tableau):
-        lines += _prk(tableau, text, further)
-    else:
-        lines += _ark(tableau, text) if _is_ark(tableau) else _blocks(tableau, text)
-        lines += _further(further, text)
-        linear = [str(l) for l, x in enumerate(tableau.colours, start=1) if x.is_linear]
-        lines += [f"linear: [{', '.join(linear)}]"] if linear else []
+    lines += spelled_out
     if tolerance is not None:
         lines.append(f"tolerance: {tolerance_text(tolerance)}")
     return "\n".join(lines) + "\n"
+
+
+def _spelled_out(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
+    if _is_prk(tableau):
+        return _prk(tableau, text, further)
+    lines = _ark(tableau, text) if _is_ark(tableau) else _blocks(tableau, text)
+    lines += _further(further, text)
+    linear = [str(l) for l, x in enumerate(tableau.colours, start=1) if x.is_linear]
+    return [*lines, f"linear: [{', '.join(linear)}]"] if linear else lines
+
+
+def _defined(letters: Letters | None) -> list[str]:
+    """Returns the parameters that stand for roots."""
+    found = {} if letters is None else letters.of
+    return [f"{NAMES[x]}: {quoted(format_expression(root))}" for root, x in found.items()]
 
 
 def tolerance_text(written: Written) -> str:
@@ -99,7 +115,21 @@ def write_form(
     the row sums of A.
     """
     text = to_text if tolerance is None else _decimal_text
-    lines = ["gark: 1", f"name: {quoted(name)}", f"{form}:"]
+    letters = letters_of(tableau, NAMES)
+    with lettered(letters):
+        lines = _in_form(form, keys, tableau, text, further)
+    parameters = _defined(letters)
+    head = [f"parameters: {{{', '.join(parameters)}}}"] if parameters else []
+    lines = ["gark: 1", f"name: {quoted(name)}", *head, *lines]
+    if tolerance is not None:
+        lines.append(f"tolerance: {tolerance_text(tolerance)}")
+    return "\n".join(lines) + "\n"
+
+
+def _in_form(
+    form: str, keys: Mapping[str, Any], tableau: Tableau, text: NumberText, further: Further
+) -> list[str]:
+    lines = [f"{form}:"]
     for key, value in keys.items():
         if isinstance(value, str):
             lines.append(f"  {key}: {value}")
@@ -112,10 +142,7 @@ def write_form(
     sums = apply(block, tableau.spaces[0].one) if block else (fmpq(0),) * len(colour.c)
     if sums != colour.c:
         lines.append(f"  c: {_row(colour.c, text)}")
-    lines += [x.removeprefix("  ") for x in _further_of_part(further, 0, text)]
-    if tolerance is not None:
-        lines.append(f"tolerance: {tolerance_text(tolerance)}")
-    return "\n".join(lines) + "\n"
+    return [*lines, *(x.removeprefix("  ") for x in _further_of_part(further, 0, text))]
 
 
 def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING) -> str:

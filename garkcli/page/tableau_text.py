@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import chain
+from typing import TypeAlias
 
 from flint import arb
 
 from garkcli.exact.display import shortest, to_ball
+from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text, distinct_rows, lines_of
 from garkcli.page.lines import aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
+Text: TypeAlias = Callable[[Cell], str]
 _MARGIN = " " * 4
+LONGEST = 64
+"""Longer exact entries are decimals where these are enough."""
+
+
+def room_for_entry(width: int) -> int:
+    """The longest exact entry in lines of a width."""
+    return min(LONGEST, width - len(_MARGIN))
+
+
 _GAP = "  "
 
 
@@ -31,41 +43,51 @@ def readable(entries: Entries) -> Entries:
     return entries.changed(short)
 
 
-def tableau_lines(tableau: Tableau, entries: Entries, width: int = 80) -> list[str]:
-    lines = _grid(tableau, entries)
+def shortened(entries: Entries, longest: int) -> Entries:
+    """Returns the entries, with exact ones of more than ``longest`` signs as decimals."""
+
+    def short(cell: Cell) -> Cell:
+        if isinstance(cell, (arb, Parametric)) or len(shortest(cell)) <= longest:
+            return cell
+        return to_ball(cell, entries.digits)
+
+    return entries.changed(short)
+
+
+def tableau_lines(
+    tableau: Tableau, entries: Entries, width: int = 80, spelt: Callable[[str], str] = str
+) -> list[str]:
+    """Returns the lines of a tableau; ``spelt`` writes entries in the signs of the output."""
+
+    def text(cell: Cell) -> str:
+        return spelt(cell_text(cell, entries.digits))
+
+    lines = _grid(tableau, entries, text)
     if max(map(len, lines)) > width:
-        lines = _listing(tableau, entries, width)
-    return [*lines, *_dense(tableau, entries, width), *_predictor(entries, width)]
+        lines = _listing(tableau, entries, width, text)
+    return [*lines, *_dense(tableau, entries, width, text), *_predictor(entries, width, text)]
 
 
-def _grid(tableau: Tableau, entries: Entries) -> list[str]:
+def _grid(tableau: Tableau, entries: Entries, text: Text) -> list[str]:
     """Returns the lines with all blocks side by side, and b and embedded weights below."""
-    digits = entries.digits
     lines = list(lines_of(entries, distinct_rows(tableau), range(tableau.size)))
-    heads = [cell_text(x.node, digits) for x in lines if x.node is not None]
+    heads = [text(x.node) for x in lines if x.node is not None]
     heads += [""] if entries.embedded is None else ["b", "embedded"]
-    columns = [aligned([[text] for text in ("", *heads)])]
+    columns = [aligned([[head] for head in ("", *heads)])]
     for m, colour in enumerate(tableau.colours):
         blank = [""] * len(entries.b[m])
         absent = ["."] * len(blank)
-        rows = (absent if (row := x.groups[m]) is None else _texts(row, digits) for x in lines)
+        rows = (absent if (row := x.groups[m]) is None else [*map(text, row)] for x in lines)
         columns.append([colour.name, *aligned([blank, *rows])[1:]])
     widths = [max(map(len, column)) for column in columns]
     first, *rest = (" | ".join(map(str.rjust, x, widths)) for x in zip(*columns, strict=True))
     rule = "-+-".join("-" * width for width in widths)
-    shown = (
-        [rule, text] if line.is_first else [text] for line, text in zip(lines, rest, strict=True)
-    )
+    shown = ([rule, row] if x.is_first else [row] for x, row in zip(lines, rest, strict=True))
     return [line.rstrip() for line in chain([first], *shown)]
 
 
-def _texts(cells: Sequence[Cell], digits: int) -> list[str]:
-    return [cell_text(x, digits) for x in cells]
-
-
-def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
+def _listing(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[str]:
     """Returns the lines with one block after the other."""
-    digits = entries.digits
     names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
     vectors = [("c", entries.c), ("b", entries.b)]
@@ -73,13 +95,13 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
         vectors.append(("embedded", entries.embedded))
     for l, name in enumerate(names):
         for letter, rows in vectors:
-            lines += _vector(_named(letter, tableau, name), _texts(rows[l], digits), width)
+            lines += _vector(_named(letter, tableau, name), [*map(text, rows[l])], width)
         lines.append("")
     for l in distinct_rows(tableau):
         for name, block in zip(names, entries.A[l], strict=True):
             if block is None:
                 continue
-            cells = [_texts(row, digits) for row in block]
+            cells = [[*map(text, row)] for row in block]
             lines += _block(_named("A", tableau, names[l], name), cells, width)
     return lines[:-1]
 
@@ -89,7 +111,7 @@ def _named(letter: str, tableau: Tableau, *colours: str) -> str:
     return f"{letter}{{{','.join(colours)}}}" if tableau.size > 1 else letter
 
 
-def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
+def _dense(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[str]:
     """Returns the polynomials of dense output: one block for each colour, one row for each
     stage.
     """
@@ -97,18 +119,18 @@ def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
         return []
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]
     for colour, rows in zip(tableau.colours, entries.dense, strict=True):
-        cells = [_texts(row, entries.digits) for row in rows]
+        cells = [[*map(text, row)] for row in rows]
         lines += _block(f"{_named('b', tableau, colour.name)}(θ)", cells, width)
     return lines[:-1]
 
 
-def _predictor(entries: Entries, width: int) -> list[str]:
+def _predictor(entries: Entries, width: int, text: Text) -> list[str]:
     """The weights that predict stages, a block for each power of r."""
     lines = []
     for name, matrices in entries.predictor:
         lines += ["", f"predictor, weights of {_SLOPES[name]}, h = r h_old", ""]
         for k, matrix in enumerate(matrices):
-            cells = [_texts(row, entries.digits) for row in matrix]
+            cells = [[*map(text, row)] for row in matrix]
             lines += _block(("1", "r")[k] if k < 2 else f"r^{k}", cells, width)
         lines.pop()
     return lines

@@ -334,4 +334,5 @@ SHOWN: Report[ShownMethod] = Report.only(
         Row("tableau", drawing(drawn), lambda x: x.whole),
         title=lambda x, d: d.prose(x.title),
     ),
+    letters=lambda x: x.tableau,
 )

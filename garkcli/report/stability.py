@@ -829,6 +829,7 @@ REPORT: Report[StabilityReport] = Report(
     lambda: (SLOW, SPRINGS, *FORMS.values()),
     form,
     lambda x: {"digits": x.digits, "colours": [c.name for c in x.found.tableau.colours]},
+    letters=lambda x: x.found.tableau,
 )
 
 

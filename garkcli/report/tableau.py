@@ -26,7 +26,7 @@ from garkcli.order.simplifying import inconsistent_blocks, is_symplectic
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.lines import aligned
 from garkcli.page.schema import NUMBER, NUMERAL, Schema, array, nullable
-from garkcli.page.tableau_text import readable
+from garkcli.page.tableau_text import readable, room_for_entry, shortened
 from garkcli.report.check import COLOURS, colours_of, wrong
 from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
@@ -229,10 +229,18 @@ def _of_derivatives(tableau: Tableau, whole: Entries) -> Iterator[tuple[str, Tab
 
 def drawn(x: ShownTableau, d: Plain) -> list[str]:
     lines = []
-    for text, tableau, entries in shown_parts(x.tableau, x.entries):
+    has_short, longest = False, room_for_entry(d.width)
+    for text, tableau, own in shown_parts(x.tableau, x.entries):
         gap = [""] if d.breadth == "terminal" else []
         lines += [*gap, *d.sentence(d.prose(text), 0)] if text else []
-        lines += d.tableau(tableau, readable(entries) if x.is_rounded else entries)
+        entries = readable(own) if x.is_rounded else own
+        if d.is_brief and d.breadth != "page":
+            entries = shortened(whole := entries, longest)
+            has_short = has_short or entries != whole
+        lines += d.tableau(tableau, entries)
+    if has_short:
+        decimals = f"entries of more than {longest} signs as decimals: exact with -v"
+        lines += ["", *d.sentence(d.prose(decimals), 0)]
     return lines
 
 
@@ -282,6 +290,7 @@ REPORT: Report[ShownTableau] = Report.only(
     "tableau of gark tableau, conjugate, convert and reduce",
     TABLEAU,
     lambda _: {"is_inserted": True},
+    letters=lambda x: x.tableau,
 )
 DOCUMENT: Section[ShownTableau] = Section(
     Row("schema", constant(SCHEMA), lambda _: SCHEMA), TABLEAU.rows

@@ -20,6 +20,8 @@ from garkcli.exact.polynomial_text import (
     LONG_COEFFICIENT,
     has_long_coefficients,
     integral,
+    is_long,
+    multivariate_decimals,
     multivariate_text,
     polynomial_decimals,
     polynomial_text,
@@ -37,6 +39,7 @@ from garkcli.reason import NO_REASON, Place, Reason
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
+    from garkcli.exact.letters import Letters
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
@@ -131,6 +134,7 @@ class Plain(Mutable):
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
         told: failures that were reported: the second time they are "as above".
+        letters: those of roots in the numbers of a result, defined below its first line.
         is_inserted: whether LaTeX goes into a document that has words of its own: its tables and
             drawings alone, the words as comments.
     """
@@ -144,6 +148,7 @@ class Plain(Mutable):
     is_brief: bool = True
     places: int | None = None
     told: list[tuple[str, str]] = field(default_factory=list)
+    letters: Letters | None = None
     is_inserted: bool = False
 
     infinity = "∞"
@@ -250,10 +255,13 @@ class Plain(Mutable):
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:
         names = [f"z{k + 1}" for k in range(p.variables)]
-        text = self.over(multivariate_text(p, names), multivariate_text(q, names))
+        write = multivariate_text
+        if self.is_brief and any(is_long(a) for x in (p, q) for _, a in x.terms):
+            write = multivariate_decimals
+        text = self.over(write(p, names), write(q, names))
         if len(text) > 2 * LONG_POLYNOMIAL:
             return f"{len(p.terms)} terms over {len(q.terms)}, in --format json and latex"
-        return self.expression(text)
+        return self.expression(text) if write is multivariate_text else f"about {text}"
 
     def place(self, place: Place) -> str:
         """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``."""
@@ -480,10 +488,18 @@ class Plain(Mutable):
         """A line for the rows of a table that are left out."""
         return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
+    def definitions(self, letters: Letters, text: str) -> Iterator[str]:
+        """A line for each letter of a root that is in the text."""
+        from garkcli.page.letters import definition
+
+        for root, letter in letters.of.items():
+            if self.spelt(letter) in text:
+                yield from self.sentence(definition(root, letter), 1)
+
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         from garkcli.page.tableau_text import tableau_lines
 
-        return ["", *tableau_lines(tableau, entries, self.width)]
+        return ["", *tableau_lines(tableau, entries, self.width, self.spelt)]
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         """A drawing in signs."""

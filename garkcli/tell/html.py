@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.errors import printable
 from garkcli.exact.display import shortest, to_latex
+from garkcli.exact.letters import LETTERS
 from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
 from garkcli.page.exactly import polynomial_latex, quotient_latex
 from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, GridLayout, Plain
@@ -16,6 +17,7 @@ from garkcli.tell.latex import expression_latex
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
+    from garkcli.exact.letters import Letters
     from garkcli.exact.polynomial import Polynomial
     from garkcli.plots.scene import Scene
     from garkcli.tableau.pointwise import Entries
@@ -95,6 +97,14 @@ class Html(Plain):
 
     def more(self, count: int, depth: int) -> list[str]:
         return [f"<p>… {count} more</p>"]
+
+    def definitions(self, letters: Letters, text: str) -> Iterator[str]:
+        from garkcli.page.letters import definition, definition_latex
+
+        for root, letter in letters.of.items():
+            if letter in text or LETTERS[letter].strip() in text:
+                latex = definition_latex(root, letter)
+                yield from self.sentence(self.formula(latex, definition(root, letter)))
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         from garkcli.page.tableau_html import tableau_lines

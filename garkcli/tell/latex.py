@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.errors import printable
 from garkcli.exact.display import to_latex
+from garkcli.exact.letters import LETTERS
 from garkcli.exact.polynomial_text import root_text
 from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
@@ -17,6 +18,7 @@ from garkcli.tell.dialect import WHOLE, Cells, GridLayout, Plain
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
+    from garkcli.exact.letters import Letters
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
@@ -177,6 +179,13 @@ class Latex(Plain):
         yield r"\hline"
         yield rf"\end{{{kind}}}"
         yield ""
+
+    def definitions(self, letters: Letters, text: str) -> Iterator[str]:
+        from garkcli.page.letters import definition_latex
+
+        for root, letter in letters.of.items():
+            if LETTERS[letter].strip() in text:
+                yield rf"\[ {definition_latex(root, letter)} \]"
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
         from garkcli.page.tableau_latex import tableau_lines

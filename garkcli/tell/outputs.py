@@ -102,7 +102,11 @@ def one(section: Section[T], whole: T, d: Plain, level: Level = Level.USUAL) -> 
     subject = section.title(whole, d) if section.title else ""
     if subject or headline:
         yield from d.headline(": ".join(filter(None, [subject, headline])))
-    yield from body(section, whole, d, level, 1)
+    lines = body(section, whole, d, level, 1)
+    if d.letters is not None:
+        lines = iter(whole_text := [*lines])
+        yield from d.definitions(d.letters, "\n".join(whole_text))
+    yield from lines
 
 
 def body(section: Section[T], whole: T, d: Plain, level: Level, depth: int) -> Iterator[str]:

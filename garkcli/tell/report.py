@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import chain
-from typing import Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
+from typing import TYPE_CHECKING, Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
 
+from garkcli.exact.letters import Letters, lettered
 from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
 from garkcli.page.look import PLAIN, Look
 from garkcli.page.schema import Schema, array, one_of, published
+from garkcli.tableau.letters import letters_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Plot, Section, Stream
 from garkcli.tell.outputs import body, labelled, many, one
+
+if TYPE_CHECKING:
+    from garkcli.tableau.tableau import Tableau
 
 Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"
@@ -70,6 +75,7 @@ class Report(Frozen, Generic[Whole]):
         tail: further fields of the document, of all results.
         is_open: whether the schema allows others.
         lines: the parts of a result that CSV has, with the section that tells them.
+        letters: the method of a result in whose numbers roots of polynomials have letters.
     """
 
     schema_name: str
@@ -81,6 +87,7 @@ class Report(Frozen, Generic[Whole]):
     tail: Section[Sequence[Whole]] = NOTHING
     is_open: bool = False
     lines: Callable[[Whole], Lines] | None = None
+    letters: Callable[[Whole], Tableau | None] = lambda _: None
 
     @classmethod
     def only(
@@ -90,10 +97,18 @@ class Report(Frozen, Generic[Whole]):
         section: Section[Whole],
         signs: Callable[[Whole], DialectSigns] = lambda _: {},
         lines: Callable[[Whole], Lines] | None = None,
+        letters: Callable[[Whole], Tableau | None] = lambda _: None,
     ) -> Report[Whole]:
         """A report of one result, whose fields are at the top, by one section."""
         return cls(
-            schema_name, title, lambda: [section], lambda _: section, signs, key="", lines=lines
+            schema_name,
+            title,
+            lambda: [section],
+            lambda _: section,
+            signs,
+            key="",
+            lines=lines,
+            letters=letters,
         )
 
     def render(
@@ -206,7 +221,13 @@ class Report(Frozen, Generic[Whole]):
         self, whole: Whole, format: str, look: Look, level: Level, **signs: Unpack[DialectSigns]
     ) -> str:
         d = self.dialect(whole, format, look, level < Level.DETAIL, **signs)
-        return "".join(d.page(one(self.form(whole), whole, d, level)))
+        d.letters = self._letters_of(whole)
+        with lettered(d.letters):
+            return "".join(d.page(one(self.form(whole), whole, d, level)))
+
+    def _letters_of(self, whole: Whole) -> Letters | None:
+        tableau = self.letters(whole)
+        return None if tableau is None else letters_of(tableau)
 
     def columns(self, whole: Whole) -> Sequence[str]:
         return self.form(whole).columns
@@ -218,9 +239,11 @@ class Report(Frozen, Generic[Whole]):
     def html(self, whole: Whole) -> str:
         """A fragment of a page with its pictures, for notebooks."""
         form, d = self.form(whole), self.dialect(whole, "html", is_brief=True)
+        d.letters = self._letters_of(whole)
         pictures = Section([row for row in form.rows if isinstance(row.kind.shown, Plot)])
-        lines = one(form, whole, d), body(pictures, whole, d, Level.DETAIL, 1)
-        return "".join(d.page(chain(*lines)))
+        with lettered(d.letters):
+            lines = one(form, whole, d), body(pictures, whole, d, Level.DETAIL, 1)
+            return "".join(d.page(chain(*lines)))
 
     def labelled(
         self, whole: Whole, signs: type[Plain], without: Collection[str] = ()

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from garkcli.bridges.readers import printed
-from garkcli.bridges.readers.latex_numbers import number_of
+from garkcli.bridges.readers.latex_numbers import number_of, without_letters
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES, Unreadable
 
@@ -37,7 +37,7 @@ def _tableaus(text: str) -> Iterator[tuple[int, printed.Values]]:
     """The tableaus among the arrays of a text."""
     comments = [x.group()[1:].strip() for x in _COMMENT.finditer(text)]
     is_general = any(_GENERAL in comment for comment in comments)
-    arrays = deque(_arrays(_COMMENT.sub("", text)))
+    arrays = deque(_arrays(without_letters(_COMMENT.sub("", text))))
     while arrays:
         line, before, inside = arrays.popleft()
         values: printed.Values = {}

@@ -16,6 +16,11 @@ _IGNORED = re.compile(
 )
 _ROOT_OF = re.compile(r"\\operatorname\{root\}\(([-+0-9x^{}/]{1,4000}),x\\approx(-?[0-9.]{1,60})\)")
 """The root of a polynomial nearest to a decimal, in the notation of gark."""
+_LETTER = r"\\(?:gamma|xi|eta|zeta)(?![A-Za-z])"
+_DEFINED = re.compile(
+    rf"((?:[-+0-9^{{}} ]|{_LETTER}){{1,4000}})= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})"
+)
+"""A polynomial in a letter that is zero, with a decimal near the letter, in the notation of gark."""
 _ONE = r"(?:\{([^{}]*)\}|([0-9]))"
 _COMMANDS = (
     (re.compile(rf"\\(?:[tdcs]|nice)?frac{_ONE}{_ONE}"), r"((\1\2)/(\3\4))"),
@@ -25,6 +30,20 @@ _COMMANDS = (
 )
 """Braces without commands inside are replaced first."""
 _PLAIN = re.compile(r"(?:sqrt|root_of\([-+*/^().0-9x]*,|root|[-+*/^().,0-9])*")
+
+
+def without_letters(text: str) -> str:
+    r"""The text with the roots that it defines in place of their letters.
+
+    >>> text = r"\xi ^{3}-2 = 0, \quad \xi \approx 1.26; \frac{1}{\xi }"
+    >>> print(without_letters(text).split("; ")[1])
+    \frac{1}{\operatorname{root}(x^{3}-2,x\approx1.26)}
+    """
+    for polynomial, letter, near in _DEFINED.findall(text):
+        of_x = polynomial.replace(letter, "x").replace(" ", "")
+        root = rf"\operatorname{{root}}({of_x},x\approx{near})"
+        text = re.sub(rf"\{letter}(?![A-Za-z]) ?", root.replace("\\", r"\\"), text)
+    return text
 
 
 def number_of(text: str) -> str:

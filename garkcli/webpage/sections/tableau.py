@@ -9,8 +9,10 @@ from markupsafe import Markup
 
 from garkcli.check.analysis import is_pair_of_itself
 from garkcli.exact.display import to_ball, to_text
+from garkcli.exact.letters import letters_now
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import TableauLine, lines_of, parts_of, remark
+from garkcli.page.letters import definition, definition_latex
 from garkcli.page.tableau_latex import dense_polynomials
 from garkcli.page.tableau_text import readable
 from garkcli.report.tableau import shown_parts
@@ -67,7 +69,7 @@ def content(method: Reported) -> Content | None:
             shown.append(table)
     obstacle = of_fields.obstacle
     told = Markup(Typeset().reason(obstacle)) if obstacle else ""
-    return {"tables": shown, "dense": dense, "obstacle": told}
+    return {"tables": shown, "dense": dense, "obstacle": told, "letters": _definitions()}
 
 
 def _of_other_kind(method: Reported) -> Content:
@@ -81,7 +83,14 @@ def _of_other_kind(method: Reported) -> Content:
         found = own if method.tolerance is None else readable(own)
         tables.append(_table(title, tableau, found))
         dense += [(typeset(left), typeset(right)) for left, right in dense_polynomials(found)]
-    return {"tables": tables, "dense": dense, "obstacle": ""}
+    return {"tables": tables, "dense": dense, "obstacle": "", "letters": _definitions()}
+
+
+def _definitions() -> list[Markup]:
+    """Returns the definitions of letters for roots in the entries."""
+    letters = letters_now()
+    found = {} if letters is None else letters.of
+    return [typeset(definition_latex(x, y), definition(x, y)) for x, y in found.items()]
 
 
 def _of_family(method: Reported) -> Iterator[Content]:

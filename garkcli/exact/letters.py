@@ -1,0 +1,73 @@
+"""Letters for roots of polynomials of degree 3 or more: while a text is made, each such root is
+written out once and then as its letter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from types import MappingProxyType
+
+from garkcli.exact.nodes import AlgebraicRoot
+
+DIAGONAL = "γ"
+"""The letter of the entry on the diagonal of A."""
+LETTERS: Mapping[str, str] = {"γ": r"\gamma ", "ξ": r"\xi ", "η": r"\eta ", "ζ": r"\zeta "}
+"""Letters with their commands in LaTeX; a further root is written out each time."""
+NAMES: Mapping[str, str] = {letter: x.strip(" \\") for letter, x in LETTERS.items()}
+"""Letters as names of parameters."""
+NOTHING: Mapping[str, str] = MappingProxyType({})
+
+
+class Letters:
+    """The letters of one text, as its roots occur.
+
+    Attributes:
+        of: the roots that have occurred, with their letters.
+    """
+
+    def __init__(
+        self, diagonal: AlgebraicRoot | None = None, written: Mapping[str, str] = NOTHING
+    ) -> None:
+        """``diagonal`` has the letter γ; ``written`` has what is written for letters."""
+        self.of: dict[AlgebraicRoot, str] = {}
+        self._diagonal = diagonal
+        self._written = written
+        self._free = [letter for letter in LETTERS if letter != DIAGONAL]
+
+    def letter(self, root: AlgebraicRoot, latex: bool = False) -> str | None:
+        """The letter of a root; None if all are taken."""
+        if root not in self.of:
+            if root == self._diagonal:
+                self.of[root] = DIAGONAL
+            elif self._free:
+                self.of[root] = self._free.pop(0)
+            else:
+                return None
+        letter = self.of[root]
+        return LETTERS[letter] if latex else self._written.get(letter, letter)
+
+
+_letters: ContextVar[Letters | None] = ContextVar("letters", default=None)
+
+
+@contextmanager
+def lettered(letters: Letters | None) -> Iterator[None]:
+    """Roots have letters in texts that are made inside; None for no letters."""
+    token = _letters.set(letters)
+    try:
+        yield
+    finally:
+        _letters.reset(token)
+
+
+def letters_now() -> Letters | None:
+    """The letters of the text that is made."""
+    return _letters.get()
+
+
+def letter_of(root: AlgebraicRoot, latex: bool = False) -> str | None:
+    """The letter of a root in the text that is made; None if it has none."""
+    letters = _letters.get()
+    return None if letters is None else letters.letter(root, latex)
