@@ -20,7 +20,7 @@ _LETTER = r"\\(?:gamma|xi|eta|zeta)(?![A-Za-z])"
 _DEFINED = re.compile(
     rf"((?:[-+0-9^{{}} ]|{_LETTER}){{1,4000}})= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})"
 )
-"""A polynomial in a letter that is zero, with a decimal near the letter, in the notation of gark."""
+"""A polynomial in a letter that is zero, and a decimal near the letter."""
 _ONE = r"(?:\{([^{}]*)\}|([0-9]))"
 _COMMANDS = (
     (re.compile(rf"\\(?:[tdcs]|nice)?frac{_ONE}{_ONE}"), r"((\1\2)/(\3\4))"),
