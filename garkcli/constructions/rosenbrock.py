@@ -16,7 +16,6 @@ stiff differential equations", Math. Comp. 33 (1979) 521; A. Sandu, M. Günther,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import partial
 from itertools import permutations
 from operator import add as add_numbers
@@ -42,7 +41,7 @@ from garkcli.ntrees.kind import ERROR_OF_MATRIX, MATRIX, NOT_ONE, ONE_BRANCH, PL
 from garkcli.order.meant import AnyTableau
 from garkcli.properties.registry import OF_TEST_EQUATION
 from garkcli.reason import Reason
-from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
+from garkcli.tableau.embedded import NOTHING, DenseOutput, Further
 from garkcli.tableau.forms import beside_clock, gark
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
@@ -286,13 +285,6 @@ def seen(method: AnyTableau, which: Which) -> AnyTableau:
 def _seen(which: Which, tableau: Tableau) -> Tableau:
     found: Tableau = getattr(Rosenbrock.of(tableau), which)
     return found
-
-
-def weights_for(tableau: Tableau, b: Sequence[Vector]) -> Weights:
-    """The weights of each colour of such a tableau, from those of each f^{l}, such as embedded
-    weights; time keeps its own.
-    """
-    return tuple(b[colour.term] if colour.term < len(b) else colour.b for colour in tableau.colours)
 
 
 def transformed_weights(further: Further, gamma: Matrix) -> Further:

@@ -71,10 +71,3 @@ def within(number: Number, tolerance: fmpq) -> bool:
             if size < tolerance or size > tolerance:
                 return bool(size < tolerance)
         digits *= 2
-
-
-def are_alike(x: Number, y: Number, tolerance: fmpq) -> bool:
-    """Whether two coefficients may be equal: each is off by at most t, and zeros are exact."""
-    if x == y or not tolerance:
-        return x == y
-    return bool(x) and bool(y) and within(x - y, 2 * tolerance)

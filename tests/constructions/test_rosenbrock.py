@@ -17,7 +17,7 @@ from flint import arb, ctx, fmpq
 from garkcli import hamiltonian, loads
 from garkcli.backward.modified import modified_equation
 from garkcli.constructions.composition import Substep, adjoint, in_turn
-from garkcli.constructions.rosenbrock import Rosenbrock, rosenbrock, seen, transformed, weights_for
+from garkcli.constructions.rosenbrock import Rosenbrock, rosenbrock, seen, transformed
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.search.residuals import Residuals
 from garkcli.errors import MethodError
@@ -390,7 +390,8 @@ def test_embedded_weights_and_dense_output() -> None:
     Jacobian, as β counts in it; with any matrix it has order 1.
     """
     tableau, (b,) = RODAS3.tableau, RODAS3.b
-    found = estimator(tableau, weights_for(tableau, [RODAS3_EMBEDDED]), KnownOrders(2, True, 5))
+    weights = tuple(RODAS3_EMBEDDED if x.term == 0 else x.b for x in tableau.colours)
+    found = estimator(tableau, weights, KnownOrders(2, True, 5))
     assert (found.order, found.is_zero) == (3, False)
     beta = add(RODAS3.alpha[0][0], RODAS3.gamma[0][0])
     e = apply(beta, (fmpq(1),) * 4)

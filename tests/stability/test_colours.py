@@ -312,6 +312,26 @@ def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) ->
     assert pair.is_damped(*point) == (largest < 1)
 
 
+def test_damped_points_without_balls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where balls say nothing the exact decision does; the poles of a full implicit part depend on
+    z_E, and a grid of z_I on the axis and in the half plane agrees.
+    """
+    tableau = loads(
+        "ark: {A: [[[1/2, -1/4], [1/2, 1/2]], [[0, 0], [1/2, 0]]], b: [[1/2, 1/2], [1/2, 1/2]]}"
+    ).tableau
+    pair = imex_pair(tableau, stability_fraction(tableau))
+    assert pair is not None
+    assert not pair.has_fixed_poles
+    points = [(fmpq(a, 4), fmpq(b, 4)) for a in (-12, -5, -1, 1, 3) for b in (0, 1, 5)]
+    by_balls = [pair.is_damped(*point) for point in points]
+    assert {*by_balls} == {True, False}
+    for (a, b), is_damped in zip(points, by_balls, strict=True):
+        assert (largest_modulus(tableau, pair, complex(float(a), float(b))) < 1) == is_damped
+    monkeypatch.setattr("garkcli.stability.damping.ball_roots_are_right", lambda *_: None)
+    monkeypatch.setattr("garkcli.stability.damping.root_count", lambda *_: None)
+    assert [pair.is_damped(*point) for point in points] == by_balls
+
+
 @settings(max_examples=60)
 @given(st.lists(st.tuples(st.integers(-2, 4), st.integers(-3, 3)), max_size=4))
 def test_roots_to_the_right_against_what_was_multiplied_out(roots: list[tuple[int, int]]) -> None:

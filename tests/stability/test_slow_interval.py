@@ -17,7 +17,13 @@ from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import load
-from garkcli.stability.two_frequencies import SplitSprings, slow_interval, springs, two_frequencies
+from garkcli.stability.two_frequencies import (
+    SlowInterval,
+    SplitSprings,
+    slow_interval,
+    springs,
+    two_frequencies,
+)
 from tests.whole import at_most, in_whole
 
 NAMES = ["collocation", "interpolation", "three-colours", "four-term-combination"]
@@ -84,6 +90,31 @@ def test_the_resonance_of_an_interval_is_that_of_its_ends() -> None:
     later = slow_interval(tableau, springs(tableau, 1), fmpq(13, 2), fmpq(21, 2)).stable
     ends = [(i.start.exact, i.end.exact) for i in later if i.start and i.end]
     assert ends == [(0, fmpq(9, 8)), (fmpq(11, 2), 36)]
+
+
+FROM_0 = Interval(RealRoot.rational(fmpq(0)), None, has_start=True)
+
+
+@pytest.mark.parametrize(
+    ("low", "stable", "is_stable"),
+    [
+        (1, [FROM_0], True),
+        (1, [], False),
+        (1, [Interval(RealRoot.rational(fmpq(1)), None, has_start=True)], False),
+        (1, [Interval(FROM_0.start, RealRoot.rational(fmpq(9)), has_start=True)], False),
+        (1, [Interval(FROM_0.start, None)], False),  # x = 0 moves the slow spring alone
+        (0, [Interval(FROM_0.start, None)], True),  # a free particle
+    ],
+)
+def test_all_fast_frequencies(low: int, stable: list[Interval], is_stable: bool) -> None:
+    """One interval from 0 to infinity, with 0 unless that is a free particle; an open point in it
+    leaves it open.
+    """
+    found = SlowInterval(fmpq(low), fmpq(2), tuple(stable), ())
+    assert found.is_stable_for_all is is_stable
+    at = (RealRoot.rational(fmpq(3)),)
+    left = SlowInterval(fmpq(low), fmpq(2), tuple(stable), at)
+    assert left.is_stable_for_all is (None if is_stable else False)
 
 
 def test_interpolation_has_no_resonance() -> None:
