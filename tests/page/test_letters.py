@@ -46,7 +46,7 @@ def test_tables_fit_the_terminal() -> None:
     for name in CUBICS:
         assert max(map(len, gark("tableau", name).out.splitlines())) <= 80
         for encoding in ("ascii", "utf-8"):
-            narrow = gark("conjugate", name, "--pair", encoding=encoding, COLUMNS="60").out
+            narrow = gark("tableau", name, encoding=encoding, COLUMNS="60").out
             assert max(map(len, narrow.splitlines())) <= 60
     text = gark("tableau", "ars-343").out
     assert "    -1.426515695375 + 4.7060627815*γ - 1.597121973525*γ**2\n" in text
