@@ -175,7 +175,7 @@ class Terminal(Coloured):
 
     def _lines(self, drawn: RenderableType, depth: int = 0, room: int | None = None) -> list[str]:
         console = Console(
-            # only its encoding is asked for
+            # rich reads the encoding of its file, and the text comes from print
             file=io.TextIOWrapper(io.BytesIO(), encoding=self.look.encoding),
             width=room or self.width,
             force_terminal=True,

@@ -16,8 +16,8 @@ from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import load
 from garkcli.methodfile.transfers import ALL_RULES
-from garkcli.page.look import Look
 from garkcli.report import remarks
+from garkcli.tell.dialect import Plain
 from tests.examples.snapshots import assert_recorded
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -65,7 +65,7 @@ def test_an_invalid_file_is_refused_with_its_faults(
     outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
     assert_recorded(
         path.with_name(f"{stem(path)}.txt"),
-        "\n".join(remarks.lines(outcome.faults, outcome.file, outcome.text, Look())) + "\n",
+        "\n".join(remarks.lines(outcome.faults, outcome.file, outcome.text, Plain())) + "\n",
     )
 
 

@@ -10,8 +10,8 @@ from garkcli.errors import MethodFileError, Remark
 from garkcli.glossary.key import METHOD_FILE
 from garkcli.grammar.source import Source
 from garkcli.methodfile.load import load, loads
-from garkcli.page.look import Look
 from garkcli.report import remarks
+from garkcli.tell.dialect import Plain
 from tests.whole import in_whole
 
 
@@ -27,7 +27,7 @@ def under_caret(text: str) -> list[str]:
     report.
     """
     found = faults(text)
-    lines = list(remarks.lines(found, "m", text, Look()))
+    lines = list(remarks.lines(found, "m", text, Plain()))
     carets = [i for i, line in enumerate(lines) if line.lstrip(" |") == "^"]
     return [lines[i - 1][lines[i].index("^") :] for i in carets]
 
