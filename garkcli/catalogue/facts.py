@@ -18,7 +18,7 @@ from garkcli.check.claims import found_value
 from garkcli.comparison.comparison import form_of
 from garkcli.constructions.derivatives import Derivatives
 from garkcli.errors import GarkError
-from garkcli.exact.display import decimal, to_text
+from garkcli.exact.display import decimal
 from garkcli.glossary.key import METHOD_FILE
 from garkcli.grammar.nodes import one_line
 from garkcli.grammar.reading import read_text
@@ -31,7 +31,6 @@ from garkcli.order.constants import error_constants
 from garkcli.order.meant import as_meant, with_further
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
-from garkcli.tableau.pointwise import in_points
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import AnyAnalysis
@@ -42,15 +41,10 @@ if TYPE_CHECKING:
 
 Entry = dict[str, Any]
 """The entry of a method in the index."""
-VERSION = 3
+VERSION = 4
 """The version of the facts; an index of another version is made anew."""
 MOST_TREES = 20_000
 """The largest number of trees of one order over which error coefficients are summed."""
-MOST_STAGES = 8
-"""The largest number of stages for which the properties in ``_SIZES`` are computed."""
-LONGEST = 24
-"""The longest coefficient for which they are computed; beyond it they take minutes."""
-_SIZES = ("p-stable", "i-stable", "real-stability", "imaginary-stability")
 _DIGITS = 4
 
 
@@ -110,16 +104,13 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
 
 def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) -> Entry:
     """Returns the entry of a method from its analysis and its file."""
-    is_small = analysis.tableau.exact_to is not None or _is_small(analysis.tableau)
-    sought = [key for key in KEYS if is_small or key not in _SIZES]
-    verdicts = {key: analysis.subject.verdict(key) for key in sought}
     values: Entry = {"symplectic": found_value("symplectic", analysis)}
     open_ones = []
     for key in KEYS:
         field = find(key).field
-        verdict = verdicts.get(key)
-        is_open = verdict is None or verdict.is_undecided or verdict.is_at_least
-        value = None if verdict is None or is_open else verdict.value
+        verdict = analysis.subject.verdict(key)
+        is_open = verdict.is_undecided or verdict.is_at_least
+        value = None if is_open else verdict.value
         values[field] = str(value) if isinstance(value, Size) else value
         if is_open:
             open_ones.append(field)
@@ -201,15 +192,6 @@ def _error_constant(analysis: AnyAnalysis) -> str | None:
     if constants is None:
         return None
     return f"{constants.all.two:.{_DIGITS}g}"
-
-
-def _is_small(tableau: Tableau) -> bool:
-    """Returns whether the properties in ``_SIZES`` are computed for a method."""
-    stages = [space.stages for space in tableau.spaces]
-    points = in_points(tableau)
-    if max(stages) > MOST_STAGES or points is None:
-        return max(stages) <= MOST_STAGES
-    return all(len(to_text(x)) <= LONGEST for x in points.entries)
 
 
 Tell = Callable[[str], None]

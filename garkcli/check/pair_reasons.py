@@ -178,7 +178,7 @@ def rule_reasons(analysis: Analysis, rules: Sequence[BlockRule]) -> Iterator[str
             if found_fit.keeps is None:
                 found_fit = _by_block(found_fit, missing_of_block(tableau, (x.l, x.m), p))
             words = "keeps" if found_fit.keeps else "loses"
-            text = f"{found_fit.numbers}, {words} pair order {p}"
+            text = f"{found_fit.numbers}, {words} symplectic pair order {p}"
             by_text.setdefault((x.rule, text), []).append(f"({x.l + 1},{x.m + 1})")
     for (rule, text), places in by_text.items():
         yield f"{rule} on {', '.join(places)}: {text}"

@@ -111,6 +111,8 @@ class Declared(Frozen, Generic[Given]):
                     {"type": click.Choice(self.formats), "default": self.formats[0]}
                 )
                 each = replace(each, kind=kind, is_former=len(self.formats) == 1)
+            if name == "output" and len(self.formats) == 1:
+                each = replace(each, help="Write the result to FILE; - is standard output.")
             yield _parameter(each, name, OUTPUT_HEADING)
 
     def _run(self, **values: Any) -> int | None:

@@ -111,7 +111,7 @@ def gark(context: click.Context, debug: bool) -> int:  # noqa: ARG001 -- read wh
         transfer: collocation
     """  # noqa: D301 -- click's sign for lines that stay as they are
     if context.invoked_subcommand is None:
-        streams.say(context.get_help())
+        streams.say(context.get_help(), is_folded=False)
         return 2
     context.with_resource(watching(f"gark {context.invoked_subcommand}"))
     return 0
@@ -198,7 +198,7 @@ def _own_up(error: Exception, with_traceback: bool) -> None:
     if with_traceback:
         import traceback
 
-        streams.say("".join(traceback.format_exception(error)).rstrip())
+        streams.say("".join(traceback.format_exception(error)).rstrip(), is_folded=False)
     what = f"{type(error).__name__}: {error}".splitlines()[0]
     streams.say(f"gark: internal fault: {what[:200]}")
     streams.say(f"please report it, with the command and the file, to {REPORT_TO}")

@@ -11,7 +11,17 @@ import click
 
 from garkcli.cli import arguments
 from garkcli.cli.endings import AUTO, settled
-from garkcli.cli.streams import complain, look_of, put, put_exactly, safe_pieces, say, wants_colour
+from garkcli.cli.streams import (
+    TERMINAL,
+    complain,
+    look_of,
+    put,
+    put_exactly,
+    safe_pieces,
+    say,
+    wants_colour,
+    width_of_terminal,
+)
 from garkcli.doing import hush
 from garkcli.errors import GarkError, MethodFileError, Remark, UsageProblem
 from garkcli.files import STDIN, note_input
@@ -113,9 +123,7 @@ class Output:
     @property
     def width(self) -> int:
         """The width of the terminal in columns, or 80."""
-        from shutil import get_terminal_size
-
-        return get_terminal_size((80, 24)).columns if self.path is None else 80
+        return width_of_terminal() if self.path is None else TERMINAL
 
     def write(self, text: str | Iterable[str], format: str = "") -> None:
         """Writes the report; a file appears whole or not at all.

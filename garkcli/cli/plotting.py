@@ -2,35 +2,34 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from garkcli.cli import options as opt
 from garkcli.cli.command import declared
 from garkcli.cli.output import Output
-from garkcli.errors import UsageProblem
+from garkcli.errors import GarkError, UsageProblem
 
 if TYPE_CHECKING:
     from garkcli.ntrees.tree import Tree
     from garkcli.plots.scene import Panel
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
-
-_OF_STEPS = "convergence", "energy"
+What: TypeAlias = Literal[
+    "region", "star", "oscillator", "convergence", "energy", "tableau", "tree"
+]
 
 
 class PlotOptions(opt.Derivable):
     """The options of ``gark plot``."""
 
     file: str = opt.argument("FILE", opt.METHOD)
-    what: Literal["region", "star", "oscillator", "convergence", "energy", "tableau", "tree"] = (
-        opt.preset(
-            "--what",
-            opt.words("region", "star", "oscillator", "convergence", "energy", "tableau", "tree"),
-            "region",
-            "The stability region, the order star, the trace on the oscillator, errors over step "
-            "sizes, the energy over a long time, the tableau, or the tree at which the order ends.",
-            heading="Picture",
-        )
+    what: What | None = opt.option(
+        "--what",
+        opt.words("region", "star", "oscillator", "convergence", "energy", "tableau", "tree"),
+        "The stability region, the order star, the trace on the oscillator, errors over step "
+        "sizes, the energy over a long time, the tableau, or the tree at which the order ends; by "
+        "default the first that there is of region, oscillator and tableau.",
+        heading="Picture",
     )
     open: bool = opt.OPEN
 
@@ -44,16 +43,17 @@ def plot(given: PlotOptions, output: Output) -> None:
     """
     if given.open:
         output.demand_file()
-    if given.open and output.path is None:
-        output.path, output.format = _temporary(given.what), "svg"
     (file,) = output.files_meant([given.file], given.settings)
     method = given.method(file, is_any_kind=True)
-    if given.what == "tableau":
+    what: str = given.what or _first(method)
+    if given.open and output.path is None:
+        output.path, output.format = _temporary(what), "svg"
+    if what == "tableau":
         _tableau(method, output)
-    elif given.what == "tree":
+    elif what == "tree":
         _tree(_last_tree(method), method.tableau, output)
     else:
-        _panel(_panel_of(given.what, method), method.name, output)
+        _panel(_panel_of(what, method), method.name, output)
     if given.open and output.path is not None:
         output.show(output.path)
 
@@ -90,10 +90,18 @@ def _possible(method: GarkMethod) -> list[str]:
     for what in ("region", "star", "oscillator"):
         try:
             panel_named(what, method)
-        except NotDrawn:
+        except (NotDrawn, GarkError):
             continue
         found.append(what)
-    return [*found, *(_OF_STEPS if method.tableau.is_gark else ())]
+    if method.tableau.is_gark:
+        return [*found, "convergence", "energy"]
+    return found if method.tableau.exact_to is not None else [*found, "convergence"]
+
+
+def _first(method: GarkMethod) -> str:
+    """Returns the picture that is drawn of a method if none is named."""
+    possible = _possible(method)
+    return next((x for x in ("region", "oscillator") if x in possible), "tableau")
 
 
 def _panel(panel: Panel, name: str, output: Output) -> None:

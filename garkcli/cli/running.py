@@ -436,7 +436,7 @@ def energy(given: Energy, output: Output) -> int:
 
     Exit code: 1 if --bounded or --max-error is not met, a step fails, the energy blows up, the
     orbit escapes, or --modified shows a lower order; 3 if that, or without claims a drift, is
-    undecided.
+    undecided; 2 if a file cannot be read, or the method does not fit the problem.
     """
     from garkcli.api.runs import long_run
     from garkcli.report.energy import REPORT, EnergyReport

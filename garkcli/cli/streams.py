@@ -130,15 +130,35 @@ def flush() -> None:
         raise ReaderGone from None
 
 
-def say(text: str, coloured: bool = False) -> None:
-    """Writes a line to standard error, ignoring failures."""
+def say(text: str, coloured: bool = False, is_folded: bool = True) -> None:
+    """Writes lines to standard error, ignoring failures; on a terminal they are folded unless the
+    text has its own lines.
+    """
     text = safe(text, "text", coloured)
     with aside():
         try:
-            sys.stderr.write(_for(sys.stderr.encoding, text, "text") + "\n")
+            text = _for(sys.stderr.encoding, text, "text")
+            sys.stderr.write((_fitting(text) if is_folded else text) + "\n")
             sys.stderr.flush()
         except OSError:
             drop(sys.stderr)
+
+
+def _fitting(text: str) -> str:
+    """Returns a text in lines that fit the terminal, if standard error is one."""
+    if not is_terminal(sys.stderr):
+        return text
+    from garkcli.page.paint import folded
+
+    width = width_of_terminal()
+    return "\n".join(x for line in text.split("\n") for x in folded(line, width, "  "))
+
+
+def width_of_terminal() -> int:
+    """Returns the columns of the terminal, or 80."""
+    from shutil import get_terminal_size
+
+    return get_terminal_size((TERMINAL, 24)).columns
 
 
 def say_problem(error: GarkError) -> None:
@@ -159,15 +179,13 @@ def complain(error: GarkError) -> None:
 
 
 def say_faults(outcome: Outcome) -> None:
-    from shutil import get_terminal_size
-
     from garkcli.report import remarks
     from garkcli.tell.report import dialect_of
 
     look = look_of(sys.stderr, wants_colour(sys.stderr))
-    d = dialect_of(look=look)(look=look, width=get_terminal_size((80, 24)).columns)
+    d = dialect_of(look=look)(look=look, width=width_of_terminal())
     lines = remarks.lines(outcome.faults, outcome.file, outcome.text, d)
-    say("\n".join(lines), look.has_colour)
+    say("\n".join(lines), look.has_colour, is_folded=False)
 
 
 def drop(stream: io.TextIOBase | object) -> None:

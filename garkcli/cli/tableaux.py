@@ -176,8 +176,9 @@ def _derived_file(made: GarkMethod, output: Output) -> str:
     if exact is not None and (is_pair or can_spell_out(exact)):
         return write_tableau_file(exact, made.name, made.tolerance)
     if is_pair:
-        message = "the nodes have no simple radicals, so the pair cannot be spelled out exactly"
-        cure = "gark check reports on the pair; --format json gives decimals"
+        whole = "the symplectic pair"
+        message = f"the nodes have no simple radicals, so {whole} cannot be spelled out exactly"
+        cure = "gark check reports on the symplectic pair; --format json gives decimals"
         raise UsageProblem(message, cure, code="no-radicals")
     output.note("the conjugate is described by the key conjugate: true, exactly, not spelled out")
     base: Any = made.base
@@ -416,8 +417,9 @@ def diff(given: Diff, output: Output) -> int:
     """The differences of two methods in entries, orders, conditions and properties; whether they
     are the same method in another numbering or form.
 
-    Exit code: 0 the steps and further weights are the same, up to renumbering, stages without
-    influence and the rounding that both files admit; 1 they are not; 3 not decided.
+    Exit code: 0 the steps are the same, and so are the further weights that both have, up to
+    renumbering, stages without influence and the rounding that both files admit; 1 they are not; 3
+    not decided.
     """
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.naming import called
@@ -425,10 +427,12 @@ def diff(given: Diff, output: Output) -> int:
 
     first, second = _loaded((given.first, given.second), given.settings)
     found = compare(first, second)
-    output.tell(REPORT, ComparedPair(found, (called(given.first), called(given.second))))
+    names = called(given.first), called(given.second)
+    output.tell(REPORT, ComparedPair(found, names, (given.first, given.second)))
     if given.strict and found.relation in {"same", "within-rounding"}:
         return 1
-    return EXIT_CODES[found.relation]
+    is_same = found.is_same_step and not given.strict
+    return EXIT_CODES["same" if is_same else found.relation]
 
 
 def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodFile]:

@@ -135,13 +135,24 @@ class Comparison(Shown, Frozen):
         return ""
 
     @property
+    def is_same_step(self) -> bool:
+        """Whether the steps are the same, and so are the further weights that both methods have."""
+        if self.sameness is None:
+            return False
+        shared = {x for x in ("embedded", "dense") if self._lacking(x) == [False, False]}
+        return not shared & {gap.kind for gap in self.gaps}
+
+    def _lacking(self, key: str) -> list[bool]:
+        return [getattr(x, key) is None for x in (self.one, self.other)]
+
+    @property
     def _further(self) -> Iterator[str]:
         """Yields the further weights that differ, or that one method lacks, if the steps are the
         same.
         """
         for name in ("embedded weights", "dense output"):
             key = name.partition(" ")[0]
-            missing = [getattr(x, key) is None for x in (self.one, self.other)]
+            missing = self._lacking(key)
             if missing == [False, False] and key in {gap.kind for gap in self.gaps}:
                 yield f"other {name}"
             elif any(missing) and not all(missing):
@@ -231,7 +242,7 @@ def _orders(first: Analysis, second: Analysis) -> tuple[OrderPair, ...]:
         OrderPair(WITH_TIME, first.nonautonomous_order, second.nonautonomous_order),
         OrderPair("order of the embedded weights", _of_embedded(first), _of_embedded(second)),
         OrderPair("order of the conjugate", first.conjugate_order, second.conjugate_order),
-        OrderPair("order of the pair", first.pair_order, second.pair_order),
+        OrderPair("order of the symplectic pair", first.pair_order, second.pair_order),
     )
 
 

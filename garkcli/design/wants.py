@@ -72,7 +72,7 @@ def _pair_order(asked: Asked) -> Meaning:
     return Meaning(
         tuple(asked.ring.quotient(p, one) for p in zeros),
         real=("pair-order",) if order > 2 else (),
-        impossible=(f"no value has pair order {order}: {why}",) if why else (),
+        impossible=(f"no value has symplectic pair order {order}: {why}",) if why else (),
     )
 
 
@@ -104,7 +104,7 @@ def _symplectic(asked: Asked) -> Meaning:
     zeros: list[object] = []
     if tableau.is_partitioned:
         message = "design: symplectic is for methods without parts"
-        raise MethodError(message, "ask for the pair", code="wanted-without-meaning")
+        raise MethodError(message, "ask for the symplectic pair", code="wanted-without-meaning")
     for l in asked.colours:
         for m in asked.colours:
             asked.diagonal(l, "symplectic")

@@ -30,6 +30,7 @@ LABELS = {
     "embedded_nonautonomous_order": "embedded non-autonomous order",
     "open_points": "not decided",
     "pair_criterion": "why this pair order",
+    "pair_order": "symplectic pair",
     "phase_order": "phase lag",
     "real_interval": "real axis",
     "same_as": "the same as",
@@ -46,7 +47,7 @@ LABELS = {
 def key_of(label: str) -> str:
     """Returns the key for a label.
 
-    >>> key_of("A-stable"), key_of("pair order")
+    >>> key_of("A-stable"), key_of("symplectic pair")
     ('a_stable', 'pair_order')
     """
     keys = {label: key for key, label in LABELS.items()}
@@ -57,6 +58,6 @@ def label_of(key: str) -> str:
     """Returns the label for a key.
 
     >>> label_of("a_stable"), label_of("pair_order")
-    ('A-stable', 'pair order')
+    ('A-stable', 'symplectic pair')
     """
     return LABELS.get(key) or key.replace("_", " ")

@@ -153,7 +153,7 @@ class BlockBuilder:
         numbers = chain.from_iterable((*chain(*x.A), *x.b) for x in self.methods)
         if any(isinstance(x, Parametric) for x in numbers):
             message = "a symplectic- rule compares orders of numbers, and the file has unknowns"
-            cure = "give values, or write the rule without symplectic- and ask for the pair"
+            cure = "give values, or write the rule without symplectic- for the symplectic pair"
             raise MethodError(message, cure, code="free-parameters")
         return self.values.once(
             ("orders", id(self.text)),

@@ -43,11 +43,11 @@ def readable(entries: Entries) -> Entries:
     return entries.changed(short)
 
 
-def shortened(entries: Entries, longest: int) -> Entries:
+def shortened(entries: Entries, longest: int, spelt: Callable[[str], str] = str) -> Entries:
     """Returns the entries, with exact ones of more than ``longest`` signs as decimals."""
 
     def short(cell: Cell) -> Cell:
-        if isinstance(cell, (arb, Parametric)) or len(shortest(cell)) <= longest:
+        if isinstance(cell, (arb, Parametric)) or len(spelt(shortest(cell))) <= longest:
             return cell
         return to_ball(cell, entries.digits)
 

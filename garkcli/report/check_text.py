@@ -16,6 +16,14 @@ from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, one
 from garkcli.tell.report import dialect_of
 
+SHORT = {
+    "order": "order",
+    "embedded_order": "embedded",
+    "pair_order": "symplectic pair",
+    "w_order": "W",
+}
+"""The orders in the line of a file among others; that of the pair where it is claimed."""
+
 
 def render(
     outcomes: Sequence[Outcome],
@@ -56,16 +64,13 @@ def render(
 def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
     """A file in a line, with failed claims below."""
     if not (is_quiet and outcome.ok):
-        third = "pair_order" if outcome.of_other_kind is None else "w_order"
-        keys = ("order", "embedded_order", third)
-        facts = REPORT.form(outcome).named(outcome, keys)
-        is_pair = outcome.analysis is not None and outcome.analysis.tableau.is_partitioned
+        claims_pair = any(claim.claim == "pair-order" for claim in outcome.claims)
+        names = {key: name for key, name in SHORT.items() if key != "pair_order" or claims_pair}
+        facts = REPORT.form(outcome).named(outcome, names)
         said = [
-            f"{key.removesuffix('_order').replace('w', 'W')} {cell(facts[key], d)}"
-            for key in keys
-            if key in facts
-            and facts[key].value is not None
-            and not (key == "pair_order" and is_pair)
+            f"{name} {cell(facts[key], d)}"
+            for key, name in names.items()
+            if key in facts and facts[key].value is not None
         ]
         not_ok = d.note("open") if outcome.is_open else d.bad("FAIL")
         mark = d.good("ok  ") if outcome.ok else not_ok

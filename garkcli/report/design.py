@@ -190,7 +190,7 @@ def _undecided(design: Design, step: Undecided) -> Iterator[str]:
     if keys:
         yield (
             f"the conditions of {', '.join(keys)} under design take longer than that; ask for"
-            " a lower order of the pair, or fix unknowns by --set or design: fix"
+            " a lower order of the symplectic pair, or fix unknowns by --set or design: fix"
         )
     else:
         yield f"{LATE if step.is_late else ''}{UNDECIDED}"
@@ -249,8 +249,9 @@ def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
 
 
 def certified(order: AnyOrder, whose: str) -> str:
-    """``order at least 4 of the pair``."""
-    return f"order {'at least ' * order.is_lower_bound}{order.order} of the {whose}"
+    """``order at least 4 of the symplectic pair``."""
+    of = "symplectic pair" if whose == "pair" else whose
+    return f"order {'at least ' * order.is_lower_bound}{order.order} of the {of}"
 
 
 def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:

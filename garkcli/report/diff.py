@@ -58,8 +58,8 @@ RELATIONS = {
     "undecided": "not decided",
 }
 """Relations between methods."""
-SAME_STEP = "the same step"
-"""The relation of methods that differ in embedded weights or dense output alone."""
+SAME_STEP, STEP_ALONE = "same-step", "step-alone"
+"""The relations of methods with one step: further weights that both have are the same, or not."""
 
 
 class ComparedMethod(NamedTuple):
@@ -68,28 +68,36 @@ class ComparedMethod(NamedTuple):
     method: GarkMethod
     file: str
     form: str
+    is_titled: bool = True
+    """Whether the title has its name, and not an alias."""
 
 
 class ComparedPair(NamedTuple):
-    """A comparison, with the names that its methods were given by."""
+    """A comparison, with the names of its methods, and what was typed for these."""
 
     found: Comparison
     files: tuple[str, str]
+    typed: tuple[str, str] = ("", "")
+
+    @property
+    def titles(self) -> list[str]:
+        return [typed or file for typed, file in zip(self.typed, self.files, strict=True)]
 
     def method(self, index: int) -> ComparedMethod:
         method = (self.found.one, self.found.other)[index]
-        return ComparedMethod(method, self.files[index], self.found.forms[index])
+        file, typed = self.files[index], self.typed[index]
+        return ComparedMethod(method, file, self.found.forms[index], typed in ("", file))
 
 
 def _relation_words(relation: str, d: Plain) -> str:
-    return d.prose(RELATIONS.get(relation, relation))
+    return d.prose(RELATIONS.get(relation, "the same step"))
 
 
 def _relation_phrase(_: str, relation: str, answer: Answer[str], d: Plain) -> str:
     text = d.known(_relation_words(relation, d), answer.status)
     if answer.reason:
         text += f": {d.reason(answer.reason)}"
-    return (d.bad if relation in {"different", "undecided", SAME_STEP} else d.good)(text)
+    return (d.bad if relation in {"different", "undecided", STEP_ALONE} else d.good)(text)
 
 
 def _entry_data(x: Cell, _: Plain) -> str:
@@ -117,7 +125,7 @@ def _verdict_cell(verdict: Verdict, d: Plain) -> str:
 
 
 RELATION: Kind[str] = Kind(
-    Json({"enum": [*RELATIONS]}, lambda x, _: "different" if x == SAME_STEP else x),
+    Json({"enum": [*RELATIONS]}, lambda x, _: x if x in RELATIONS else "different"),
     Words(_relation_words, phrase=_relation_phrase),
 )
 ENTRY: Kind[Cell] = Kind(Json(S.NUMERAL, _entry_data), Words(_entry_words))
@@ -141,7 +149,9 @@ def relation(x: ComparedPair) -> Answer[str]:
     found = x.found
     same = found.sameness
     allowed = same.allowed if same and found.relation == "within-rounding" else None
-    word = SAME_STEP if same is not None and same.step_only else found.relation
+    word: str = found.relation
+    if same is not None and same.step_only:
+        word = SAME_STEP if found.is_same_step else STEP_ALONE
     return Answer(word, Status(allowed), Reason(found.remark or found.obstacle))
 
 
@@ -348,7 +358,8 @@ def _method_words(x: ComparedMethod, d: Plain) -> str:
     elif x.form == "mri":
         about = f"multirate, {counted(x.method.stages[-1], 'slow stage')}, fast part exact"
     name = x.method.name
-    return d.prose(f"{name}: {about}" if name and name != x.file else about)
+    named = [*([] if x.is_titled else [x.file]), *([name] if name not in ("", x.file) else [])]
+    return d.prose(": ".join([*filter(None, [", ".join(named)]), about]))
 
 
 def _properties(x: ComparedPair, is_known: bool) -> list[PropertyPair]:
@@ -405,7 +416,7 @@ REPORT: Report[ComparedPair] = Report.only(
             lambda x: _properties(x, is_known=False),
             label="decided of one alone",
         ),
-        title=lambda x, d: " against ".join(map(d.prose, x.files)),
+        title=lambda x, d: " against ".join(map(d.prose, x.titles)),
     ),
     lambda x: _signs(x.found.one.tableau),
 )

@@ -235,7 +235,7 @@ def drawn(x: ShownTableau, d: Plain) -> list[str]:
         lines += [*gap, *d.sentence(d.prose(text), 0)] if text else []
         entries = readable(own) if x.is_rounded else own
         if d.is_brief and d.breadth != "page":
-            entries = shortened(whole := entries, longest)
+            entries = shortened(whole := entries, longest, d.spelt)
             has_short = has_short or entries != whole
         lines += d.tableau(tableau, entries)
     if has_short:

@@ -220,12 +220,14 @@ _PLAIN = (
     Column("bound", lambda m: _bound(m.simplifying, False), "the paper's lower bound"),
     Column("sharp-bound", lambda m: _bound(m.simplifying, True), "the sharper bound"),
     Column(
-        "pair-bound", lambda m: _bound(m.pair_simplifying, False), "the lower bound of the pair"
+        "pair-bound",
+        lambda m: _bound(m.pair_simplifying, False),
+        "the lower bound of the symplectic pair",
     ),
     Column(
         "pair-sharp-bound",
         lambda m: _bound(m.pair_simplifying, True),
-        "the sharper bound of the pair",
+        "the sharper bound of the symplectic pair",
     ),
     Column(
         "error",
@@ -237,13 +239,13 @@ _PLAIN = (
     Column(
         "pair-error",
         lambda m: _error(m.pair_constants, False),
-        "the principal error of the pair",
+        "the principal error of the symplectic pair",
         False,
     ),
     Column(
         "pair-p-stable",
         lambda m: None if m.pair is None else _property("p-stable", SweptMethod(m.pair)),
-        "whether the pair is P-stable",
+        "whether the symplectic pair is P-stable",
     ),
     Column("phase-order", _phase_order, "the order of the phase lag on the oscillator"),
     Column("phase-constant", _phase_constant, "the size of its constant", False),

@@ -57,8 +57,8 @@ def _drawn(point: Point, draw: Draw) -> Method:
             if is_admissible(family, solution, root):
                 values = {name: solution.values[name] for name in family.parameters}
                 return Method(1, "exact", order, values_text(values, root), "0")
-    message = f"no transfer is known whose pair has order {order}"
-    cure = "take methods with positive weights that have this pair order"
+    message = f"no transfer is known whose symplectic pair has order {order}"
+    cure = "take methods with positive weights whose symplectic pair has this order"
     raise MethodError(message, cure, code="not-found")
 
 

@@ -8,6 +8,7 @@ from functools import partial
 from markupsafe import Markup, escape
 
 from garkcli.api.runs import converge, long_run
+from garkcli.constructions.nystrom import is_nystrom, partitioned
 from garkcli.constructions.same_stability import on_test_equation
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import GarkError
@@ -207,16 +208,18 @@ def _pair(method: GarkMethod) -> tuple[Panel, str]:
 
 def _oscillator(method: GarkMethod) -> tuple[Panel, str]:
     tableau = method.tableau
+    if is_nystrom(tableau):
+        tableau = partitioned(tableau, method.tolerance)
     rounded = method.tolerance is not None
     found = None if rounded else usual_oscillator(tableau)
-    if found is None or not found.determinant.is_one:
-        why = "The steps on the oscillator do not preserve area: the trace alone does not decide."
+    linear = _of_stability(method)
+    has_region = linear is not None and bool(directions(linear))
+    if found is None or (has_region and not found.determinant.is_one):
+        why = "The method has no split for the oscillator."
         if rounded:
             why = "With rounded coefficients nothing is decided about the oscillator."
-        elif found is None:
-            why = "The method has no split for the oscillator."
         # the region tells what there is to tell
-        raise NotDrawn("" if directions(tableau) else why)
+        raise NotDrawn("" if has_region else why)
     panel = trace_panel([(method.name, found)])
     return panel, panel.note
 
@@ -284,8 +287,11 @@ def panel_named(name: str, method: GarkMethod) -> Panel:
 
     Raises NotDrawn if there is none, GarkError if the problem does not fit the method.
     """
-    if name not in ("region", "star") and not _is_gark(method):
-        raise NotDrawn("This picture is of GARK methods alone.")
+    if not _is_gark(method):
+        if name == "energy":
+            raise NotDrawn("This picture is of GARK methods alone.")
+        if name == "oscillator" and not is_nystrom(method.tableau):
+            raise NotDrawn("This picture is of GARK and Nyström methods alone.")
     draw = partial(_region, is_order_star=True) if name == "star" else PICTURES[name][1]
     panel, note = draw(method)
     return replace(panel, note=note)

@@ -98,6 +98,31 @@ def test_tableau_and_tree_are_those_of_other_commands(method: str, tmp_path: Pat
     assert [x for x in texts if x] == [x for x in gark("tableau", method).out.splitlines() if x]
 
 
+@pytest.mark.parametrize(
+    ("method", "shown"),
+    [
+        ("rk4", "Stability region"),
+        ("ros3p", "Stability region"),
+        ("leapfrog-2", "Oscillator"),
+        ("nystrom-4", "Oscillator"),
+        ("mri-gark-erk33a", "the slow method"),
+    ],
+)
+def test_without_a_word_the_first_picture_is_shown(method: str, shown: str) -> None:
+    """Whatever the kind of method, there is one look at it."""
+    run = gark("plot", method)
+    assert run.code == 0
+    assert shown in run.out
+
+
+@pytest.mark.parametrize("method", ["rodas4", "nystrom-4", "tdrk-4", "imex-nprk-21"])
+def test_what_converge_draws_is_drawn(method: str) -> None:
+    """Methods of other kinds have errors over step sizes too."""
+    run = gark("plot", method, "--what", "convergence")
+    assert run.code == 0
+    assert "step size h" in run.out
+
+
 def test_energy_of_the_symplectic_pair_is_the_one_of_the_pair() -> None:
     """The pair of a method is drawn with --pair."""
     assert "drifts" not in gark("plot", "rk4", "--pair", "--what", "energy").out.lower()

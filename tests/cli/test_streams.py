@@ -324,3 +324,24 @@ def test_consoles_of_windows_are_told_to_show_colours(monkeypatch: pytest.Monkey
     monkeypatch.setattr(sys, "platform", "win32")
     prepare()
     assert told == ["told"]
+
+
+def test_messages_fit_a_terminal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What goes to standard error is folded at words for a terminal, excerpts are not; a pipe gets a
+    line a message.
+    """
+    file = tmp_path / "x.yaml"
+    file.write_text("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2, and-a-word-that-is-no-number]\n")
+    commands = (
+        ["show", str(file)],
+        ["show", "no-such-method-of-the-catalogue"],
+        ["tableau", "rk4", "--digits", "0"],
+    )
+    piped = [gark(*command).err for command in commands]
+    monkeypatch.setattr("garkcli.cli.streams.is_terminal", lambda stream: stream is sys.stderr)
+    for command, line in zip(commands, piped, strict=True):
+        shown = gark(*command, COLUMNS="44", NO_COLOR="1").err
+        assert shown.split() == line.split()
+        long = [x for x in shown.splitlines() if len(x) > 44]
+        assert all(" " not in x.strip() or "|" in x for x in long)
+        assert len(shown.splitlines()) > len(line.splitlines())

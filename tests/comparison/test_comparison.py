@@ -233,6 +233,31 @@ def test_embedded_weights_are_part_of_the_method() -> None:
     assert (pair.one.order, pair.other.order) == (2, 2)  # type: ignore[union-attr]
 
 
+def test_a_method_without_estimate_is_the_same_step(tmp_path: Path) -> None:
+    """Heun's method under another name is that of the catalogue, which has embedded weights; with
+    other ones, and with --strict, it is not.
+    """
+    plain = "name: mine\nA: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\n"
+    mine = tmp_path / "mine.yaml"
+    cases = (("", 0, 1), ("embedded: [0, 1]\n", 1, 1), ("embedded: [1, 0]\n", 0, 0))
+    for further, code, strict in cases:
+        mine.write_text(plain + further, encoding="utf-8")
+        command = "diff", str(mine), "heun"
+        assert (gark(*command).code, gark(*command, "--strict").code) == (code, strict)
+        assert compare(load(str(mine)), load("heun")).is_same_step is (code == 0)
+    assert not compare(load("rk4"), load("heun")).is_same_step
+
+
+def test_the_title_has_the_names_as_typed() -> None:
+    """An alias is written as it was typed; the row of the method and JSON have its name."""
+    run = gark("diff", "lobatto-iiia-2", "Trapezoid")
+    first, row, *_ = run.out.splitlines()
+    assert first.startswith("lobatto-iiia-2 against Trapezoid: identical")
+    assert row.startswith("  first   implicit-trapezoidal, trapezoidal rule: 1 colour")
+    data = json.loads(gark("diff", "lobatto-iiia-2", "Trapezoid", "--format", "json").out)
+    assert data["first"]["file"] == "implicit-trapezoidal"
+
+
 def test_a_stage_for_the_estimate_is_not_left_out() -> None:
     """The last stage of the pair has no weight, but an embedded one; without it the step alone is
     that of the method of three stages.

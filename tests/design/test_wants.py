@@ -255,7 +255,7 @@ def test_a_diagonal_method_that_excludes_the_pair_order_is_named(
     """Its colour and its condition; by the trees its pair alone has an order less."""
     text = f"methods: [gauss-2, {last}]\ntransfer: '?'\n"
     run = gark("design", "-", stdin=f"{text}design: {{pair-order: {order}}}\n")
-    assert f"no value has pair order {order}: {why}" in " ".join(run.out.split())
+    assert f"no value has symplectic pair order {order}: {why}" in " ".join(run.out.split())
     asked = gark("design", "-", "--pair", "--order", str(order), stdin=text)
     assert f"no real value: {why}" in " ".join(asked.out.split())
     assert (run.code, asked.code) == (1, 1)

@@ -184,7 +184,7 @@ def test_a_criterion_that_is_not_sharp_says_at_least(tmp_path: Path) -> None:
     file = tmp_path / "lin.yaml"
     file.write_text('A: [["1/8", "-1/8"], ["7/24", "3/8"]]\nb: [1/4, 3/4]\nlinear: [1]\n')
     shown = command("check", "-v", str(file)).out
-    assert re.search(r"pair order +4, proved", shown)
+    assert re.search(r"symplectic pair +4, proved", shown)
     assert re.search(r"why this pair order +at least 3: B\(3\)", shown)
 
 
@@ -213,22 +213,22 @@ def test_rules_that_keep_and_lose_the_order() -> None:
 
     both = (gauss(2), "{family: lobatto-iiia, stages: 4}")
     assert said(both, "collocation") == [
-        "collocation on (1,2): s = 4 > r − k = 3, loses pair order 4",
-        "collocation on (2,1): s = 2 ≤ r − k = 3, keeps pair order 4",
+        "collocation on (1,2): s = 4 > r − k = 3, loses symplectic pair order 4",
+        "collocation on (2,1): s = 2 ≤ r − k = 3, keeps symplectic pair order 4",
     ]
     assert said(both, "legendre") == [
-        "legendre on (1,2), (2,1): k = 1 ≤ K = 2 ≤ r − k = 3, keeps pair order 4"
+        "legendre on (1,2), (2,1): k = 1 ≤ K = 2 ≤ r − k = 3, keeps symplectic pair order 4"
     ]
     assert said((LOBATTO, THREE_EIGHTHS), "{rule: legendre, degree: 4}") == [
-        "legendre on (1,2), (2,1): K = 4 > r − k = 3, C(1) and D(1) fail, loses pair order 4"
+        "legendre on (1,2), (2,1): K = 4 > r − k = 3, C(1) and D(1) fail, loses symplectic pair order 4"
     ]
     assert said((LOBATTO, QUARTERS), "collocation") == [
-        "collocation on (1,2): s = 4 = r − k + 1 and k E_l + s E_m = 0, keeps pair order 4",
-        "collocation on (2,1): s = 3 ≤ r − k = 3, keeps pair order 4",
+        "collocation on (1,2): s = 4 = r − k + 1 and k E_l + s E_m = 0, keeps symplectic pair order 4",
+        "collocation on (2,1): s = 3 ≤ r − k = 3, keeps symplectic pair order 4",
     ]
     assert said((THREE_EIGHTHS, LOBATTO), "interpolation") == [
-        "interpolation on (1,2): degree 2, ρ − k = 3, keeps pair order 4",
-        "interpolation on (2,1): degree 3, ρ − k = 3, loses pair order 4",
+        "interpolation on (1,2): degree 2, ρ − k = 3, keeps symplectic pair order 4",
+        "interpolation on (2,1): degree 3, ρ − k = 3, loses symplectic pair order 4",
     ]
     assert said(both, "{collocation: 1/2, interpolation: 1/2}") == []
 
@@ -249,7 +249,7 @@ def test_every_rule_keeps_or_loses_what_the_trees_say(
     found = analysis(method)
     said = list(rule_reasons(found, method.rules))
     assert said
-    assert all(re.search(r" (keeps|loses) pair order \d$", x) for x in said)
+    assert all(re.search(r" (keeps|loses) symplectic pair order \d$", x) for x in said)
     p = int(said[0][-1])
     assert found.pair is not None
     assert all(" keeps " in x for x in said) == (find_order(found.pair, p).order == p)

@@ -94,7 +94,7 @@ def test_a_zero_weight_is_named() -> None:
     found = report(text)
     assert found.startswith("m.gark.yaml: order 2, proved; ")
     assert "not symplectic; not all weights positive\n" in found
-    for label in ("conjugate order", "pair order"):
+    for label in ("conjugate order", "symplectic pair"):
         reason = "the symplectic conjugate divides by the weights b, b_1 = 0"
         assert f" {label} {reason} " in words(everything(text))
 

@@ -223,9 +223,9 @@ def test_a_rule_that_loses_the_order_is_told_in_every_format(format: str, tmp_pa
     """As a warning, which fails nothing; a degree that keeps the order has none."""
     run = gark("check", str(written(tmp_path, LOSING)), "--format", format)
     assert run.code == 0
-    assert "loses pair order 4" in " ".join(run.out.split())
+    assert "loses symplectic pair order 4" in " ".join(run.out.split())
     good = gark("check", str(written(tmp_path, LOSING.replace("4}", "2}"))), "--format", format)
-    assert "loses pair order" not in good.out
+    assert "loses symplectic pair order" not in good.out
 
 
 def test_sarif_has_the_codes_of_faults() -> None:
@@ -512,7 +512,15 @@ def rows(outcomes: Sequence[Outcome]) -> list[list[str]]:
 def test_markdown_has_a_row_a_file() -> None:
     """Orders, bound and claims stand under their heads; what fails is set off."""
     head, rule, wrong, right, bad = rows([outcome(WRONG), outcome(MIDPOINT), outcome("methods: 1")])
-    labels = ["file", "order", "conjugate order", "pair order", "bound", "symplectic", "claims"]
+    labels = [
+        "file",
+        "order",
+        "conjugate order",
+        "symplectic pair",
+        "bound",
+        "symplectic",
+        "claims",
+    ]
     assert head == labels
     assert set(rule) == {"---"}
     assert wrong == ["m.gark.yaml", "2", "2", "2", "2", "yes", "**3 of 4 fail**"]

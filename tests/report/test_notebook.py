@@ -148,7 +148,10 @@ def test_an_analysis_is_its_report(method: GarkMethod) -> None:
         assert f"the symplectic pair has order {found.pair_order.order}" in said
         return
     rows = {row[0]: row[1] for row in cells(html)}
-    for label, of in (("conjugate order", found.conjugate_order), ("pair order", found.pair_order)):
+    for label, of in (
+        ("conjugate order", found.conjugate_order),
+        ("symplectic pair", found.pair_order),
+    ):
         assert rows[label].startswith(f"{of.order}, proved; ")
 
 

@@ -120,7 +120,7 @@ def test_a_rounded_order_in_a_table_is_one_within_its_tolerance(format: str, bet
         for line in lines
         if between in line and "---" not in line
     )
-    for key in ("order", "conjugate order", "pair order"):
+    for key in ("order", "conjugate order", "symplectic pair"):
         at = head.index(key)
         assert (rounded[at], exact[at]) == ("4 within 1e-14", "4")
     answer, *_ = gark("check", ROUNDED, "--format", format).out.splitlines()
@@ -342,7 +342,7 @@ def test_a_certificate_says_what_proves_each_order(format: str) -> None:
         for part in (data["method"], data["pair"])
     ]
     told = " ".join(gark("certificate", "rk4", "--format", format).out.split())
-    for label, count in zip(("order 4", "pair order [&|]? ?4"), counts, strict=True):
+    for label, count in zip(("order 4", "symplectic pair [&|]? ?4"), counts, strict=True):
         assert re.search(f"{label}, proved by {count} trees; order 5 fails", told)
     whole = gark("certificate", "rk4", "-v", "--format", format).out
     tree = r"[[[\tau^{[1]}]^{[2]}]^{[1]}]^{[2]}" if format == "latex" else "[[[[]_1]_2]_1]_2"
@@ -444,15 +444,15 @@ def test_conjugate_and_pair_of_a_family_of_one_colour_are_details(tmp_path: Path
     file = tmp_path / "two.yaml"
     weights = "['1 - 1/(2*t)', '1/(2*t)']"
     file.write_text(f"parameters: {{t: free}}\nA: [[0, 0], [t, 0]]\nb: {weights}\n")
-    assert "pair order" not in gark("check", str(file)).out
-    assert "pair order" in gark("check", str(file), "-v").out
+    assert "\n  symplectic pair  " not in gark("check", str(file)).out
+    assert "\n  symplectic pair  " in gark("check", str(file), "-v").out
     two = tmp_path / "tau.yaml"
     two.write_text(
         "parameters: {tau: free}\n"
         "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\n"
         "transfer: {interpolation: tau, collocation: 1 - tau}\n"
     )
-    assert "pair order" in gark("check", str(two)).out
+    assert "\n  symplectic pair  " in gark("check", str(two)).out
 
 
 def test_rows_of_a_part_are_rows_of_its_owner() -> None:
