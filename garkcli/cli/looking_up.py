@@ -214,6 +214,7 @@ def show(given: Show, output: Output) -> None:
         _cite(given, output)
         return
     from garkcli.catalogue.entries import entry_of_method, entry_on
+    from garkcli.cli.tableaux import coupling_of_slow_stages
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
     from garkcli.report.methods import SHOWN as REPORT
@@ -233,7 +234,8 @@ def show(given: Show, output: Output) -> None:
         else:
             entry = entry_of_method(method, file)
         tableau, description = method.tableau, method.description
-        shown.append(ShownMethod(entry, tableau, method.entries, description, method.bibliography))
+        beside = method.bibliography, coupling_of_slow_stages(method)
+        shown.append(ShownMethod(entry, tableau, method.entries, description, *beside))
     output.tell(REPORT, *shown)
 
 

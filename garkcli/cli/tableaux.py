@@ -16,6 +16,7 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.check.every_family import EveryFamily
+    from garkcli.constructions.infinitesimal import Coupling
     from garkcli.exact.roots import RealRoot
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.family import FamilyFile
@@ -135,8 +136,19 @@ def write_tableau(
     """
     from garkcli.report.tableau import REPORT, of_method
 
-    shown = of_method(method, digits, with_transformation)
+    shown = of_method(method, digits, with_transformation, coupling_of_slow_stages(method))
     output.stream(REPORT, shown, is_document or None)
+
+
+def coupling_of_slow_stages(method: GarkMethod) -> Coupling | None:
+    """Returns the coupling of a multirate infinitesimal method; None for others."""
+    from garkcli.methodfile.build import MethodFile
+
+    if not isinstance(method, MethodFile) or method.form != "multirate" or method.derivation:
+        return None
+    from garkcli.methodfile.constructed.multirate import coupling_of
+
+    return coupling_of(method)
 
 
 def _method_file(method: GarkMethod, digits: int | None) -> str:

@@ -95,14 +95,14 @@ def _listing(tableau: Tableau, entries: Entries, width: int, text: Text) -> list
         vectors.append(("embedded", entries.embedded))
     for l, name in enumerate(names):
         for letter, rows in vectors:
-            lines += _vector(_named(letter, tableau, name), [*map(text, rows[l])], width)
+            lines += vector_lines(_named(letter, tableau, name), [*map(text, rows[l])], width)
         lines.append("")
     for l in distinct_rows(tableau):
         for name, block in zip(names, entries.A[l], strict=True):
             if block is None:
                 continue
             cells = [[*map(text, row)] for row in block]
-            lines += _block(_named("A", tableau, names[l], name), cells, width)
+            lines += block_lines(_named("A", tableau, names[l], name), cells, width)
     return lines[:-1]
 
 
@@ -120,7 +120,7 @@ def _dense(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[s
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]
     for colour, rows in zip(tableau.colours, entries.dense, strict=True):
         cells = [[*map(text, row)] for row in rows]
-        lines += _block(f"{_named('b', tableau, colour.name)}(θ)", cells, width)
+        lines += block_lines(f"{_named('b', tableau, colour.name)}(θ)", cells, width)
     return lines[:-1]
 
 
@@ -131,7 +131,7 @@ def _predictor(entries: Entries, width: int, text: Text) -> list[str]:
         lines += ["", f"predictor, weights of {_SLOPES[name]}, h = r h_old", ""]
         for k, matrix in enumerate(matrices):
             cells = [[*map(text, row)] for row in matrix]
-            lines += _block(("1", "r")[k] if k < 2 else f"r^{k}", cells, width)
+            lines += block_lines(("1", "r")[k] if k < 2 else f"r^{k}", cells, width)
         lines.pop()
     return lines
 
@@ -140,7 +140,7 @@ _SLOPES = {"old": "the slopes of the last step", "new": "the slopes of earlier s
 """By the part of a predictor that weighs them."""
 
 
-def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
+def block_lines(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
     """Returns a block below its name, with as many columns at a time as fit.
 
     Entries longer than ``width`` have lines of their own.
@@ -186,7 +186,7 @@ def _numbers(columns: range) -> str:
     return f"columns {first} {joint} {last}"
 
 
-def _vector(name: str, texts: Sequence[str], width: int) -> list[str]:
+def vector_lines(name: str, texts: Sequence[str], width: int) -> list[str]:
     """Returns nodes or weights in as many lines as needed."""
     lines = [f"{name} ="]
     margin = " " * (len(name) + 2)

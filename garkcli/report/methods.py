@@ -7,6 +7,7 @@ from typing import Any, Never, TypeAlias, TypeVar
 
 from flint import fmpq
 
+from garkcli.constructions.infinitesimal import Coupling
 from garkcli.errors import counted, printable
 from garkcli.exact.display import shortest
 from garkcli.exact.expression import read_decimal
@@ -276,11 +277,17 @@ class ShownMethod(Frozen):
     entries: Entries
     description: str
     reference: Reference | None
+    coupling: Coupling | None = None
 
     @property
     def whole(self) -> ShownTableau:
-        rounded = self.entry["exact"] is False
-        return ShownTableau(self.tableau, self.entries, self.title, is_rounded=rounded)
+        return ShownTableau(
+            self.tableau,
+            self.entries,
+            self.title,
+            is_rounded=self.entry["exact"] is False,
+            coupling=self.coupling,
+        )
 
     @property
     def title(self) -> str:

@@ -5,7 +5,7 @@ Numbers are exact strings, with floats of the same shape beside them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
@@ -17,7 +17,7 @@ from garkcli.constructions.infinitesimal import slow_part
 from garkcli.constructions.multirate import SLOW
 from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
-from garkcli.exact.display import to_float, to_text
+from garkcli.exact.display import shortest, to_ball, to_float, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
@@ -26,7 +26,7 @@ from garkcli.order.simplifying import inconsistent_blocks, is_symplectic
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.lines import aligned
 from garkcli.page.schema import NUMBER, NUMERAL, Schema, array, nullable
-from garkcli.page.tableau_text import readable, room_for_entry, shortened
+from garkcli.page.tableau_text import block_lines, readable, room_for_entry, shortened, vector_lines
 from garkcli.report.check import COLOURS, colours_of, wrong
 from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
@@ -41,6 +41,8 @@ from garkcli.tell.parts import SAID, drawing, part, parts, rows_of, sentence, to
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
+    from garkcli.constructions.infinitesimal import Coupling
+    from garkcli.exact.field import Number
     from garkcli.exact.matrix import Vector
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
@@ -57,6 +59,7 @@ class ShownTableau(NamedTuple):
     is_rounded: bool = False
     method: GarkMethod | None = None
     transformation: Transformation | None = None
+    coupling: Coupling | None = None
 
     @property
     def readable(self) -> Entries:
@@ -64,9 +67,13 @@ class ShownTableau(NamedTuple):
 
 
 def of_method(
-    method: GarkMethod, digits: int | None = None, with_transformation: bool = False
+    method: GarkMethod,
+    digits: int | None = None,
+    with_transformation: bool = False,
+    coupling: Coupling | None = None,
 ) -> ShownTableau:
-    """A method, its entries in decimals if digits are named.
+    """A method, its entries in decimals if digits are named; ``coupling`` is that of the slow
+    stages of a multirate method.
 
     Raises:
         MethodError: the transformation is requested, and there is none.
@@ -78,7 +85,9 @@ def of_method(
     is_rounded = method.tolerance is not None
     moved = transformation(method.tableau, digits or USUAL) if with_transformation else None
     name, derivation = method.name, method.derivation
-    return ShownTableau(method.tableau, entries, name, derivation, is_rounded, method, moved)
+    return ShownTableau(
+        method.tableau, entries, name, derivation, is_rounded, method, moved, coupling
+    )
 
 
 USUAL = 17
@@ -238,10 +247,46 @@ def drawn(x: ShownTableau, d: Plain) -> list[str]:
             entries = shortened(whole := entries, longest, d.spelt)
             has_short = has_short or entries != whole
         lines += d.tableau(tableau, entries)
+    if x.coupling is not None and d.breadth != "page":
+        lines += _of_coupling(x, x.coupling, d)
     if has_short:
         decimals = f"entries of more than {longest} signs as decimals: exact with -v"
         lines += ["", *d.sentence(d.prose(decimals), 0)]
     return lines
+
+
+def _of_coupling(x: ShownTableau, coupling: Coupling, d: Plain) -> Iterator[str]:
+    """The matrices by which slow stages act on the fast problems between them."""
+    from garkcli.bridges.couplings import keys_of  # few methods have them
+
+    digits = x.entries.digits
+    longest = digits + len("-0.") if x.is_rounded else room_for_entry(d.width)
+
+    def text(number: Number) -> str:
+        exact = shortest(number)
+        found = exact if len(exact) <= longest else cell_text(to_ball(number, digits), digits)
+        return d.spelt(found)
+
+    ((_, keys),) = keys_of(coupling).items()
+    last = keys.get("embedded", {})
+    gap = [""] if d.breadth == "terminal" else []
+    meaning = d.prose("couplings: row i leads to the stage after stage i")
+    yield from [*gap, *d.sentence(meaning, 0), *gap]
+    lines: list[str] = []
+    for key, letter in GREEK.items():
+        if key not in keys:
+            continue
+        matrices = keys[key] if coupling.matrices is not None else [keys[key]]
+        rows = last.get(key, ()) if isinstance(last, Mapping) else last
+        for k, matrix in enumerate(matrices):
+            name = d.spelt(f"{letter} of τ^{k}" if len(matrices) > 1 else letter)
+            lines += block_lines(name, [[*map(text, row)] for row in matrix], d.width)
+            for row in rows[k : k + 1]:
+                lines += [*vector_lines(f"{name}, embedded", [*map(text, row)], d.width), ""]
+    yield from d.picture(lines[:-1], 0)
+
+
+GREEK = {"alpha": "α", "beta": "β", "gamma": "γ", "omega": "ω"}
 
 
 def _moved(x: Transformation | None, d: Plain) -> list[str]:

@@ -228,3 +228,21 @@ def test_the_columns_of_a_group_are_named() -> None:
     assert heads == ["columns 1 to 3 of 7", "columns 4 to 6 of 7", "column 7 of 7"]
     text = gark("conjugate", "methods/three-colours.gark.yaml").out
     assert "A{1,3}, columns 2 and 3 of 3 =" in text
+
+
+@pytest.mark.parametrize("command", ["tableau", "show"])
+def test_couplings_of_slow_stages_are_shown(command: str) -> None:
+    """The matrices of the file: rows that lead from stage to stage, powers of τ, the embedded row."""
+    text = gark(command, "mri-gark-erk33a").out
+    first, _, second = text.partition("γ of τ^0, embedded = 1/12, -1/3, 7/12, 0\n")
+    assert first.endswith(
+        "\n\ncouplings: row i leads to the stage after stage i\n\nγ of τ^0 =\n"
+        "    1/3   0     0  0\n    -1/3  2/3   0  0\n    0     -2/3  1  0\n\n"
+    )
+    assert second.startswith(
+        "\nγ of τ^1 =\n    0    0  0     0\n    0    0  0     0\n    1/2  0  -1/2  0\n"
+    )
+    assert "α =\n" in gark(command, "mis4").out
+    for name in ("imex-mri-sr32", "imex-mri-gark4"):
+        assert max(map(len, gark(command, name).out.splitlines())) <= 80
+    assert "coupling" not in gark("tableau", "mri-gark-erk33a", "--format", "latex").out

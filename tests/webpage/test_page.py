@@ -729,3 +729,11 @@ def test_definitions_keep_their_role() -> None:
         assert not re.search(r"<d[dt]\b[^>]*\brole=", template.read_text(encoding="utf-8")), (
             template.name
         )
+
+
+def test_weights_of_positions_have_a_bar() -> None:
+    """A Nyström method has b̄ below Ā, and b below A."""
+    page = report_page("nystrom-4", pictures=False)
+    of_positions, of_velocities = page.split('<table class="tableau')[1:3]
+    assert "&#x000AF;" in of_positions
+    assert "&#x000AF;" not in of_velocities

@@ -15,7 +15,7 @@ from garkcli.page.cells import TableauLine, lines_of, parts_of, remark
 from garkcli.page.letters import definition, definition_latex
 from garkcli.page.tableau_latex import dense_polynomials
 from garkcli.page.tableau_text import readable
-from garkcli.report.tableau import shown_parts
+from garkcli.report.tableau import OF_POSITIONS, shown_parts
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import pair
@@ -81,7 +81,8 @@ def _of_other_kind(method: Reported) -> Content:
     dense: list[tuple[Markup, Markup]] = []
     for title, tableau, own in shown_parts(shown.tableau, whole):
         found = own if method.tolerance is None else readable(own)
-        tables.append(_table(title, tableau, found))
+        weights = r"\bar{b}" if title == OF_POSITIONS[0] else "b"
+        tables.append(_table(title, tableau, found, weights))
         dense += [(typeset(left), typeset(right)) for left, right in dense_polynomials(found)]
     return {"tables": tables, "dense": dense, "obstacle": "", "letters": _definitions()}
 
@@ -116,8 +117,10 @@ def _entries(tableau: Tableau, tolerance: fmpq | None, further: Further) -> Entr
     return found if tolerance is None else readable(found)
 
 
-def _table(title: str, tableau: Tableau, found: Entries) -> Content:
-    """Returns a tableau with its title, or a note that it is too large."""
+def _table(title: str, tableau: Tableau, found: Entries, weights: str = "b") -> Content:
+    """Returns a tableau with its title and the letter of its weights, or a note that it is too
+    large.
+    """
     widest = max(sum(len(found.b[m]) for m in colours) for _, _, colours in parts_of(tableau))
     if widest > MOST_COLUMNS:
         why = f"it has {widest} columns; gark tableau and gark conjugate print it"
@@ -126,7 +129,7 @@ def _table(title: str, tableau: Tableau, found: Entries) -> Content:
     shortened = found.changed(_short)
     if not note and shortened != found:
         note = f"entries of more than {LONGEST} signs as decimals, {found.digits} digits"
-    parts = [_part(tableau, shortened, *part) for part in parts_of(tableau)]
+    parts = [_part(tableau, shortened, weights, *part) for part in parts_of(tableau)]
     return {"title": title, "parts": parts, "remark": note}
 
 
@@ -138,7 +141,12 @@ def _short(cell: Cell) -> Cell:
 
 
 def _part(
-    tableau: Tableau, found: Entries, letter: str, stages: Sequence[int], colours: Sequence[int]
+    tableau: Tableau,
+    found: Entries,
+    weights: str,
+    letter: str,
+    stages: Sequence[int],
+    colours: Sequence[int],
 ) -> Content:
     """Returns the rows of some colours over the columns of others."""
     heads = [(m + 1, tableau.colours[m].name, len(found.b[m])) for m in colours]
@@ -147,12 +155,16 @@ def _part(
         "letter": letter,
         "width": "vast" if columns > _VAST else "wide" if columns > _WIDE else "",
         "heads": heads,
-        "lines": [_line(tableau, found, x, colours) for x in lines_of(found, stages, colours)],
+        "lines": [
+            _line(tableau, found, weights, x, colours) for x in lines_of(found, stages, colours)
+        ],
         "has_colours": tableau.size > 1,
     }
 
 
-def _line(tableau: Tableau, found: Entries, line: TableauLine, colours: Sequence[int]) -> Content:
+def _line(
+    tableau: Tableau, found: Entries, weights: str, line: TableauLine, colours: Sequence[int]
+) -> Content:
     """Returns the blocks of a stage, which several colours may share, or of weights; blanks for
     absent ones.
     """
@@ -164,7 +176,8 @@ def _line(tableau: Tableau, found: Entries, line: TableauLine, colours: Sequence
         blocks.append({"colour": m + 1, "is_own": line.colour == m, "cells": cells})
     shown = {"blocks": blocks, "is_first": line.is_first}
     if line.colour is None or line.node is None:
-        return {**shown, "head": typeset(r"\hat{b}" if line.place else "b"), "group": ""}
+        letter = rf"\hat{{{weights}}}" if line.place else weights
+        return {**shown, "head": typeset(letter), "group": ""}
     space = tableau.colours[line.colour].space
     return {
         **shown,
