@@ -148,7 +148,7 @@ def _fitting(text: str) -> str:
     """Returns a text in lines that fit the terminal, if standard error is one."""
     if not is_terminal(sys.stderr):
         return text
-    from garkcli.page.paint import folded
+    from garkcli.page.lines import folded
 
     width = width_of_terminal()
     return "\n".join(x for line in text.split("\n") for x in folded(line, width, "  "))
