@@ -5,10 +5,10 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue figures docs paper browser links man walk floors format clean known
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue figures docs paper browser links man walk release-check floors format clean known
 
 help: ## this list
-	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 16
 
 # compat: a line with the path, where the other way looks through a table at every start of Python
 $(READY): pyproject.toml
@@ -111,6 +111,9 @@ man: $(READY) ## make the manual page anew
 
 walk: $(READY) ## README and tutorials as a newcomer does them: in empty folders, by a shell, with the wheel
 	$(BIN)/python -m tests.portable.walk
+
+release-check: $(READY) ## the distributions, built and tried from empty environments, see docs/contributing/release.md
+	$(BIN)/python -m tests.portable.release
 
 floors: ## the suite with the oldest declared version of each dependency
 	$(MAKE) --no-print-directory portable ONLY=floors

@@ -17,6 +17,7 @@ EMPTY = (
     "tutorial-student",
     "tutorial-maintainer",
     "tutorial-designer",
+    "tutorial-paper",
     "howto-from-a-paper",
     "howto-other-codes",
     "howto-imex",

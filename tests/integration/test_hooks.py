@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from tests.cli.harness import gark
+from tests.portable.release import LOCK, SYSTEMS, requirements
 from tests.whole import in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -111,11 +112,11 @@ def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("version", "what", "place"),
-    [("", "/the/checkout[audit]", "bin"), ("0.1.0", "garkcli[audit]==0.1.0", "Scripts")],
+    [("", "/the/checkout", "bin"), ("1.0.0", "garkcli==1.0.0", "Scripts")],
 )
 def test_action_installs_this_project(version: str, what: str, place: str, tmp_path: Path) -> None:
     """What the action installs is the directory it lies in, and that directory is the project; a
-    release where one is asked for; either with what reads sources.
+    release where one is asked for; either after its dependencies, which are taken by hashes.
     """
     folder = tmp_path / "gark" / place
     folder.mkdir(parents=True)
@@ -133,7 +134,49 @@ def test_action_installs_this_project(version: str, what: str, place: str, tmp_p
         RUNNER_TEMP=str(tmp_path),
         GITHUB_ACTION_PATH="/the/checkout",
     )
-    last = done.stdout.splitlines()[-1]
-    assert last == f"-m pip install --quiet {what}"
+    *_, needed, own, last = done.stdout.splitlines()
+    assert needed.startswith("-m pip install --quiet --require-hashes --only-binary :all:")
+    assert needed.endswith(f"/the/checkout/{LOCK.name}")
+    assert own == f"-m pip install --quiet --no-deps --no-build-isolation {what}"
+    assert last == "-m pip check"
     project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     assert 'name = "garkcli"' in project
+
+
+def test_steps_of_the_action_are_pinned() -> None:
+    """What the action uses of others is named by a commit, which nobody can move."""
+    action = yaml.safe_load((ROOT / "action.yml").read_text())
+    used = [step["uses"] for step in action["runs"]["steps"] if "uses" in step]
+    assert used
+    assert all(re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", x) for x in used)
+
+
+def test_the_action_has_hashes_of_all_that_gark_needs() -> None:
+    """Every dependency, those of ``audit`` and the build are there with a version that is new
+    enough and hashes; there is no address.
+    """
+    text = LOCK.read_text(encoding="utf-8")
+    entries = re.findall(
+        r"^([\w.-]+)==([\w.]+)(?: ; sys_platform == \"win32\")?((?: \\\n    --hash=sha256:[0-9a-f]{64})+)$",
+        text,
+        re.MULTILINE,
+    )
+    assert "://" not in text
+    versions = {canonical(name): version for name, version, _ in entries}
+    assert len(versions) == text.count("==") - text.count('" ')
+    for line in requirements():
+        name, least = re.fullmatch(r"([\w-]+)>=([\w.]+)", line).groups()
+        assert numbers(versions[canonical(name)]) >= numbers(least), name
+    compiled = [x for x in entries if x[0] == "python-flint"]
+    # a wheel may be for several versions of Python, and is for one system
+    assert compiled[0][2].count("--hash") >= len(SYSTEMS)
+
+
+def canonical(name: str) -> str:
+    """A name as the index writes it."""
+    return name.lower().replace("_", "-")
+
+
+def numbers(version: str) -> list[int]:
+    """The numbers of a version."""
+    return [int(x) for x in version.split(".")]

@@ -27,6 +27,7 @@ PAGES = (
     "docs/tutorial-student.md",
     "docs/tutorial-maintainer.md",
     "docs/tutorial-designer.md",
+    "docs/tutorial-paper.md",
 )
 
 
