@@ -322,11 +322,11 @@ def _nothing(
         return UsageProblem(message, cure, code="cannot-import")
     known = ", ".join(all_readers())
     message = _no_table(sources, files)
-    return UsageProblem(message, f"--from FORMAT says what it is: {known}", code="cannot-import")
+    return UsageProblem(message, f"--from FORMAT names its format: {known}", code="cannot-import")
 
 
 def _no_table(sources: Sequence[str], files: int) -> str:
-    return f"no table is found in {', '.join(sources[:3])} ({counted(files, 'file')})"
+    return f"no table found in {', '.join(sources[:3])} ({counted(files, 'file')})"
 
 
 def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:

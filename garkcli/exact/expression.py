@@ -146,7 +146,7 @@ class Parser:
             cure = "write products with *" if is_factor else ""
             if self.value == ",":
                 cure = "write decimals with a point: 0.5"
-            self._fail(f"{self.value!r} is not expected here", cure)
+            self._fail(f"unexpected {self.value!r}", cure)
         return result
 
     def _sum(self) -> Expression:

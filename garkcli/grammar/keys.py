@@ -144,9 +144,9 @@ class Together(Frozen):
         there = [key for key in self.keys if key in entries]
         if missing and there:
             message = f"{' and '.join(missing)} missing beside {', '.join(there)}"
-            cure = f"give {' and '.join(self.needed)}"
+            cure = f"write {' and '.join(self.needed)}"
             if self.perhaps:
-                cure = f"give {', '.join(self.needed)} and perhaps {', '.join(self.perhaps)}"
+                cure += f"; {' and '.join(self.perhaps)} can be left out"
             source.fault(entries[there[0]], placed(where, message), cure, code="missing-key")
 
 

@@ -272,7 +272,7 @@ _SPELL_OUT: dict[str, str] = dict.fromkeys(
 BESIDE_FORM: tuple[g.KeyRelation, ...] = (
     g.KeyRelation(
         "methods",
-        "two colours or more need a transfer rule",
+        "two or more methods need a transfer rule",
         "write transfer: collocation (or interpolation)",
         needs=("transfer",),
         code="missing-key",

@@ -91,7 +91,10 @@ def _of_folder(path: str) -> Remark:
         return Remark(message, "name the files", code="cannot-read")
     first = next(find_files([path]))
     if first == path:
-        message, cure = f"no {SUFFIX} files in this directory", "name the files, or rename them"
+        message, cure = (
+            f"no {SUFFIX} files in this directory",
+            "name the files, or end their names in .gark.yaml",
+        )
         return Remark(message, cure, code="folder")
     message = "a directory, where one method file is expected"
     return Remark(message, f"name one, such as {first}", code="folder")

@@ -199,7 +199,7 @@ def _unknown(name: str) -> Remark:
     if near := nearest(name, known):
         cure = f"did you mean {near!r}?"
     elif begun := names_beginning(name):
-        cure = f"names that begin so: {_first(begun)}"
+        cure = f"names that begin with it: {_first(begun)}"
     return Remark(message, cure, code="no-such-file")
 
 

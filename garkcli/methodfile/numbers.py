@@ -385,7 +385,7 @@ class Numbers(Mutable):
             more = ", …" if len(others) > _SHOWN_ROWS else ""
             message += f"; other lengths in {noun} {numbers}{more} too"
         place = node.value[first - 1] if isinstance(node, SequenceNode) else node
-        cure = "give every row the same number, or end each at the diagonal"
+        cure = "give all rows the same length, or end each at the diagonal"
         if lengths[first - 1] > columns:
             cure += "; decimals have a point: 0.5"
         self.source.fault(place, message, cure, code="wrong-size")

@@ -57,7 +57,7 @@ PREDICTOR = g.mapping(
 )
 """The keys under ``predictor``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
-EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
+EXAMPLE = "write A and b, and c if it is not the row sums: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
     "a method of one colour has A: [[…], …] and b: […], one of two A: [[A11, A12], [A21, A22]]"
 )
@@ -284,7 +284,7 @@ def _method(
     if is_square and rows != stages and (c is None or len(c) == rows):
         # A and c agree with each other, so the mistake is in b
         message = f"{name_of_b} has {entries_of(stages)}, {name_of_A} is {rows} by {rows}"
-        cure = _spelled(entries["b"], rows, "stage") or "both have one per stage"
+        cure = _spelled(entries["b"], rows, "stage") or "b needs one entry per stage"
         at.source.fault(entries["b"], message, cure, code="wrong-size")
         return None
     A = at.numbers.fitted(A, entries["A"], name_of_A, (stages, stages), why)

@@ -221,7 +221,7 @@ def test_faults_of_arrays_have_their_place() -> None:
         from_arrays([[0, 0], ["1/0x", 0]], [0, 1, 1])
     shown = str(caught.value)
     assert "b has 3 entries, A is 2 by 2" in shown
-    assert "A, row 2, entry 1: 'x' is not expected here" in shown
+    assert "A, row 2, entry 1: unexpected 'x'" in shown
     assert shown.count("^") == 2
 
 

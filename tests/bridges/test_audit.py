@@ -346,7 +346,7 @@ def test_arrays_that_do_not_fit_are_told(name: str, tmp_path: Path) -> None:
     (tmp_path / name).write_text(UNLIKE[name], encoding="utf-8")
     run = gark("audit", name, cwd=tmp_path)
     assert (run.code, run.out) == (2, "")
-    assert f"no table is found in {name} (1 file); {name}:1: " in run.err
+    assert f"no table found in {name} (1 file); {name}:1: " in run.err
     assert "arrays called A and b do not fit together: " in run.err
     assert " for 2 stages" in run.err
     shutil.copy(SOURCES / "kutta.m", tmp_path / "k.m")
@@ -455,7 +455,7 @@ def test_a_folder_without_tables(tmp_path: Path) -> None:
     (tmp_path / "a.c").write_text("int main(void) { return 0; }")
     run = gark("audit", str(tmp_path))
     assert run.code == 2
-    assert "no table is found in" in run.err
+    assert "no table found in" in run.err
 
 
 def test_processes_find_what_one_finds(tmp_path: Path) -> None:

@@ -248,7 +248,7 @@ def test_the_command_says_what_is_missing(name: str) -> None:
     run = gark("import", "-", "--from", "python", stdin=HOSTILE[name])
     assert run.code == 2
     assert run.out == ""
-    assert run.err.startswith("gark: no table is found in -")
+    assert run.err.startswith("gark: no table found in -")
 
 
 @in_whole

@@ -161,8 +161,8 @@ ONE_FAULT = {
         "one per colour",
         "tableau:",
     ),
-    "no b": (TWO, "[[0", "b missing", "give A, b"),
-    "no b in a tableau": ("tableau: {A: [[0]]}", "{A", "b missing", "give A, b"),
+    "no b": (TWO, "[[0", "b missing", "write A and b"),
+    "no b in a tableau": ("tableau: {A: [[0]]}", "{A", "b missing", "write A and b"),
     "a bordered array": ("tableau: [[0, 0], [1, 1]]", "[[0", "a mapping", "{A: [[0, 0]"),
     "capitals": ("a: [[0]]\nb: [1]", "a", "unknown key 'a'", "'A'"),
     "a slip": ("methds: [{family: gauss, stages: 2}]", "methds", "unknown key", "'methods'"),
@@ -331,7 +331,7 @@ ONE_FAULT = {
     "a decimal comma in quotes": (
         'A: [[0, 0], ["0,5", 0]]\nb: [0, 1]',
         ",5",
-        "',' is not expected",
+        "unexpected ','",
         "with a point: 0.5",
     ),
     "a column of weights": (
