@@ -4,6 +4,7 @@ methods: their orders, and the properties that R(z) decides.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
@@ -163,13 +164,13 @@ class ClaimedOrders(Frozen):
     order: AnyOrder
 
     @classmethod
+    @abstractmethod
     def of(cls, method: AnyTableau, limit: int, spans: StageSpans | None = None) -> Self:
         """Returns the orders up to ``limit``; ``spans`` are stage vectors that are known."""
-        raise NotImplementedError
 
+    @abstractmethod
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """Returns the order that a claim is about and its tableau; None if there is none."""
-        raise NotImplementedError
 
 
 O = TypeVar("O", bound=ClaimedOrders)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, get_args
 
@@ -301,11 +302,11 @@ class OwnContent(Content):
     def names(self) -> Sequence[str] | None:
         return ()
 
+    @abstractmethod
     def made(self, values: Values, rounding: fmpq | None) -> Made:
         """Returns the tableau; ``rounding`` is the largest error of its numbers, None if they are
         exact.
         """
-        raise NotImplementedError
 
 
 class PartText(Frozen):

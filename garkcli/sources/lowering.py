@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from importlib import import_module
@@ -44,7 +45,7 @@ _SIGNS = {"**": "^", "//": "÷"}
 TOO_DEEP = ir.Opaque("an expression that is nested too deep")
 
 
-class Lowering:
+class Lowering(ABC):
     """From a syntax tree to statements.
 
     Args:
@@ -77,7 +78,7 @@ class Lowering:
                 waiting += self.children(part(node, "body"))
         return self.block(nodes)
 
-    def declared(self, node: Node) -> None:
+    def declared(self, node: Node) -> None:  # noqa: B027 -- few languages need it
         """Remembers the fields of a record, which may be used before its declaration."""
 
     def parse(self, data: bytes) -> Node:
@@ -153,9 +154,9 @@ class Lowering:
         """The value of a function."""
         return self.expr(node)
 
+    @abstractmethod
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         """The lowered form of a statement that only this language has."""
-        raise NotImplementedError
 
     def assignment(
         self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
@@ -297,9 +298,9 @@ class Lowering:
         """A number; digits alone are an integer."""
         return ir.Literal(text, is_whole=text.replace("_", "").isdigit())
 
+    @abstractmethod
     def other(self, node: Node, inside: list[Node]) -> ir.Expr:
         """The lowered form of an expression that only this language has."""
-        raise NotImplementedError
 
     def ends(self, node: Node) -> list[ir.Expr | None]:
         """The ends between the colons of a slice."""
