@@ -15,7 +15,7 @@ from pathlib import Path
 from garkcli import find_order, loads
 from garkcli.ntrees.drawing import FONTS, layout
 from garkcli.ntrees.notation import format_tree
-from garkcli.order.blame import Missed, blame_of
+from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.repair import Repair
 
 HERE = Path(__file__).resolve().parent
@@ -62,7 +62,7 @@ def picture() -> str:
     """The SVG document."""
     method = loads(RK4).tableau
     found = find_order(method)
-    missed = Missed(order=found.order + 1, claimed=4)
+    missed = MissedOrder(order=found.order + 1, claimed=4)
     blame = blame_of(method, missed)
     assert blame is not None
     (repair,) = blame.repairs

@@ -16,7 +16,7 @@ from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import AtLeast
-from garkcli.order.blame import Missed, blame_of
+from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
 from garkcli.order.meant import (
@@ -248,7 +248,7 @@ def _read(value: Any) -> int | AtLeast:
 
 def _blamed(tableau: Tableau, part: _OrderPart, found: AnyOrder, claimed: int) -> Iterator[str]:
     """Yields the entries whose change would restore the order."""
-    missed = Missed(found.order + 1, claimed, part.which or "order")
+    missed = MissedOrder(found.order + 1, claimed, part.which or "order")
     method = tableau if isinstance(found, Order) else meant(tableau, found.tolerance)
     blame = blame_of(method, missed)
     if blame is None or not blame.repairs:

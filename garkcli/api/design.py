@@ -14,12 +14,12 @@ from garkcli.design.choices import Chosen, accepted_methods, chosen
 from garkcli.design.design import CLAIMS, Design
 from garkcli.design.member import TABLEAUS, Whose, refuse_levels
 from garkcli.design.minimise import minimise as minimising
-from garkcli.design.minimise.objective import Level
+from garkcli.design.minimise.objective import LevelObjective
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.sums import refuse
 from garkcli.design.search import run as searching
 from garkcli.design.search.nearest import nearest_member
-from garkcli.design.search.run import TOLERANCE, Method, Result
+from garkcli.design.search.run import TOLERANCE, FoundMethod, SearchResult
 from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_plane import StablePlane, stable_set
 from garkcli.design.stable_values import StableValues, Wanted
@@ -161,7 +161,7 @@ def search_methods(
     seconds: float | None = None,
     objective: str | None = None,
     start: GarkMethod | None = None,
-) -> Result:
+) -> SearchResult:
     r"""Search a family for methods of an order, from random starts: ``gark design --search``.
 
     Args:
@@ -185,7 +185,7 @@ def search_methods(
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
     >>> found = search_methods(family, 2, starts=3)
     >>> found, found.methods[0].values
-    (<Result 1 method of 3 starts>, {'t': '1/2'})
+    (<SearchResult 1 method of 3 starts>, {'t': '1/2'})
     """
     exact = exact_family_of(family, "search_methods")
     return searching.search_methods(
@@ -257,7 +257,7 @@ def stable_values(
 
 
 def found_methods(
-    found: Design | DesignWithin | Minimum | Result,
+    found: Design | DesignWithin | Minimum | SearchResult,
     family: AnyFamily | None = None,
     whose: Whose | None = None,
 ) -> list[MethodFile]:
@@ -280,7 +280,7 @@ def found_methods(
     >>> ralston.A, ralston.b, ralston.order
     (((0, 0), (2/3, 0)), (1/4, 3/4), 2)
     """
-    if not isinstance(found, (Design, DesignWithin, Minimum, Result)):
+    if not isinstance(found, (Design, DesignWithin, Minimum, SearchResult)):
         raise MethodError(
             f"found methods are expected, not {type(found).__name__}",
             "give what find_parameters, minimise or search_methods returned",
@@ -308,7 +308,7 @@ class FoundFile(Frozen):
     """
 
     family: FamilyFile
-    member: Chosen | Method
+    member: Chosen | FoundMethod
     head: str
     claim: str
     is_exact: bool = True
@@ -326,7 +326,7 @@ class FoundFile(Frozen):
 
 
 def found_files(
-    found: Design | DesignWithin | Minimum | Result, family: FamilyFile
+    found: Design | DesignWithin | Minimum | SearchResult, family: FamilyFile
 ) -> Iterator[FoundFile]:
     source = f"found by gark design {family.source}"
     if isinstance(found, DesignWithin):
@@ -374,7 +374,7 @@ def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Itera
         if values.embedded:
             claim += f", embedded-order: {values.embedded}"
         head = f"{source}: {claim} within {decimal(found.tolerance)}, numerical"
-        member = Method(1, "numerical", values.order, texts, "0")
+        member = FoundMethod(1, "numerical", values.order, texts, "0")
         yield FoundFile(family, member, head, claim, is_exact=False)
 
 
@@ -394,7 +394,7 @@ def _wanted(family: Family, whose: Whose) -> str:
 def _claim(minimum: Minimum) -> str:
     """Returns the claim about the greatest level."""
     objective = minimum.objective
-    if not isinstance(objective, Level) or objective.claim is None:
+    if not isinstance(objective, LevelObjective) or objective.claim is None:
         return ""
     if minimum.is_infinite:
         return f", {objective.claim}: infinity"

@@ -20,7 +20,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.backward.formulas import ModifiedFormula, modified_formula
 from garkcli.convergence.ladder import has_settled
-from garkcli.convergence.result import CLOSE, Row, observed_order, slope_between
+from garkcli.convergence.result import CLOSE, StepSizeRow, observed_order, slope_between
 from garkcli.doing import counting
 from garkcli.errors import UsageProblem
 from garkcli.frozen import Frozen, Mutable
@@ -74,9 +74,9 @@ class Meter(Mutable):
             needed = _places(smallest.mid() * fall) + _SPARE
             self.digits = min(max(self.digits, needed), _MOST_DIGITS)
 
-    def table(self, first: int) -> list[list[Row]]:
+    def table(self, first: int) -> list[list[StepSizeRow]]:
         """For each step size a row of each truncation."""
-        table: list[list[Row]] = []
+        table: list[list[StepSizeRow]] = []
         for k in range(MAX_ROWS):
             count = first * 2**k
             h = self.t_end / count
@@ -87,7 +87,7 @@ class Meter(Mutable):
             for i, error in enumerate(self.errors(count)):
                 before = table[-1][i] if table else None
                 slope = slope_between(before, h, error)
-                row.append(Row(h, error, slope, error, digits=self.digits))
+                row.append(StepSizeRow(h, error, slope, error, digits=self.digits))
             table.append(row)
         return table
 
@@ -122,12 +122,12 @@ class Meter(Mutable):
             return [arb(x.mid(), noise.mid()) for x in means]
 
 
-def are_above_noise(rows: Sequence[Row]) -> bool:
+def are_above_noise(rows: Sequence[StepSizeRow]) -> bool:
     """Whether every error is larger than rounding."""
     return not any(row.error.contains(0) for row in rows)
 
 
-def slopes_have_settled(rows: Sequence[Row]) -> bool:
+def slopes_have_settled(rows: Sequence[StepSizeRow]) -> bool:
     """Whether the errors of one truncation show an order, as in a convergence test."""
     are_enough = len(rows) >= ROWS
     return are_enough and are_above_noise(rows) and has_settled(rows)
@@ -164,7 +164,7 @@ class ModifiedEnergy(Frozen):
     power: int
     exact_order: int
     is_lower_bound: bool
-    rows: tuple[Row, ...]
+    rows: tuple[StepSizeRow, ...]
     observed_order: float | None
     uncertainty: float | None
     has_settled: bool
@@ -288,7 +288,9 @@ def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
     return formula.max_order + _BEYOND, True
 
 
-def _energy(power: int, order: int, is_lower_bound: bool, rows: tuple[Row, ...]) -> ModifiedEnergy:
+def _energy(
+    power: int, order: int, is_lower_bound: bool, rows: tuple[StepSizeRow, ...]
+) -> ModifiedEnergy:
     """The verdict on one column."""
     are_seen = are_above_noise(rows)
     observed = observed_order(rows) if are_seen else None

@@ -17,7 +17,7 @@ from garkcli.bridges.judging import Judged, at_least
 from garkcli.bridges.limited import judged_within_limits
 from garkcli.bridges.plausible import is_plausible, speaks
 from garkcli.bridges.readers.registry import demand_grammars, find_tables, readers_for
-from garkcli.bridges.subject import HIGH, Subject, read
+from garkcli.bridges.subject import HIGH, TableSubject, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, Remark, Severity, counted
 from garkcli.exact.field import ZERO
@@ -242,7 +242,7 @@ def _audit(table: FoundTable) -> Audited | None:
     )
 
 
-def subject_of(table: FoundTable, method: MethodFile) -> Subject:
+def subject_of(table: FoundTable, method: MethodFile) -> TableSubject:
     """A table with its orders, up to the limit of an audit."""
     is_high = not table.order or table.order >= HIGH
     return with_orders(table, method, HIGH if is_high else None)
@@ -269,11 +269,11 @@ def _of_rosenbrock(table: FoundTable) -> Audited:
     return Audited(judged.table, judged.method, *orders, tuple(row_findings(judged)))
 
 
-def findings_of(subject: Subject) -> tuple[Remark, ...]:
+def findings_of(subject: TableSubject) -> tuple[Remark, ...]:
     return tuple(_weighed(x, subject) for check in CHECKS for x in check(subject))
 
 
-def is_unrecognised(subject: Subject) -> bool:
+def is_unrecognised(subject: TableSubject) -> bool:
     """Whether an assembled table is no method: its order is too low, or several rows do not sum to
     their nodes.
     """
@@ -288,7 +288,7 @@ def _noted(
     return Audited(table, findings=(Remark(message, code=code, level=level),))
 
 
-def _weighed(finding: Remark, subject: Subject) -> Remark:
+def _weighed(finding: Remark, subject: TableSubject) -> Remark:
     """An error with its proper level: a doubt if the table was assembled from single numbers, or
     recognised and no single repair mends it; a note if careless rounding explains it.
     """
@@ -305,14 +305,14 @@ def _weighed(finding: Remark, subject: Subject) -> Remark:
     return finding
 
 
-def _is_mended(finding: Remark, subject: Subject) -> bool:
+def _is_mended(finding: Remark, subject: TableSubject) -> bool:
     """Whether one repaired entry makes the table a method."""
     if finding.code != "nodes":
         return bool(finding.help)
     return is_one_row(subject)
 
 
-def is_one_row(subject: Subject) -> bool:
+def is_one_row(subject: TableSubject) -> bool:
     """Whether all rows but one sum to their nodes, and order 2 holds with these. Excluded is a
     first stage at a later time, as in methods of Oliver.
     """
@@ -326,7 +326,7 @@ def is_one_row(subject: Subject) -> bool:
     return all(within(x, tolerance) for x in moments)
 
 
-def _is_explained(code: str, subject: Subject) -> bool:
+def _is_explained(code: str, subject: TableSubject) -> bool:
     """Whether rounding by many units in the last digits explains a violation."""
     if code == "order":
         return not subject.misses_order
@@ -341,7 +341,7 @@ def _is_explained(code: str, subject: Subject) -> bool:
     return subject.is_careless(embedded, wanted or 1)
 
 
-def _order(subject: Subject) -> Iterator[Remark]:
+def _order(subject: TableSubject) -> Iterator[Remark]:
     """Compares the declared order with the true one."""
     declared = subject.table.order
     finding = _held(subject.order, declared, "order", subject.tableau)
@@ -368,7 +368,7 @@ def _held(found: Judged | None, declared: int | None, what: str, tableau: Tablea
     return Remark(f"{proved}: {why}", code="open", level="note")
 
 
-def _said(subject: Subject) -> Iterator[Remark]:
+def _said(subject: TableSubject) -> Iterator[Remark]:
     """Compares the order in comments with the true one; these may be about something else."""
     declared, found = subject.table.said_order or 0, subject.order
     is_known = not (subject.table.order or found.is_limited or found.is_open)
@@ -385,7 +385,7 @@ def _witness(found: Judged, tableau: Tableau) -> str:
     return f"; {witness_text(found.witness, tableau.size > 1)}"
 
 
-def _culprit(subject: Subject, declared: int) -> str:
+def _culprit(subject: TableSubject, declared: int) -> str:
     """The row that does not sum to its node, or the entry that restores the order."""
     if len(subject.wrong_rows) == 1:
         return subject.wrong_rows[0]
@@ -393,10 +393,10 @@ def _culprit(subject: Subject, declared: int) -> str:
     witness = subject.order.witness
     if stages > MAX_BLAMED or witness is None:
         return ""
-    from garkcli.order.blame import Missed, blame_of
+    from garkcli.order.blame import MissedOrder, blame_of
 
     rounded = subject.digits.of(subject.tableau, slack=100 * SLACK)
-    missed = Missed(witness.tree.order, declared)
+    missed = MissedOrder(witness.tree.order, declared)
     blame = blame_of(rounded if rounded.tolerance else subject.tableau, missed)
     if blame is None or len(blame.repairs) != 1:
         return ""
@@ -404,7 +404,7 @@ def _culprit(subject: Subject, declared: int) -> str:
     return f"order {declared} would hold with {repair}"
 
 
-def _embedded(subject: Subject) -> Iterator[Remark]:
+def _embedded(subject: TableSubject) -> Iterator[Remark]:
     """Compares the declared order of the embedded weights with the true one."""
     found, embedded = subject.embedded_order, subject.method.embedded
     if found is None or embedded is None:
@@ -425,13 +425,13 @@ def _embedded(subject: Subject) -> Iterator[Remark]:
         yield from [] if finding is None else [finding]
 
 
-def _sign(subject: Subject) -> Iterator[Remark]:
+def _sign(subject: TableSubject) -> Iterator[Remark]:
     """An error estimate that may be b − b̂ or b̂ − b."""
     if subject.is_sign_open:
         yield Remark(subject.sign, code="sign", level="note")
 
 
-def _weights(subject: Subject) -> Iterator[Remark]:
+def _weights(subject: TableSubject) -> Iterator[Remark]:
     """Weights that do not sum to 1, if no order is declared."""
     found = subject.order
     if not (found.order or found.is_open) and subject.table.order is None:
@@ -440,7 +440,7 @@ def _weights(subject: Subject) -> Iterator[Remark]:
         yield Remark(message, code="weights", claims={"order": ONE})
 
 
-def _nodes(subject: Subject) -> Iterator[Remark]:
+def _nodes(subject: TableSubject) -> Iterator[Remark]:
     """Nodes that are not row sums, as far as they cost an order."""
     rows, declared = subject.wrong_rows, subject.table.order
     if subject.misses_order or all(x is None for x in subject.table.c):
@@ -468,7 +468,7 @@ def _listed(rows: Sequence[str]) -> str:
     return f"{text}; and {len(rows) - 3} more" if len(rows) > 3 else text
 
 
-def _flags(subject: Subject) -> Iterator[Remark]:
+def _flags(subject: TableSubject) -> Iterator[Remark]:
     """Properties declared in the source."""
     if not subject.table.flags.get("fsal") or not subject.block:
         return
@@ -479,7 +479,7 @@ def _flags(subject: Subject) -> Iterator[Remark]:
         yield Remark(message, code="fsal", claims={"fsal": "true"})
 
 
-def _stored(subject: Subject) -> Iterator[Remark]:
+def _stored(subject: TableSubject) -> Iterator[Remark]:
     """The storage of the numbers, if it was recognised from them."""
     if subject.table.how:
         yield Remark(f"as its numbers say: {subject.table.how}", code="stored", level="note")
@@ -488,13 +488,13 @@ def _stored(subject: Subject) -> Iterator[Remark]:
         yield Remark(message, code="idle", level="warning")
 
 
-def _unread(subject: Subject) -> Iterator[Remark]:
+def _unread(subject: TableSubject) -> Iterator[Remark]:
     """Nodes and embedded weights that could not be read."""
     lost = (x for x in subject.table.notes if " not read: " in x)
     yield from (Remark(x, code="unread", level="note") for x in lost)
 
 
-_Check: TypeAlias = Callable[[Subject], Iterator[Remark]]
+_Check: TypeAlias = Callable[[TableSubject], Iterator[Remark]]
 CHECKS: tuple[_Check, ...] = (
     *(_order, _said, _weights, _nodes, _embedded, _sign, _flags, _stored, _unread),
 )

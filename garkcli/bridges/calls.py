@@ -27,8 +27,8 @@ def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
         method: from a file, a text or arrays, or its ``conjugate`` or ``pair``; or a path or a name
             of the catalogue.
         target: as ``gark list exports`` shows it.
-        digits: of correctly rounded decimals; by default exact numbers, or as many digits as the
-            target reads.
+        digits: decimals with so many digits, correctly rounded; by default exact numbers, or as
+            many digits as the target reads.
 
     Raises:
         UsageProblem: there is no such target.

@@ -8,7 +8,7 @@ from garkcli.bridges.audit import findings_of
 from garkcli.bridges.estimates import with_orders
 from garkcli.bridges.importing import fmpq_of, place_of, written
 from garkcli.bridges.judging import Judged, at_least
-from garkcli.bridges.subject import Subject, read
+from garkcli.bridges.subject import TableSubject, read
 from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 from garkcli.properties.last_stage import FirstSameAsLast, first_same_as_last
@@ -18,7 +18,7 @@ _OF_TABLE = {"order", "nonautonomous-order", "stage-order"}
 """Claims that a wrong entry or node makes false: its cure may change every order."""
 
 
-def imported(table: FoundTable, name: str, is_as_found: bool = False) -> Subject:
+def imported(table: FoundTable, name: str, is_as_found: bool = False) -> TableSubject:
     """The method of a table, with its file and findings.
 
     Args:
@@ -39,12 +39,12 @@ def imported(table: FoundTable, name: str, is_as_found: bool = False) -> Subject
     return replace(subject, method=loads(text, place_of(table)), text=text)
 
 
-def true_claims(found: Subject) -> Mapping[str, str]:
+def true_claims(found: TableSubject) -> Mapping[str, str]:
     """The claims of the true orders."""
     return {key: x.claim for key, x, _ in _orders(found) if x.order}
 
 
-def declared_claims(found: Subject) -> Mapping[str, str]:
+def declared_claims(found: TableSubject) -> Mapping[str, str]:
     """The claims of a table: the declared ones, and true ones if the source declares nothing.
 
     A declared order that is too low becomes a bound; one that the digits leave open is not claimed.
@@ -66,11 +66,11 @@ def declared_claims(found: Subject) -> Mapping[str, str]:
     return {**claims, **false}
 
 
-def _is_fsal(found: Subject) -> bool:
+def _is_fsal(found: TableSubject) -> bool:
     return first_same_as_last(found.tableau) == FirstSameAsLast()
 
 
-def _orders(found: Subject) -> list[tuple[str, Judged, int | None]]:
+def _orders(found: TableSubject) -> list[tuple[str, Judged, int | None]]:
     """The orders with the keys of their claims and the declared values."""
     table, embedded = found.table, found.embedded_order
     orders = [("order", found.order, table.order)]

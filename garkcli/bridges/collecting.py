@@ -16,7 +16,7 @@ from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import demand_grammars, find_tables, reader_named, readers_for
 from garkcli.bridges.recognising import Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME
-from garkcli.bridges.subject import Subject
+from garkcli.bridges.subject import TableSubject
 from garkcli.errors import MethodFileError, Remark
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
@@ -31,7 +31,7 @@ _SAID = {"unread", "sign"}
 _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
-class Result(Frozen, eq=False):
+class TableResult(Frozen, eq=False):
     """The result for one table.
 
     Attributes:
@@ -44,7 +44,7 @@ class Result(Frozen, eq=False):
 
     table: FoundTable
     stem: str = ""
-    method: Subject | None = None
+    method: TableSubject | None = None
     recognised: Recognised | None = None
     trouble: str = ""
 
@@ -84,7 +84,7 @@ def collected(
     is_recognising: bool = False,
     is_as_found: bool = False,
     left_out: Callable[[FoundTable], None] = no_one,
-) -> Iterator[Result]:
+) -> Iterator[TableResult]:
     """The tables of all sources, in order.
 
     Args:
@@ -127,29 +127,29 @@ def _tables(
     return list(with_declared(tables, text, orders))
 
 
-def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: bool) -> Result:
+def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: bool) -> TableResult:
     if table.kind:
-        return Result(table, trouble=f"a {table.kind} table is none of a Runge–Kutta method")
+        return TableResult(table, trouble=f"a {table.kind} table is none of a Runge–Kutta method")
     if table.trouble:
-        return Result(table, trouble=table.trouble)
+        return TableResult(table, trouble=table.trouble)
     try:
         if table.form is not None:
             from garkcli.bridges.exported import judged_export  # few sources have them
 
-            return Result(table, method=judged_export(table, name, is_as_found))
+            return TableResult(table, method=judged_export(table, name, is_as_found))
         if table.gamma is not None or table.is_multirate:
             from garkcli.bridges.rosenbrock import imported_row  # few sources have them
 
-            return Result(table, method=imported_row(table, name, is_as_found))
+            return TableResult(table, method=imported_row(table, name, is_as_found))
         method = imported(table, name, is_as_found)
     except MethodFileError as error:
-        return Result(table, trouble=error.faults[0].message)
+        return TableResult(table, trouble=error.faults[0].message)
     if table.order and is_unrecognised(method):
-        return Result(table, trouble=UNRECOGNISED)
+        return TableResult(table, trouble=UNRECOGNISED)
     if not is_recognising:
-        return Result(table, method=method)
+        return TableResult(table, method=method)
     recognition = recognised(method, name, is_as_found)
-    return Result(table, method=recognition.method, recognised=recognition)
+    return TableResult(table, method=recognition.method, recognised=recognition)
 
 
 def default_name(source: str) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from garkcli.bridges.subject import Subject, orders_of, read
+from garkcli.bridges.subject import TableSubject, orders_of, read
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.sources.found import FoundTable
 
 
-def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> Subject:
+def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> TableSubject:
     """A table and its method with their orders, up to ``limit``.
 
     For an estimate E the embedded weights are b − E or b + E: those with the declared order, else
@@ -19,7 +19,7 @@ def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None)
     Raises:
         MethodFileError: the numbers of the other sign give no method.
     """
-    minus = Subject(table, method, *orders_of(method, table, limit))
+    minus = TableSubject(table, method, *orders_of(method, table, limit))
     if table.turned is None or minus.embedded_order is None:
         return minus
     plus = _turned(minus, limit)
@@ -39,10 +39,10 @@ def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None)
     return replace(chosen, sign=sign, is_sign_open=not name)
 
 
-def _turned(minus: Subject, limit: int | None) -> Subject:
+def _turned(minus: TableSubject, limit: int | None) -> TableSubject:
     """The estimate with the other sign."""
     table = replace(minus.table, embedded=minus.table.turned, turned=None)
-    plus = Subject(table, read(table, minus.method.name), minus.order, minus.embedded_order)
+    plus = TableSubject(table, read(table, minus.method.name), minus.order, minus.embedded_order)
     embedded, declared = minus.embedded_order, table.embedded_order
     assert embedded is not None
     if 0 < embedded.order < minus.order.order and declared in (None, embedded.order):
@@ -50,21 +50,21 @@ def _turned(minus: Subject, limit: int | None) -> Subject:
     return replace(plus, embedded_order=orders_of(plus.method, table, limit)[1])
 
 
-def _fit(found: Subject) -> tuple[bool, int]:
+def _fit(found: TableSubject) -> tuple[bool, int]:
     """A key for the fit of an estimate: whether it has the declared order, and its order."""
     order = _number(found)
     return order == found.table.embedded_order, order
 
 
-def _number(found: Subject) -> int:
+def _number(found: TableSubject) -> int:
     return 0 if found.embedded_order is None else found.embedded_order.order
 
 
-def _order(found: Subject) -> str:
+def _order(found: TableSubject) -> str:
     return f"order {_number(found)}"
 
 
-def _published(found: Subject) -> str:
+def _published(found: TableSubject) -> str:
     """The name of the published pair of a method with its embedded weights; empty if there is
     none.
     """

@@ -13,7 +13,7 @@ from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Judged
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import SCHEMA, Kind
-from garkcli.bridges.subject import Subject
+from garkcli.bridges.subject import TableSubject
 from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 from garkcli.sources.found import FoundTable
@@ -149,7 +149,7 @@ def _tolerance(document: Mapping[str, Any]) -> Arrays:
     return {"tolerance": tolerances}
 
 
-def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> Subject:
+def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> TableSubject:
     """The method of such a document with its orders, file and findings.
 
     Raises:

@@ -18,14 +18,14 @@ from garkcli.bridges.elsewhere import declared_orders, with_declared
 from garkcli.bridges.misprints import Wanted, mistyped, places, written
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
-from garkcli.bridges.subject import Subject, read
+from garkcli.bridges.subject import TableSubject, read
 from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.files import is_stream, read_bytes
 from garkcli.frozen import Frozen
 from garkcli.methodfile.printed import SLACK
-from garkcli.order.blame import Missed, blame_of
+from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.sums import WrongSum, wrong_rows
 from garkcli.sources.found import MAX_CHARACTERS, FoundTable
 from garkcli.tableau.embedded import with_weights
@@ -216,7 +216,7 @@ def _orders(found: Audited) -> tuple[int, int]:
     return found.order.order, 0 if found.embedded_order is None else found.embedded_order.order
 
 
-def _wanted(subject: Subject) -> Iterator[Wanted]:
+def _wanted(subject: TableSubject) -> Iterator[Wanted]:
     """The numbers that may be wrong, with the values that would mend the table."""
     tableau, table, rounding = subject.tableau, subject.table, subject.rounded.tolerance
     allowed = (1 + sum(space.stages for space in tableau.spaces)) * rounding
@@ -275,7 +275,7 @@ def _entries(tableau: Tableau, row: WrongSum) -> Vector:
 
 
 def _blamed(
-    subject: Subject, tableau: Tableau, declared: int | None, is_embedded: bool
+    subject: TableSubject, tableau: Tableau, declared: int | None, is_embedded: bool
 ) -> tuple[list[tuple[Number, Number]], bool]:
     """Entries with the values that restore a declared order, and whether there is only one."""
     order = subject.embedded_order if is_embedded else subject.order
@@ -285,7 +285,7 @@ def _blamed(
     if order.order >= declared:
         return [], False
     rounded = subject.digits.of(tableau, slack=100 * SLACK)
-    missed = Missed(order.witness.tree.order, declared, is_embedded=is_embedded)
+    missed = MissedOrder(order.witness.tree.order, declared, is_embedded=is_embedded)
     blame = blame_of(rounded if rounded.tolerance else tableau, missed)
     repairs = () if blame is None else blame.repairs
     return [(x.old, x.new) for x in repairs], len(repairs) == 1 and declared >= SURE_ORDER

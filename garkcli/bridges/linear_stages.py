@@ -58,7 +58,7 @@ def printed_stages(payload: Payload) -> LinearStages:
     )
 
 
-class Program(Frozen):
+class StoredProgram(Frozen):
     """A method in stored form, with one γ for all stages.
 
     Attributes:
@@ -91,7 +91,7 @@ class Program(Frozen):
         return _lower(self.stored.C)
 
 
-def program_stages(payload: Payload) -> Program:
+def program_stages(payload: Payload) -> StoredProgram:
     """The stages of a Rosenbrock method in stored form.
 
     Raises:
@@ -113,7 +113,7 @@ def program_stages(payload: Payload) -> Program:
         i == 0 or (tuple(row[:i]), c[i]) != (tuple(form.A[i - 1][:i]), c[i - 1])
         for i, row in enumerate(form.A)
     ]
-    return Program(
+    return StoredProgram(
         form,
         form.gamma[0],
         c,

@@ -40,7 +40,7 @@ class Wanted(Frozen):
     is_estimate: bool | None = None
 
 
-class Place(Frozen):
+class NumberPlace(Frozen):
     """The place of a positive number in a text: one token, or two with a quotient between them."""
 
     line: int
@@ -63,16 +63,16 @@ class Place(Frozen):
         return _common(texts) > 1 or _common([*texts[:k], text, *texts[k + 1 :]]) == 1
 
 
-def places(line: str, number: int) -> Iterator[Place]:
+def places(line: str, number: int) -> Iterator[NumberPlace]:
     """The places of numbers in a line."""
     tokens = [x for x in _TOKEN.finditer(line) if len(x[0]) <= LONGEST]
-    yield from (Place(number, (x,)) for x in tokens)
+    yield from (NumberPlace(number, (x,)) for x in tokens)
     for over, under in pairwise(tokens):
         if _OVER.fullmatch(line[over.end() : under.start()]) and _value(under[0]):
-            yield Place(number, (over, under))
+            yield NumberPlace(number, (over, under))
 
 
-def mistyped(line: str, place: Place, wanted: Wanted) -> Iterator[str]:
+def mistyped(line: str, place: NumberPlace, wanted: Wanted) -> Iterator[str]:
     """The line with another sign, or another digit, of a number."""
     start, is_turned = place.tokens[0].start(), wanted.old * wanted.new < 0
     if is_turned:
@@ -114,7 +114,7 @@ def _slips(number: str) -> Iterator[str]:
             yield text
 
 
-def written(line: str, place: Place, wanted: Wanted) -> Iterator[str]:
+def written(line: str, place: NumberPlace, wanted: Wanted) -> Iterator[str]:
     """The line with another number, in the format of the old one."""
     p, q = abs(int(wanted.new.p)), int(wanted.new.q)
     first, last = place.tokens[0], place.tokens[-1]

@@ -8,7 +8,7 @@ from typing import Any
 
 from garkcli.bridges.claiming import imported
 from garkcli.bridges.importing import numbers_of
-from garkcli.bridges.subject import Subject
+from garkcli.bridges.subject import TableSubject
 from garkcli.design.search.proposing import FEWEST_DIGITS, Proposal, proposed, significant_digits
 from garkcli.errors import MethodFileError
 from garkcli.frozen import Frozen, replace
@@ -28,7 +28,7 @@ class Recognised(Frozen):
         left: decimals without a proposal.
     """
 
-    method: Subject
+    method: TableSubject
     taken: tuple[Proposal, ...]
     refused: tuple[Proposal, ...]
     left: tuple[str, ...]
@@ -41,7 +41,7 @@ class Recognised(Frozen):
         yield from (f"{text} stays a decimal" for text in self.left)
 
 
-def recognised(before: Subject, name: str, is_as_found: bool = False) -> Recognised:
+def recognised(before: TableSubject, name: str, is_as_found: bool = False) -> Recognised:
     """The method with as many exact numbers as the certificate of the order confirms.
 
     Args:
@@ -64,13 +64,13 @@ def recognised(before: Subject, name: str, is_as_found: bool = False) -> Recogni
     return Recognised(before, (), tuple(refused), left)
 
 
-def _orders(found: Subject) -> list[int]:
+def _orders(found: TableSubject) -> list[int]:
     return [x.order for x in (found.order, found.embedded_order) if x is not None]
 
 
 def _with(
     table: FoundTable, exact: Mapping[str, str], name: str, is_as_found: bool
-) -> Subject | None:
+) -> TableSubject | None:
     """The method with other texts, without the rounding given in the source."""
 
     def changed(value: Any) -> Any:

@@ -13,7 +13,7 @@ from flint import fmpq
 from garkcli.bridges.finding import EXPLAINED
 from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
-from garkcli.bridges.subject import Subject, read
+from garkcli.bridges.subject import TableSubject, read
 from garkcli.check.findings import witness_text
 from garkcli.constructions.rosenbrock import seen
 from garkcli.errors import Remark
@@ -59,7 +59,7 @@ class _Within(Digits):
         return found
 
 
-class RowSubject(Subject):
+class RowSubject(TableSubject):
     """A Rosenbrock or a multirate infinitesimal method with its orders.
 
     Attributes:

@@ -33,7 +33,7 @@ HIGH = 10
 """The highest order tried: a wrong digit shows at a lower one."""
 
 
-class Subject(Frozen, eq=False):
+class TableSubject(Frozen, eq=False):
     """A table with its method.
 
     Attributes:

@@ -54,13 +54,13 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
             continue
         if actual.is_lower_bound or _is_explained(method, remark, claimed):
             return None
-        from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
+        from garkcli.order.blame import MissedOrder, blame_of  # paid for by failures alone
 
         first = None
         for judged, order in _ways(method, tableau, actual, key, remark):
             if order.witness is None or order.order >= claimed:
                 continue
-            missed = Missed(order.order + 1, claimed, key, key == "embedded-order")
+            missed = MissedOrder(order.order + 1, claimed, key, key == "embedded-order")
             answer = blame_of(judged, missed)
             first = first or answer
             if answer is not None and answer.repairs:
@@ -102,9 +102,9 @@ def _unclaimed(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
     for key, tableau, actual in _orders(method, analysis):
         if key in claimed or key not in UNASKED or (is_made and key == "embedded-order"):
             continue
-        from garkcli.order.blame import Missed, slip_of  # CI makes claims
+        from garkcli.order.blame import MissedOrder, slip_of  # CI makes claims
 
-        missed = Missed(0, 0, key, is_embedded=key == "embedded-order")
+        missed = MissedOrder(0, 0, key, is_embedded=key == "embedded-order")
         for judged, order in _ways(method, tableau, actual, key, remark):
             if slip := slip_of(judged, missed, order):
                 return slip

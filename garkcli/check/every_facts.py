@@ -36,7 +36,7 @@ MOST_ASKED = 60
 """The number of times that a question is asked where polynomials are zero."""
 
 
-class Fact(Frozen):
+class FamilyFact(Frozen):
     """An answer for a family.
 
     Attributes:
@@ -71,7 +71,7 @@ class Fact(Frozen):
         is_one = self.where is None and not self.is_undecided
         return is_one and not others
 
-    def of(self, part: Callable[[Any], Any]) -> Fact:
+    def of(self, part: Callable[[Any], Any]) -> FamilyFact:
         """Returns the fact with ``part`` of each answer."""
 
         def of(whole: Any) -> Any:
@@ -110,7 +110,7 @@ def answer(ask: Question, tableau: Tableau) -> Any:
 
 def find(
     family: EveryFamily, ask: Question, is_of_stages: bool = False, budget: Budget | None = None
-) -> Fact:
+) -> FamilyFact:
     """Returns the answer to a question that only compares coefficients.
 
     ``is_of_stages`` says that the question compares entries stage by stage; ``budget`` limits how
@@ -135,7 +135,7 @@ def find(
     ]
     _, sample = next(family.samples(critical), (None, None))
     if value is UNDECIDED or (sample is not None and answer(ask, sample) != value):
-        return Fact(None, is_undecided=True, why=NOT_DECIDED)
+        return FamilyFact(None, is_undecided=True, why=NOT_DECIDED)
     if family.has_one:
         # the values at which a polynomial is zero, one by one
         special, unknown = [], []
@@ -148,7 +148,7 @@ def find(
                 unknown.append(root)
             elif there != value:
                 special.append((root, there))
-        return Fact(value, tuple(special), unknown=tuple(unknown))
+        return FamilyFact(value, tuple(special), unknown=tuple(unknown))
     elsewhere, open_ = [], []
     for p in critical:
         # where it is zero, if that gives a parameter its value
@@ -158,7 +158,7 @@ def find(
             open_.append(family.ring.text(p))
         elif fact.value != value:
             elsewhere.append((family.ring.text(p), fact.value))
-    return Fact(value, open=tuple(open_), elsewhere=tuple(elsewhere))
+    return FamilyFact(value, open=tuple(open_), elsewhere=tuple(elsewhere))
 
 
 def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
@@ -186,7 +186,7 @@ def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq
 NOT_DECIDED = "gark check --set judges single methods"
 
 
-def by_samples(family: EveryFamily, ask: Question) -> Fact:
+def by_samples(family: EveryFamily, ask: Question) -> FamilyFact:
     """Returns a fact that differs if two samples do, and is undecided otherwise."""
     first: tuple[Reason, Any] | None = None
     for values, method in family.samples():
@@ -200,8 +200,8 @@ def by_samples(family: EveryFamily, ask: Question) -> Fact:
             first = at, sample
         elif sample != first[1]:
             why = Reason("{} at {}, {} at {}", told(first[1]), first[0], told(sample), at)
-            return Fact(None, is_undecided=True, differs=True, why=why)
-    return Fact(None, is_undecided=True, why=NOT_DECIDED)
+            return FamilyFact(None, is_undecided=True, differs=True, why=why)
+    return FamilyFact(None, is_undecided=True, why=NOT_DECIDED)
 
 
 def told(value: object) -> Worded:
@@ -219,7 +219,7 @@ MOST = 4
 """The number of exceptional values and polynomials that are listed; the rest is counted."""
 
 
-def fact_reason(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
+def fact_reason(fact: FamilyFact, name: str, text: Callable[[object], Worded] = told) -> Reason:
     """Returns an answer with its exceptions.
 
     ``name`` is that of the parameter if there is only one.
@@ -236,7 +236,7 @@ def fact_reason(fact: Fact, name: str, text: Callable[[object], Worded] = told) 
     )
 
 
-def exceptions(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
+def exceptions(fact: FamilyFact, name: str, text: Callable[[object], Worded] = told) -> Reason:
     """Returns the exceptional values and their answers, each after a semicolon."""
     groups: dict[str, tuple[object, list[RealRoot]]] = {}
     for root, value in fact.special:
@@ -268,7 +268,7 @@ def _text(value: object, text: Callable[[object], Worded]) -> Worded:
     return "none" if value is None and text is not told else text(value)
 
 
-def _unknown(fact: Fact, name: str) -> Reason:
+def _unknown(fact: FamilyFact, name: str) -> Reason:
     if not fact.unknown:
         return NO_REASON
     return Reason("; not decided where {}", values_reason(fact.unknown, name))

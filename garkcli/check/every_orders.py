@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.check.every_facts import Fact
+from garkcli.check.every_facts import FamilyFact
 from garkcli.check.every_family import EveryFamily
 from garkcli.deadline import within
 from garkcli.design.conditions import FamilyConditions
@@ -40,7 +40,7 @@ class EveryOrder(Frozen):
     """
 
     tableau: Tableau
-    fact: Fact
+    fact: FamilyFact
     witness: Witness | None
     dimension: int | None
     poles: tuple[str, ...]
@@ -78,11 +78,11 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
         tree = missed[0].tree
         witness = Witness(tree, elementary_weight(tableau, tree), fmpq(1, tree.density))
         return EveryOrder(tableau, fact, witness, dimension, poles)
-    fact = _without(family, Fact(limit), lost)
+    fact = _without(family, FamilyFact(limit), lost)
     return EveryOrder(tableau, fact, None, None, poles)
 
 
-def _without(family: EveryFamily, fact: Fact, lost: Sequence[fmpq_mpoly]) -> Fact:
+def _without(family: EveryFamily, fact: FamilyFact, lost: Sequence[fmpq_mpoly]) -> FamilyFact:
     """Returns the order, with None at the zeros of some polynomials, where there is no such
     method.
     """
@@ -101,21 +101,21 @@ def _place(special: tuple[RealRoot, object]) -> RealRoot:
 
 def _higher(
     family: EveryFamily, whose: Whose, order: int, start: Ideal, zeros: list[fmpq_mpoly]
-) -> tuple[Fact, int | None]:
+) -> tuple[FamilyFact, int | None]:
     """Returns the order with the exceptional values, and the dimension of their set."""
     try:
         with within(SECONDS):
             ideal = start.with_zeros(zeros)
             dimension = ideal.dimension
             if dimension < 0:
-                return Fact(order), dimension
+                return FamilyFact(order), dimension
             if dimension == 0:
                 real_values = _real(family, whose, ideal)
                 if family.has_one or not real_values:
-                    return Fact(order, tuple(real_values)), dimension
-            return Fact(order, zeros=family.common_zeros(ideal.polynomials)), dimension
+                    return FamilyFact(order, tuple(real_values)), dimension
+            return FamilyFact(order, zeros=family.common_zeros(ideal.polynomials)), dimension
     except NotDecided:
-        return Fact(order, zeros=family.common_zeros(zeros)), None
+        return FamilyFact(order, zeros=family.common_zeros(zeros)), None
 
 
 def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoot, int | None]]:

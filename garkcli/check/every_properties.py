@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from itertools import chain, pairwise
 from typing import Any
 
-from garkcli.check.every_facts import UNDECIDED, Fact, Question, answer, by_samples, find
+from garkcli.check.every_facts import UNDECIDED, FamilyFact, Question, answer, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.design.stable_values import Wanted, stable_values
 from garkcli.errors import GarkError
@@ -60,7 +60,7 @@ class OrMore(int):
         return f"at least {int(self)}"
 
 
-def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
+def find_property(family: EveryFamily, key: str, limit: int) -> FamilyFact:
     def ask(tableau: Tableau) -> Any:
         # the order is requested with rounded coefficients only, B and C for one property
         known = simplifying(tableau, limit, "BC") if key == "stage-order" else _NOTHING
@@ -78,11 +78,11 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
         try:
             values = stable_values(family.family, STABLE[key])
         except GarkError:
-            return Fact(None)
+            return FamilyFact(None)
         return _of_set(family, values.found, values.undecided)
     if family.has_one and key in SIGNS:
         if key == "algebraically-stable" and not _is_complete(family.tableau):
-            return Fact(None)
+            return FamilyFact(None)
         return _by_signs(family, ask, SIGNS[key](family.tableau))
     if key in ROWS and not any(isinstance(x, Parametric) for x in ROWS[key](family.tableau)):
         return find(family, ask)  # nothing with a parameter is asked
@@ -96,13 +96,13 @@ def _is_complete(tableau: Tableau) -> bool:
 
 def _of_set(
     family: EveryFamily, values: tuple[Interval, ...], unknown: tuple[RealRoot, ...] = ()
-) -> Fact:
+) -> FamilyFact:
     """Returns the fact for a set of values: all admitted ones, none, or the set."""
     if not values:
-        return Fact(False, unknown=unknown)
+        return FamilyFact(False, unknown=unknown)
     if _is_all(family, values):
-        return Fact(True, unknown=unknown)
-    return Fact(None, unknown=unknown, where=values)
+        return FamilyFact(True, unknown=unknown)
+    return FamilyFact(None, unknown=unknown, where=values)
 
 
 def _is_all(family: EveryFamily, values: tuple[Interval, ...]) -> bool:
@@ -120,7 +120,7 @@ def _is_all(family: EveryFamily, values: tuple[Interval, ...]) -> bool:
     return has_start and has_end and is_whole and are_joined
 
 
-def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact:
+def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> FamilyFact:
     """Returns the fact for a question that depends on signs of rational functions of the
     parameter.
     """

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from garkcli.check.claims import Claim, agrees, capped, claim_of, claimed_text
-from garkcli.check.every_facts import Fact, fact_reason, find
+from garkcli.check.every_facts import FamilyFact, fact_reason, find
 from garkcli.check.every_family import EveryFamily, every_family
 from garkcli.check.every_orders import EveryOrder, every_order
 from garkcli.check.every_properties import find_property
@@ -53,10 +53,10 @@ class EveryValue(Frozen):
     conjugate_order: EveryOrder | None
     pair_order: EveryOrder | None
     obstacle: Reason
-    inconsistent: Fact
-    symplectic: Fact
+    inconsistent: FamilyFact
+    symplectic: FamilyFact
     embedded_order: EveryOrder | None = None
-    _known: dict[str, Fact] = field(default_factory=dict)
+    _known: dict[str, FamilyFact] = field(default_factory=dict)
 
     def __reduce__(self) -> tuple[object, ...]:
         # polynomials of python-flint do not go between processes; files do
@@ -104,14 +104,14 @@ class EveryValue(Frozen):
         whole = as_colours(self.file.tableau, self.file.further)
         return every_family(replace(self.file, tableau=whole))
 
-    def verdict(self, key: str) -> Fact:
+    def verdict(self, key: str) -> FamilyFact:
         """Returns the fact about a property, decided once."""
         if key not in self._known:
             family = self._with_further if key == "reducible" else self.family
             self._known[key] = find_property(family, key, self.limit)
         return self._known[key]
 
-    def simplifying(self, key: str) -> Fact:
+    def simplifying(self, key: str) -> FamilyFact:
         """Returns B, C, D or a bound from them; with the prefix ``pair-`` that of the pair.
 
         B is decided by itself, as it does not involve blocks.
@@ -171,7 +171,7 @@ def _again(text: str, source: str, settings: dict[str, str], limit: int) -> Ever
     return every_value(loads_family(text, source, settings, is_design=False), limit)
 
 
-def _symplectic(family: EveryFamily) -> Fact:
+def _symplectic(family: EveryFamily) -> FamilyFact:
     """Returns whether all values give a symplectic method, or the common zeros that do."""
     fact = find(family, is_symplectic)
     if fact.value is not False or not fact.open:
@@ -179,12 +179,12 @@ def _symplectic(family: EveryFamily) -> Fact:
     # what is zero where a method is symplectic
     numbers: list[object] = [*symplectic_defects(family.tableau)]
     if any(x and not isinstance(x, Parametric) for x in numbers):
-        return Fact(False)
+        return FamilyFact(False)
     zeros = [x.numerator for x in numbers if isinstance(x, Parametric)]
     ideal = Ideal(family.ring, family.poles).with_zeros([*family.relations, *zeros])
     if ideal.is_everything:
-        return Fact(False)
-    return Fact(False, zeros=family.common_zeros(ideal.polynomials))
+        return FamilyFact(False)
+    return FamilyFact(False, zeros=family.common_zeros(ideal.polynomials))
 
 
 def verify_every(claims: Sequence[ClaimText], facts: EveryValue) -> tuple[Claim, ...]:
@@ -197,16 +197,16 @@ def _held_against(claim: ClaimText, facts: EveryValue) -> Claim:
     return claim_of(claim, text, _holds(claim, fact, facts.limit))
 
 
-def _fact(key: str, facts: EveryValue) -> Fact:
+def _fact(key: str, facts: EveryValue) -> FamilyFact:
     if key in KEYS:
         return facts.verdict(key)
     if key in ("B", "C", "D") or key.endswith("bound"):
         return facts.simplifying(key)
-    value: EveryOrder | Fact | None = getattr(facts, key.replace("-", "_"))
-    return value.fact if isinstance(value, EveryOrder) else value or Fact(None)
+    value: EveryOrder | FamilyFact | None = getattr(facts, key.replace("-", "_"))
+    return value.fact if isinstance(value, EveryOrder) else value or FamilyFact(None)
 
 
-def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool | None:
+def _holds(claim: ClaimText, fact: FamilyFact, limit: int) -> bool | None:
     """Returns whether a claim is true for all values; None if undecided."""
     wanted = claim.value
     if fact.is_undecided and not fact.differs:

@@ -11,17 +11,8 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, cast
 import click
 
 from garkcli.cli import arguments
-from garkcli.cli.options import (
-    CATALOGUE,
-    METHOD,
-    REPORTED,
-    Bundle,
-    Kind,
-    Option,
-    Options,
-    declared_by,
-    rules_of,
-)
+from garkcli.cli import options as opt
+from garkcli.cli.options import CATALOGUE, METHOD, REPORTED, Bundle, Options, declared_by, rules_of
 from garkcli.cli.output import Output
 from garkcli.cli.streams import put_help
 from garkcli.cli.table import COMMANDS
@@ -56,23 +47,23 @@ class Declared(Frozen, Generic[Given]):
     name: str
     options: type[Given]
     formats: Sequence[str]
-    output: Mapping[str, Option]
+    output: Mapping[str, opt.Option]
     has_catalogue: bool
     body: Callable[[Given, Output], int | None]
 
     @property
-    def methods(self) -> list[Option]:
+    def methods(self) -> list[opt.Option]:
         """The arguments that stand for methods."""
         return [x for x in self._own if x.is_argument and x.kind.settings.get("type") is _METHODS]
 
     @property
-    def all_options(self) -> list[Option]:
+    def all_options(self) -> list[opt.Option]:
         """All options and arguments, former ones too, without those of a bundle."""
         catalogue = [_CATALOGUE] if self.has_catalogue or self.methods else []
         return [*self._own, *catalogue, *self.output.values()]
 
     @property
-    def _own(self) -> list[Option]:
+    def _own(self) -> list[opt.Option]:
         found = declared_by(self.options).values()
         return [x for each in found if isinstance(each, tuple) for x in each]
 
@@ -107,7 +98,7 @@ class Declared(Frozen, Generic[Given]):
             yield _parameter(_CATALOGUE, "catalogue", METHOD_HEADING)
         for name, each in self.output.items():
             if name == "format":
-                kind: Kind[str] = Kind(
+                kind: opt.Kind[str] = opt.Kind(
                     {"type": click.Choice(self.formats), "default": self.formats[0]}
                 )
                 each = replace(each, kind=kind, is_former=len(self.formats) == 1)
@@ -139,7 +130,7 @@ class Declared(Frozen, Generic[Given]):
             if isinstance(declared, tuple):
                 values += [(x, getattr(given, name)) for x in declared]
 
-        def value_of(option: Option) -> object:
+        def value_of(option: opt.Option) -> object:
             return next(value for x, value in values if x is option)
 
         for rule in rules_of(self.options):
@@ -160,7 +151,7 @@ class Declared(Frozen, Generic[Given]):
 
 
 _METHODS = METHOD.settings["type"]
-_CATALOGUE = cast("Option", CATALOGUE)
+_CATALOGUE = cast("opt.Option", CATALOGUE)
 OUTPUT_HEADING, METHOD_HEADING = "Output", "Method"
 
 
@@ -240,7 +231,7 @@ class GroupedOption(click.Option):
         return None if default in (inspect.Parameter.empty, "") else default
 
 
-def _parameter(option: Option, name: str, heading: str) -> click.Parameter:
+def _parameter(option: opt.Option, name: str, heading: str) -> click.Parameter:
     settings = {**option.kind.settings}
     if option.kind.choices:
         settings["type"] = click.Choice([*arguments.named(option.kind.choices)])
@@ -314,7 +305,7 @@ def declared(
     """
 
     def declare(body: Body[Given]) -> Body[Given]:
-        told = cast("Mapping[str, Option]", output)
+        told = cast("Mapping[str, opt.Option]", output)
         _DECLARED[name] = Declared(name, options, formats, told, has_catalogue, body)
         return body
 

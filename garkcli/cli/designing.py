@@ -33,15 +33,15 @@ if TYPE_CHECKING:
     from garkcli.design.design import Design
     from garkcli.design.member import Whose
     from garkcli.design.minimise.result import Minimum
-    from garkcli.design.search.curve import Curve
-    from garkcli.design.search.run import Result, Task, Timed
+    from garkcli.design.search.curve import OptimaCurve
+    from garkcli.design.search.run import SearchResult, SearchTask, Timed
     from garkcli.design.stable_values import StableValues, Wanted
     from garkcli.design.within import DesignWithin
     from garkcli.methodfile.family import FamilyFile
     from garkcli.methodfile.search_file import FileSearch
-    from garkcli.tableau.family import Stability
+    from garkcli.tableau.family import RequiredStability
 
-AnyResult = TypeVar("AnyResult", "Result", "Curve")
+AnyResult = TypeVar("AnyResult", "SearchResult", "OptimaCurve")
 _STANDARD_INPUT = {STDIN, "<stdin>"}
 _PLOT = "--plot draws the A-stable values of two parameters"
 PROOFS = ("exact", "exists", "numerical")
@@ -332,22 +332,22 @@ def _half(given: DesignOptions) -> Iterator[None]:
             yield
 
 
-def _asked(family: FamilyFile, given: DesignOptions) -> Stability | None:
+def _asked(family: FamilyFile, given: DesignOptions) -> RequiredStability | None:
     """Returns the stability that an option requests, if any.
 
     Raises UsageProblem for an unknown colour.
     """
-    from garkcli.tableau.family import Stability
+    from garkcli.tableau.family import RequiredStability
 
     if given.stability is None:
         return None
     if given.colour is None:
-        return Stability(given.stability)
+        return RequiredStability(given.stability)
     size = family.on_linear_problems.tableau.size
     if given.colour > size:
         message = f"--colour: no colour {given.colour}"
         raise UsageProblem(message, f"the method has {counted(size, 'colour')}", code="wrong-value")
-    return Stability(given.stability, given.colour - 1)
+    return RequiredStability(given.stability, given.colour - 1)
 
 
 def _refuse_unsettled(family: FamilyFile) -> None:
@@ -371,7 +371,7 @@ def make_folder(path: str) -> None:
         raise UsageProblem(message, "choose another place", code="cannot-write") from None
 
 
-def _refuse_other_wishes(family: FamilyFile, asked: Stability, is_of_springs: bool) -> None:
+def _refuse_other_wishes(family: FamilyFile, asked: RequiredStability, is_of_springs: bool) -> None:
     """Raises UsageProblem for demands of the file that a set of stable values ignores."""
     wishes = [str(x) for x in family.stable if is_of_springs or x != asked]
     if family.order is not None:
@@ -387,7 +387,7 @@ def _refuse_other_wishes(family: FamilyFile, asked: Stability, is_of_springs: bo
     raise UsageProblem(message, cure, code="options-clash")
 
 
-def _as_stable(family: FamilyFile, asked: Stability | None) -> FamilyFile:
+def _as_stable(family: FamilyFile, asked: RequiredStability | None) -> FamilyFile:
     """Returns a family with a further demand for stability, if any."""
     if asked is None or asked in family.stable:
         return family
@@ -573,16 +573,16 @@ def _search(family: FamilyFile, starts: int, given: DesignOptions, output: Outpu
 
 def _curve(family: FamilyFile, starts: int, given: DesignOptions, output: Output) -> int:
     """Optima along a curve: report them, draw them, and return the exit code."""
-    from garkcli.design.search.curve import Curve, along, front
+    from garkcli.design.search.curve import OptimaCurve, along, front
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.report.design_curve import REPORT, CurveReport
 
     order = _order(family, given)
     first, second = given.front or (given.minimise or "", "")
     asked = FileSearch.of(family, order, given.whose, first)
-    curve = Curve(first, second, given.front is not None, order, given.seed or 0)
+    curve = OptimaCurve(first, second, given.front is not None, order, given.seed or 0)
 
-    def steps(workers: Workers[Task, Timed]) -> Iterator[Curve]:
+    def steps(workers: Workers[SearchTask, Timed]) -> Iterator[OptimaCurve]:
         rest = starts, given.seed or 0, workers
         if given.along is not None:
             return along(asked.search, given.along, *rest)
@@ -590,7 +590,7 @@ def _curve(family: FamilyFile, starts: int, given: DesignOptions, output: Output
 
     with doing("starts", starts) as work:
 
-        def show(found: Curve) -> None:
+        def show(found: OptimaCurve) -> None:
             work.what = f"{len(found.knots)} points, starts"
             work.reach(found.starts)
 
@@ -615,25 +615,27 @@ def _order(family: FamilyFile, given: DesignOptions) -> int:
     return order
 
 
-def _searched(asked: FileSearch, starts: int, given: DesignOptions) -> tuple[Result, int | None]:
+def _searched(
+    asked: FileSearch, starts: int, given: DesignOptions
+) -> tuple[SearchResult, int | None]:
     """Returns the result, and the exit code if an interrupt or a lost worker ended the search. If
     the time did, the exit code is that of the result.
     """
-    from garkcli.design.search.run import MOST, Result, results
+    from garkcli.design.search.run import MOST, SearchResult, results
 
     most = given.most or (MOST if given.minimise is None else 1)
     first = None if given.start is None else _first(asked, given.start)
 
-    def steps(workers: Workers[Task, Timed]) -> Iterator[Result]:
+    def steps(workers: Workers[SearchTask, Timed]) -> Iterator[SearchResult]:
         return results(asked.search, starts, given.seed or 0, most, workers, first)
 
     with doing("starts", starts) as work:
 
-        def show(found: Result) -> None:
+        def show(found: SearchResult) -> None:
             work.what = f"{len(found.methods)} methods found, starts"
             work.reach(found.starts)
 
-        return _worked(asked, given, steps, Result(), show)
+        return _worked(asked, given, steps, SearchResult(), show)
 
 
 def _first(asked: FileSearch, name: str) -> list[float]:
@@ -648,7 +650,7 @@ def _first(asked: FileSearch, name: str) -> list[float]:
 def _worked(
     asked: FileSearch,
     given: DesignOptions,
-    steps: Callable[[Workers[Task, Timed]], Iterator[AnyResult]],
+    steps: Callable[[Workers[SearchTask, Timed]], Iterator[AnyResult]],
     found: AnyResult,
     show: Callable[[AnyResult], None],
 ) -> tuple[AnyResult, int | None]:
@@ -675,7 +677,7 @@ def _worked(
     return found, None
 
 
-def _lost(_task: Task, why: str) -> Timed:
+def _lost(_task: SearchTask, why: str) -> Timed:
     """Raises WorkerLost for a part of a search that ended its process; the results of the others
     are kept.
     """
@@ -684,7 +686,7 @@ def _lost(_task: Task, why: str) -> Timed:
 
 
 def _written(
-    family: FamilyFile, result: Result, given: DesignOptions, output: Output
+    family: FamilyFile, result: SearchResult, given: DesignOptions, output: Output
 ) -> Sequence[str | None]:
     """Writes the requested files, of a single one the method with the strongest proof; returns the
     file of each method.

@@ -17,7 +17,7 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.bridges.audit import Audited
-    from garkcli.bridges.collecting import Result
+    from garkcli.bridges.collecting import TableResult
     from garkcli.bridges.registry import Bridge
     from garkcli.sources.found import FoundTable
 
@@ -243,19 +243,19 @@ def import_(given: Import, output: Output) -> int:
     return 1
 
 
-def _tell_signs(results: Sequence[Result], output: Output) -> None:
+def _tell_signs(results: Sequence[TableResult], output: Output) -> None:
     """Notes how error estimates of unknown sign are read, as a report does."""
     for result in results:
         if result.method is not None and result.method.sign:
             output.note(f"{_place(result)}: {result.method.sign}")
 
 
-def _place(result: Result) -> str:
+def _place(result: TableResult) -> str:
     table = result.table
     return f"{printable(table.source)}:{table.line} {printable(table.name)}".rstrip()
 
 
-def _tell_wrong(results: Sequence[Result]) -> None:
+def _tell_wrong(results: Sequence[TableResult]) -> None:
     """Reports each wrong table and its cure, if the output consists of method files alone."""
     for result in results:
         for finding in result.errors:
@@ -264,7 +264,7 @@ def _tell_wrong(results: Sequence[Result]) -> None:
                 say(f"help: {finding.help}")
 
 
-def _refuse_several(results: Sequence[Result], place: str, option: str) -> None:
+def _refuse_several(results: Sequence[TableResult], place: str, option: str) -> None:
     """Raises UsageProblem for several methods in one method file.
 
     ``place`` is the option and the file, ``option`` the one that names a folder.
@@ -278,7 +278,7 @@ def _refuse_several(results: Sequence[Result], place: str, option: str) -> None:
         raise UsageProblem(message, cure, code="wrong-ending")
 
 
-def _tell_unread(unread: Sequence[Result], output: Output) -> None:
+def _tell_unread(unread: Sequence[TableResult], output: Output) -> None:
     """Notes sources that were not read, and the number of other tables, with -v their names."""
     for result in unread:
         if result.table.is_source:
@@ -303,7 +303,10 @@ def _other(table: FoundTable) -> tuple[str, str]:
 
 
 def _nothing(
-    sources: Sequence[str], files: int, results: Sequence[Result], left_out: Sequence[FoundTable]
+    sources: Sequence[str],
+    files: int,
+    results: Sequence[TableResult],
+    left_out: Sequence[FoundTable],
 ) -> UsageProblem:
     """Returns the error if there is nothing to write."""
     from garkcli.bridges.readers.registry import all_readers
@@ -329,7 +332,7 @@ def _no_table(sources: Sequence[str], files: int) -> str:
     return f"no table found in {', '.join(sources[:3])} ({counted(files, 'file')})"
 
 
-def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
+def _written(results: Sequence[TableResult], folder: str) -> Mapping[int, str]:
     """Writes the method files; returns their names by the numbers of the results."""
     from garkcli.page.writing import write_whole
 
@@ -341,7 +344,7 @@ def _written(results: Sequence[Result], folder: str) -> Mapping[int, str]:
     return files
 
 
-class Audit(opt.Options):
+class AuditOptions(opt.Options):
     """The options of ``gark audit``."""
 
     paths: tuple[str, ...] = opt.arguments_of("PATH...", opt.INPUT)
@@ -362,8 +365,8 @@ class Audit(opt.Options):
     )
 
 
-@declared("audit", Audit, ("auto", *FORMATS, "github", "sarif"))
-def audit(given: Audit, output: Output) -> int:
+@declared("audit", AuditOptions, ("auto", *FORMATS, "github", "sarif"))
+def audit(given: AuditOptions, output: Output) -> int:
     """The tables in a solver's source tree compared with their declared orders.
 
     PATH is a folder (all files in it of the formats that gark import reads), a file, or - for

@@ -62,7 +62,7 @@ RULES = (
 """The rules about symplectic methods."""
 
 
-class Trees(opt.Options):
+class TreesOptions(opt.Options):
     """The options of ``gark trees``."""
 
     order_asked: int | None = opt.maybe_argument("ORDER", opt.number("n", 1, 10_000))
@@ -108,8 +108,8 @@ class Trees(opt.Options):
     )
 
 
-@declared("trees", Trees, ["text", "json", "ndjson", "csv", "markdown", "latex"])
-def trees(given: Trees, output: Output) -> None:
+@declared("trees", TreesOptions, ["text", "json", "ndjson", "csv", "markdown", "latex"])
+def trees(given: TreesOptions, output: Output) -> None:
     """The N-trees of an order, by root colour, with order, symmetry and density.
 
     [[]_2]_1 is a root of colour 1 with a leaf of colour 2. With --symplectic one row stands for all
@@ -218,7 +218,7 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
     raise UsageProblem(message, "--yes lists them, --count counts them", code="option-value")
 
 
-def _free_trees(given: Trees, order: int | None, output: Output) -> None:
+def _free_trees(given: TreesOptions, order: int | None, output: Output) -> None:
     """Writes a row for each class of equivalent conditions of symplectic methods."""
     from garkcli.report import trees as report
 
@@ -238,7 +238,7 @@ def _free_trees(given: Trees, order: int | None, output: Output) -> None:
         output.stream(report.FREE_TREES, found, given.document)
 
 
-def _single(text: str, given: Trees, output: Output) -> None:
+def _single(text: str, given: TreesOptions, output: Output) -> None:
     from garkcli.ntrees.notation import NotationError, format_tree, parse_tree
     from garkcli.report import trees as report
 
@@ -284,7 +284,7 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
     return tuple(sorted(used))
 
 
-class Conditions(opt.Derivable):
+class ConditionsOptions(opt.Derivable):
     """The options of ``gark conditions``."""
 
     file: str | None = opt.maybe_argument("FILE", opt.METHOD)
@@ -344,8 +344,8 @@ class Conditions(opt.Derivable):
     )
 
 
-@declared("conditions", Conditions, ["text", "json", "csv", "markdown", "latex"])
-def conditions(given: Conditions, output: Output) -> None:
+@declared("conditions", ConditionsOptions, ["text", "json", "csv", "markdown", "latex"])
+def conditions(given: ConditionsOptions, output: Output) -> None:
     """The order-condition table.
 
     Without FILE the conditions for every method: a row for each tree shape and all colours (text
@@ -391,7 +391,7 @@ def conditions(given: Conditions, output: Output) -> None:
     output.stream(REPORT, found, given.document)
 
 
-def _valued(file: str, given: Conditions) -> Valued:
+def _valued(file: str, given: ConditionsOptions) -> Valued:
     """Returns the method whose values are reported; for free parameters they are rational
     functions.
     """
@@ -412,7 +412,7 @@ def _valued(file: str, given: Conditions) -> Valued:
     return Valued(derived(known_as, which), given.failing, parameters, which)
 
 
-def _subject(given: Conditions, orders: range, valued: Valued | None) -> SymplecticSubject:
+def _subject(given: ConditionsOptions, orders: range, valued: Valued | None) -> SymplecticSubject:
     """Returns what the conditions are independent for: a kind of methods, or the method of a
     file.
     """

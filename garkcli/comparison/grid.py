@@ -14,7 +14,7 @@ from garkcli.conversion.sheet import CannotConvert, Sheet, each_its_own, in_one_
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import Kind
+from garkcli.ntrees.kind import VertexKind
 from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.garkmethod import GarkMethod
@@ -38,7 +38,7 @@ class Grid(Frozen):
     c: CellRows
     embedded: CellRows | None
     powers: tuple[CellRows, ...]
-    kinds: tuple[Kind, ...]
+    kinds: tuple[VertexKind, ...]
 
     @property
     def size(self) -> int:

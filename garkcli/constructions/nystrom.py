@@ -22,14 +22,14 @@ from garkcli.errors import MethodError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import ARGUMENT, LEAF, Kind
+from garkcli.ntrees.kind import ARGUMENT, LEAF, VertexKind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
 from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.forms import with_linear
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
-TWICE = Kind(weight=2, is_field=False)
+TWICE = VertexKind(weight=2, is_field=False)
 """A force that is integrated twice."""
 KINDS = (TWICE, ARGUMENT, LEAF)
 NAMES = ("q", "q'", "q'0")

@@ -37,7 +37,15 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import ERROR_OF_MATRIX, MATRIX, NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.kind import (
+    ERROR_OF_MATRIX,
+    MATRIX,
+    NOT_ONE,
+    ONE_BRANCH,
+    PLAIN,
+    SEVERAL,
+    VertexKind,
+)
 from garkcli.order.meant import AnyTableau
 from garkcli.properties.registry import OF_TEST_EQUATION
 from garkcli.reason import Reason
@@ -48,7 +56,7 @@ from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
 
 Blocks: TypeAlias = tuple[tuple[Matrix, ...], ...]
 Rows: TypeAlias = tuple[Vector, ...]
-CONSTRAINT = Kind(frozenset({SEVERAL}), weight=0)
+CONSTRAINT = VertexKind(frozenset({SEVERAL}), weight=0)
 """The kind of g in 0 = g(y, z), which is solved for z."""
 
 
@@ -212,7 +220,7 @@ class Rosenbrock(Frozen):
         """β = α + γ."""
         return tuple(tuple(map(add, *rows)) for rows in zip(self.alpha, self.gamma, strict=True))
 
-    def _tableau(self, *kinds: tuple[str, Kind, Blocks]) -> Tableau:
+    def _tableau(self, *kinds: tuple[str, VertexKind, Blocks]) -> Tableau:
         """Returns the tableau whose colours of each kind see all others through blocks of their
         own.
 

@@ -12,7 +12,7 @@ from garkcli.constructions import nystrom
 from garkcli.constructions.infinitesimal import slow_part
 from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.constructions.rosenbrock import DAE_VIEWS, VIEWS, Rosenbrock, is_rosenbrock, seen
-from garkcli.design.want import Asked, Meaning, Want
+from garkcli.design.want import Asked, Want, WantConditions
 from garkcli.design.wants import WANTS, as_embedded, order_meaning
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, Number
@@ -32,7 +32,7 @@ _SUMMARIES = {
 EMBEDDED = "embedded-"
 
 
-def _order(key: str, asked: Asked) -> Meaning:
+def _order(key: str, asked: Asked) -> WantConditions:
     """The conditions of the order of a view, with b or the embedded weights."""
     tableau = as_embedded(asked, key) if key.startswith(EMBEDDED) else asked.tableau
     try:
@@ -46,7 +46,7 @@ def _order(key: str, asked: Asked) -> Meaning:
     return replace(order_meaning(found, asked), claims=((key, f'">= {order}"'),))
 
 
-def _stiffly_accurate(asked: Asked) -> Meaning:
+def _stiffly_accurate(asked: Asked) -> WantConditions:
     """The last row of β = α + γ is b, and the last node 1.
 
     E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, VI.4.
@@ -54,7 +54,7 @@ def _stiffly_accurate(asked: Asked) -> Meaning:
     linear = on_linear_problems(asked.tableau)
     row, b = linear.blocks[0, 0][-1], linear.colours[0].b
     node = asked.tableau.colours[0].c[-1]
-    return Meaning((*(x - y for x, y in zip(row, b, strict=True)), node - ONE))
+    return WantConditions((*(x - y for x, y in zip(row, b, strict=True)), node - ONE))
 
 
 def _wants() -> Iterator[Want]:
@@ -66,7 +66,7 @@ def _wants() -> Iterator[Want]:
         yield Want(name, "count", summary, partial(_order, name))
 
 
-def _order_of_step(key: str, asked: Asked) -> Meaning:
+def _order_of_step(key: str, asked: Asked) -> WantConditions:
     """The conditions of one step of a Nyström method, with b̄ and b or the embedded weights."""
     tableau = as_embedded(asked, key) if key.startswith(EMBEDDED) else asked.tableau
     found = nystrom.seen(tableau, _STEPS[key.removeprefix(EMBEDDED)])
@@ -98,14 +98,14 @@ def _slow_part(tableau: Tableau) -> Tableau:
     return found
 
 
-def _slow_order(asked: Asked) -> Meaning:
+def _slow_order(asked: Asked) -> WantConditions:
     """The conditions of the slow method."""
     order = cast("int", asked.value)
     meaning = order_meaning(_slow_part(asked.tableau), asked)
     return replace(meaning, claims=(("slow-order", f'">= {order}"'),))
 
 
-def _last_stage_is_step(asked: Asked) -> Meaning:
+def _last_stage_is_step(asked: Asked) -> WantConditions:
     """The last row of Ā is b̄ and that of A b, and the last node 1: its g is the first of the next
     step.
     """
@@ -113,10 +113,10 @@ def _last_stage_is_step(asked: Asked) -> Meaning:
     rows = [(method.Abar[-1], method.bbar)]
     rows += [] if method.A is None else [(method.A[-1], method.b)]
     zeros = [x - y for row, b in rows for x, y in zip(row, b, strict=True)]
-    return Meaning((*zeros, method.c[-1] - ONE))
+    return WantConditions((*zeros, method.c[-1] - ONE))
 
 
-def _row_sums(asked: Asked) -> Meaning:
+def _row_sums(asked: Asked) -> WantConditions:
     """Σ_j ā_ij = c_i²/2, and Σ_j a_ij = c_i: each stage is right up to order 2.
 
     E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.14.
@@ -126,7 +126,7 @@ def _row_sums(asked: Asked) -> Meaning:
     for i, c in enumerate(method.c):
         zeros.append(sum(method.Abar[i], -c * c / 2))
         zeros += [] if method.A is None else [sum(method.A[i], -c)]
-    return Meaning(tuple(zeros))
+    return WantConditions(tuple(zeros))
 
 
 def _itself(tableau: Tableau) -> Tableau:
@@ -158,7 +158,7 @@ class OfKind(Frozen):
     has: Callable[[Tableau], bool]
     own: Mapping[str, Want]
     meant: Mapping[str, Meant]
-    instead: Mapping[str, Callable[[Asked], Meaning]]
+    instead: Mapping[str, Callable[[Asked], WantConditions]]
 
 
 KINDS = (

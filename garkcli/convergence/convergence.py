@@ -18,7 +18,7 @@ from garkcli.convergence.result import (
     CLOSE,
     MAX_ORDER,
     Convergence,
-    Row,
+    StepSizeRow,
     Stiffness,
     Visible,
     observed_order,
@@ -162,7 +162,9 @@ def converge(
     )
 
 
-def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple[list[Row], int]:
+def _rows(
+    solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool
+) -> tuple[list[StepSizeRow], int]:
     """The errors over the given steps or those of the ladder, and the number of rows at the end on
     a plateau.
     """
@@ -174,7 +176,7 @@ def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple
 
 
 def _stiffness(
-    solver: Solver, tableau: Tableau, rows: Sequence[Row], tolerance: fmpq | None
+    solver: Solver, tableau: Tableau, rows: Sequence[StepSizeRow], tolerance: fmpq | None
 ) -> Stiffness | None:
     """The stiffness, if the steps of all rows are far too large for the problem; else None."""
     resolution = solver.resolution(rows[-1].h)
@@ -243,9 +245,9 @@ def _solver(
     return SteppedSolver(bound, t_end, visible, tolerance)
 
 
-def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
+def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[StepSizeRow]:
     """The errors of some step sizes; only one row if it has no error."""
-    rows: list[Row] = []
+    rows: list[StepSizeRow] = []
     for h in sorted(set(steps), reverse=True):
         row = solver.row(h, rows[-1] if rows else None)
         if row.error.is_zero():

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.convergence.result import CLOSE, Row, observed_order
+from garkcli.convergence.result import CLOSE, StepSizeRow, observed_order
 from garkcli.convergence.solver import ROWS, NoUniqueStep
 from garkcli.frozen import replace
 from garkcli.stepping.integrator import StepFailed
@@ -59,7 +59,7 @@ _FLAT = 0.25
 _ABOVE = 300
 
 
-def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
+def default_rows(solver: Solver, is_timed: bool) -> tuple[list[StepSizeRow], int]:
     """Returns the rows of the default ladder, and the number of last rows that show the rounding of
     coefficients.
 
@@ -68,7 +68,7 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
     compared, and the ladder keeps its coarse steps, as large errors are needed too. Raises
     StepFailed if Newton's method fails for steps that are not coarse.
     """
-    rows: list[Row] = []
+    rows: list[StepSizeRow] = []
     is_small: list[bool] = []
     flat = 0
     for h in halvings(solver.t_end, solver.unit, solver.longest):
@@ -96,7 +96,7 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
     return trimmed(rows, is_small, flat, may_be_off=is_timed), flat
 
 
-def is_part(row: Row, size: arb) -> bool:
+def is_part(row: StepSizeRow, size: arb) -> bool:
     """Whether the error is a small part of the solution; ``size`` includes its start and end."""
     return bool(row.error < size * LARGEST / 2)
 
@@ -120,7 +120,7 @@ def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
         yield t_end / (n * 2**k)
 
 
-def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
+def is_complete(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> bool:
     """Returns whether the ladder may end with the last of ``rows``, all so far from the largest
     step down.
 
@@ -139,7 +139,7 @@ def _first_small(is_small: Sequence[bool]) -> int:
     return start
 
 
-def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
+def _start(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> int:
     """The first row from which on errors are small and slopes near the last extrapolated order."""
     observed = observed_order(rows)
     start = _first_small(is_small)
@@ -152,7 +152,7 @@ def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
     return start
 
 
-def has_settled(rows: Sequence[Row]) -> bool:
+def has_settled(rows: Sequence[StepSizeRow]) -> bool:
     """Whether slope and extrapolated order agree and one of them is steady, or the latter is very
     steady. The order of a method is an integer, so otherwise something has not settled yet.
     """
@@ -173,8 +173,11 @@ def has_settled(rows: Sequence[Row]) -> bool:
 
 
 def trimmed(
-    rows: Sequence[Row], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
-) -> list[Row]:
+    rows: Sequence[StepSizeRow],
+    is_small: Sequence[bool],
+    plateau: int = 0,
+    may_be_off: bool = False,
+) -> list[StepSizeRow]:
     """The rows without the first ones that are too coarse; at least ``ROWS`` of them stay.
 
     The last ``plateau`` rows stay and are ignored. With ``may_be_off`` rows with small errors stay,
@@ -196,7 +199,7 @@ def unspoilt_order(solver: Solver, h: fmpq) -> int:
     return min(order, 1) if solver.resolution(h) >= STIFF else order
 
 
-def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
+def plateau(rows: Sequence[StepSizeRow], order: int, rounding: arb) -> int:
     """Returns the number of rows at the end that show rounded coefficients instead of ``order``.
 
     They begin with the first flat row whose error may come from rounding; rows before it with an

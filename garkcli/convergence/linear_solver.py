@@ -11,7 +11,7 @@ from math import ceil, factorial
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.convergence.result import Row, Visible, absolute, slope_between
+from garkcli.convergence.result import StepSizeRow, Visible, absolute, slope_between
 from garkcli.convergence.solver import MAX_DIGITS, REACHED, NoUniqueStep, cost_of, work_of
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import Matrix
@@ -89,7 +89,7 @@ class LinearSolver(Mutable):
         """0: it is not a right-hand side."""
         return 0.0
 
-    def row(self, h: fmpq, before: Row | None) -> Row:
+    def row(self, h: fmpq, before: StepSizeRow | None) -> StepSizeRow:
         """The errors of steps of size ``h``, exact to ``ERROR_BITS``.
 
         Raises:
@@ -101,7 +101,7 @@ class LinearSolver(Mutable):
         except UsageProblem as pole:
             raise NoUniqueStep(pole.message, pole.help, code=pole.code) from None
         error, energy_error = _errors(R, steps, self.problem.omega, self.t_end)
-        return Row(h, error, slope_between(before, h, error), energy_error)
+        return StepSizeRow(h, error, slope_between(before, h, error), energy_error)
 
     def size(self) -> arb:
         """|q| + |p/ω| at the start plus that at the end."""
@@ -122,7 +122,7 @@ class LinearSolver(Mutable):
         """The solver up to another time."""
         return replace(self, t_end=t_end)
 
-    def timed(self, row: Row) -> Row:
+    def timed(self, row: StepSizeRow) -> StepSizeRow:
         """The row with the cost of its steps, in floats if these reach its error.
 
         Rows with errors below ``MAX_DIGITS`` digits have no cost.

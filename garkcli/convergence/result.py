@@ -47,7 +47,7 @@ class Cost(Frozen):
     seconds: float | None = None
 
 
-class Row(Frozen):
+class StepSizeRow(Frozen):
     """One step size.
 
     Errors are balls with the uncertainty of the computation as radius: one that contains 0 is below
@@ -136,7 +136,7 @@ class Convergence(Shown, Frozen):
 
     problem: Oscillator | Problem
     t_end: fmpq
-    rows: tuple[Row, ...]
+    rows: tuple[StepSizeRow, ...]
     plateau: int
     observed_order: float | None
     predicted_order: int
@@ -238,7 +238,7 @@ def absolute(x: arb) -> arb:
     return x if x.is_zero() else arb(0, 2 * x.rad())
 
 
-def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
+def slope_between(before: StepSizeRow | None, h: fmpq, error: arb) -> float | None:
     """The slope of log error over log h between two rows; None without a row or an error."""
     if before is None or error.contains(0):
         return None
@@ -246,7 +246,7 @@ def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
     return float((rise / (arb(before.h) / arb(h)).log()).mid())
 
 
-def stiff_order(rows: Sequence[Row]) -> float | None:
+def stiff_order(rows: Sequence[StepSizeRow]) -> float | None:
     """The order that slopes of a stiff problem show: extrapolated, but not far beyond the last
     slope.
 
@@ -259,7 +259,7 @@ def stiff_order(rows: Sequence[Row]) -> float | None:
     return last
 
 
-def observed_order(rows: Sequence[Row]) -> float | None:
+def observed_order(rows: Sequence[StepSizeRow]) -> float | None:
     """The order p in log error = log C + p log h + a h + b h² through the last four rows.
 
     The slopes converge to p like h; with the first two terms of the expansion of the error the

@@ -14,7 +14,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from garkcli.convergence.reference import ReferenceSolution, magnitude, reference, run
-from garkcli.convergence.result import MAX_ORDER, Row, Visible, absolute, slope_between
+from garkcli.convergence.result import MAX_ORDER, StepSizeRow, Visible, absolute, slope_between
 from garkcli.convergence.solver import MAX_DIGITS, REACHED, ROWS, cost_of, work_of
 from garkcli.exact.display import to_float
 from garkcli.frozen import Mutable, field, replace
@@ -109,7 +109,7 @@ class SteppedSolver(Mutable):
         pairs = zip(end, self.problem.initial, strict=True)
         return not any(abs(now - arb(then)) > least for now, then in pairs)
 
-    def row(self, h: fmpq, before: Row | None) -> Row:
+    def row(self, h: fmpq, before: StepSizeRow | None) -> StepSizeRow:
         """The errors of steps of size ``h``, with enough digits, and a slope from the row
         ``before``; 0 if enough digits show no error.
 
@@ -129,7 +129,7 @@ class SteppedSolver(Mutable):
         error = _with_radius(error, self._round_off(digits, h))
         energy, others = self._invariant_errors(state.y, digits, h)
         slope = slope_between(before, h, error)
-        return Row(h, error, slope, energy, tuple(others), digits, cost_of(state))
+        return StepSizeRow(h, error, slope, energy, tuple(others), digits, cost_of(state))
 
     def rounding(self) -> arb:
         """The approximate error from coefficients rounded to the tolerance."""
@@ -137,7 +137,7 @@ class SteppedSolver(Mutable):
             return arb(0)
         return self.size() * arb(self.tolerance) * max(arb(1), arb(self.t_end))
 
-    def timed(self, row: Row) -> Row:
+    def timed(self, row: StepSizeRow) -> StepSizeRow:
         """The row with the cost of its steps in floats, if these reach its error to a tenth."""
         y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
         if abs(self._distance(y, FLOAT_DIGITS) - row.error) < REACHED * row.error:
@@ -201,7 +201,7 @@ class SteppedSolver(Mutable):
             return digits + _SPARE
         return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))
 
-    def _digits(self, h: fmpq, before: Row | None) -> int:
+    def _digits(self, h: fmpq, before: StepSizeRow | None) -> int:
         """The digits for the error expected from the row before and the order."""
         if before is None:
             return FLOAT_DIGITS

@@ -27,7 +27,7 @@ from garkcli.exact.matrix import EntrywiseMap, dot
 from garkcli.exact.parametric import Parameters, common_denominator, fraction, refuse_long, times
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
-from garkcli.order.recursion import Forest, Forests, Spans
+from garkcli.order.recursion import Forests, ForestVector, Spans
 from garkcli.tableau.tableau import Edge, Tableau
 
 Entry: TypeAlias = Any
@@ -163,7 +163,7 @@ def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
     return row
 
 
-class Condition(Frozen):
+class FamilyCondition(Frozen):
     """One order condition of a spanning set.
 
     Attributes:
@@ -190,11 +190,11 @@ class FamilyConditions(Spans):
         self._cleared = cleared = Cleared.of(tableau, ring)
         self.denominators = tuple(d for d in (cleared.D, cleared.E) if not d.is_constant())
         one = cleared.one
-        vertices = [Forest([x * one for x in space.one], (), one) for space in tableau.spaces]
+        vertices = [ForestVector([x * one for x in space.one], (), one) for space in tableau.spaces]
         maps = {edge: EntrywiseMap(block) for edge, block in cleared.blocks.items()}
         super().__init__(tableau, vertices, maps, cleared.D)
 
-    def of_order(self, order: int) -> Iterator[Condition]:
+    def of_order(self, order: int) -> Iterator[FamilyCondition]:
         """Conditions that generate those of all trees of an order, together with the lower ones.
 
         Raises:
@@ -209,7 +209,7 @@ class FamilyConditions(Spans):
             value = dot(self._cleared.weights[l], forest.vector)
             share = forest.required(self.tableau.colours[l].kind, order)
             required = forest.scale * self._cleared.E * share
-            yield Condition(self.tableau.tree(l, forest.branches), value - required)
+            yield FamilyCondition(self.tableau.tree(l, forest.branches), value - required)
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
         block = [*chain.from_iterable(self._cleared.blocks[k, m])]

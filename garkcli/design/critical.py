@@ -70,7 +70,7 @@ def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
     return total
 
 
-class Smooth(Frozen):
+class SmoothPoints(Frozen):
     """The smooth points of the real zeros of an ideal.
 
     Attributes:
@@ -82,7 +82,7 @@ class Smooth(Frozen):
     others: tuple[fmpq_mpoly, ...]
 
 
-def smooth_points(ideal: Ideal) -> Smooth | None:
+def smooth_points(ideal: Ideal) -> SmoothPoints | None:
     """Smooth points of the real zeros of an ideal whose number of generators c is its codimension,
     so that no component has another dimension (F. S. Macaulay, 1916); None for other ideals, or if
     the critical points are not few.
@@ -113,10 +113,10 @@ def smooth_points(ideal: Ideal) -> Smooth | None:
         rows = [[*distance, unit], *slopes(equations, size + 1)]
         critical = smooth.with_zeros(minors(rows, len(rows)))
         if critical.is_everything:
-            return Smooth((), tuple(nonzero_minors))
+            return SmoothPoints((), tuple(nonzero_minors))
         if critical.dimension == 0 and critical.degree <= MOST_POINTS:
             points = (replace(x, values=_without_unit(x)) for x in solutions(critical) if x.real)
-            return Smooth(tuple(points), tuple(nonzero_minors))
+            return SmoothPoints(tuple(points), tuple(nonzero_minors))
     return None
 
 

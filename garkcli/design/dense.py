@@ -15,7 +15,7 @@ from typing import Any, cast
 from flint import fmpq
 
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.want import Asked, Meaning, Want
+from garkcli.design.want import Asked, Want, WantConditions
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import dot
@@ -44,14 +44,14 @@ def _dense(asked: Asked, key: str) -> DenseOutput:
     return dense
 
 
-def _order(asked: Asked) -> Meaning:
+def _order(asked: Asked) -> WantConditions:
     """The conditions of all trees, for one power of θ after the other."""
     dense = _dense(asked, "dense-order")
     order = cast("int", asked.value)
     claims = (("dense-order", f'">= {order}"'),)
     if order > dense.degree:
         why = f"no value has dense order {order}: it is no larger than the degree {dense.degree}"
-        return Meaning((ONE,), impossible=(why,))
+        return WantConditions((ONE,), impossible=(why,))
     tableau, ring = asked.tableau, asked.ring
     conditions = FamilyConditions(tableau, ring)
     functionals = [Functional(dense.coefficients(k), k) for k in range(1, dense.degree + 1)]
@@ -63,10 +63,10 @@ def _order(asked: Asked) -> Meaning:
             scale = ring.quotient(forest.scale * one, one)
             required = scale * forest.required(tableau.colours[l].kind, n - tableau.roots[l])
             zeros += [dot(x.weights[l], vector) - x.share(n) * required for x in functionals]
-    return Meaning(tuple(zeros), conditions.denominators, claims=claims)
+    return WantConditions(tuple(zeros), conditions.denominators, claims=claims)
 
 
-def _continuity(asked: Asked) -> Meaning:
+def _continuity(asked: Asked) -> WantConditions:
     """0: b(1) = b. 1: also the slope is f(x_0) at θ = 0 and f(x_1) at θ = 1: the weights cancel in
     each class of stages that are equal to one another, or to these two values.
     """
@@ -83,7 +83,7 @@ def _continuity(asked: Asked) -> Meaning:
                 members = classes[colour.space]
                 zeros += [sum((row[l][i] for i in x), start=ZERO) for x in members]
         claims.append(("dense-smooth", "true"))
-    return Meaning(tuple(zeros), claims=tuple(claims))
+    return WantConditions(tuple(zeros), claims=tuple(claims))
 
 
 def _known(tableau: Tableau) -> Tableau:

@@ -12,7 +12,7 @@ from typing import Any, cast, get_args
 from flint import fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
-from garkcli.design.conditions import Condition, FamilyConditions
+from garkcli.design.conditions import FamilyCondition, FamilyConditions
 from garkcli.design.critical import smooth_points
 from garkcli.design.ideal import Ideal, without_multiples
 from garkcli.design.member import (
@@ -35,10 +35,10 @@ from garkcli.design.stable_plane import values_of_one
 from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.design.steps import (
+    AllValues,
     Decided,
-    EveryValue,
     Found,
-    Known,
+    Knowledge,
     Many,
     NoValue,
     Solutions,
@@ -263,7 +263,7 @@ class _Finding(Frozen):
             done += new[:taken]
         return _reached(order, ideal, start, done[-1].tree if done else None)
 
-    def _in_pieces(self, order: int, new: Sequence[Condition], start: Ideal) -> Step:
+    def _in_pieces(self, order: int, new: Sequence[FamilyCondition], start: Ideal) -> Step:
         """The zeros of the conditions of an order in parts, by solving linear equations first.
 
         Args:
@@ -296,7 +296,7 @@ class _Finding(Frozen):
         """Equations besides the order conditions: of roots, and of wants."""
         return [*(x.relation for x in self.family.radicals), *self.family.relations]
 
-    def _conditions(self, order: int) -> list[Condition]:
+    def _conditions(self, order: int) -> list[FamilyCondition]:
         """The conditions of an order that some value fails."""
         return [x for x in self.conditions.of_order(order) if x.polynomial]
 
@@ -336,22 +336,22 @@ class _Finding(Frozen):
             return replace(step, known=self._known(step))
         return step
 
-    def _known(self, step: Many) -> Known:
+    def _known(self, step: Many) -> Knowledge:
         """The knowledge of the real values of a family, as far as time allows."""
         ideal, left = step.ideal, seconds_left()
         if isinstance(ideal, Pieces):
             with suppress(NotDecided), within(None if left is None else PART * left):
                 return self._known_of_pieces(step, ideal)
-            return Known()
+            return Knowledge()
         if self.criterion is not None and self.family.stable:
             with suppress(NotDecided), within(None if left is None else STABLE * left):
                 return self._stable_transfers(step.order, ideal, self.criterion)
             left = seconds_left()
         with suppress(NotDecided), within(None if left is None else PART * left):
             return self._known_of(step, ideal)
-        return Known()
+        return Knowledge()
 
-    def _known_of(self, step: Many, ideal: Ideal, real: Ideal | None = None) -> Known:
+    def _known_of(self, step: Many, ideal: Ideal, real: Ideal | None = None) -> Knowledge:
         """The knowledge of the real values of a family with an ideal.
 
         Args:
@@ -363,11 +363,11 @@ class _Finding(Frozen):
             NotDecided: the time limit has passed.
         """
         if self.criterion is not None and self._has_point(self.criterion, ideal):
-            return Known(is_real=True)
+            return Knowledge(is_real=True)
         real = without_complex(real or ideal)
-        known = Known()
+        known = Knowledge()
         if real.basis != ideal.basis:
-            known = Known(within=Zeros(real, tuple(_described(real)[0])))
+            known = Knowledge(within=Zeros(real, tuple(_described(real)[0])))
         if real.is_everything and ideal.is_proved:
             return replace(known, is_real=False)
         if real.dimension == 0:
@@ -388,7 +388,9 @@ class _Finding(Frozen):
                 return self._by_smooth_points(step, ideal, real, known)
         return known
 
-    def _by_smooth_points(self, step: Many, ideal: Ideal, real: Ideal, known: Known) -> Known:
+    def _by_smooth_points(
+        self, step: Many, ideal: Ideal, real: Ideal, known: Knowledge
+    ) -> Knowledge:
         """The knowledge by critical points: one of them is a method, or all methods are singular
         points, at which the gradients of the equations are dependent.
 
@@ -407,18 +409,18 @@ class _Finding(Frozen):
             return known
         return self._known_of(step, ideal, real.with_zeros(smooth.others))
 
-    def _known_of_pieces(self, step: Many, pieces: Pieces) -> Known:
+    def _known_of_pieces(self, step: Many, pieces: Pieces) -> Knowledge:
         """The knowledge of the real values of a family in parts.
 
         Raises:
             NotDecided: the time limit has passed.
         """
         if self.family.stable:
-            return self._with_stable(step, Known())
+            return self._with_stable(step, Knowledge())
         verdicts = (has_point(self.family, part, self._is_method) for part in pieces.parts)
-        return Known(is_real=any(verdicts) or None)
+        return Knowledge(is_real=any(verdicts) or None)
 
-    def _with_stable(self, step: Many, known: Known) -> Known:
+    def _with_stable(self, step: Many, known: Knowledge) -> Knowledge:
         """The knowledge of a family together with its methods of the wanted stability.
 
         Raises:
@@ -439,7 +441,7 @@ class _Finding(Frozen):
             is_real = False
         return replace(known, is_real=is_real, stable=stable)
 
-    def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Known:
+    def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Knowledge:
         """The knowledge of all transfers of a pair, with the ideal of the P-stable ones.
 
         Raises:
@@ -455,7 +457,7 @@ class _Finding(Frozen):
             free = replace(self.family, stable=())
             is_real = has_methods(free, stable, stable, partial(is_admissible, free))
         new = tuple(p for p in solved if not ideal.contains(p))
-        return Known(is_real=is_real, of_stable=Zeros(stable, new))
+        return Knowledge(is_real=is_real, of_stable=Zeros(stable, new))
 
     def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
         """Whether the values with all free unknowns at 0 give a method."""
@@ -510,17 +512,17 @@ def _reached(order: int, ideal: Ideal, start: Ideal, witness: Tree | None = None
     if ideal.is_everything:
         return NoValue(order, ideal, witness=witness)
     if ideal.basis == start.basis:
-        return EveryValue(order, ideal)
+        return AllValues(order, ideal)
     return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
 
 def _as_long_as_small(
-    ideal: Ideal, conditions: Iterator[Condition]
-) -> tuple[Ideal, list[Condition], Condition | None]:
+    ideal: Ideal, conditions: Iterator[FamilyCondition]
+) -> tuple[Ideal, list[FamilyCondition], FamilyCondition | None]:
     """The ideal with one condition after the other until it is everything or gets large; the
     conditions in it, and the one that makes it large.
     """
-    done: list[Condition] = []
+    done: list[FamilyCondition] = []
     while not ideal.is_everything:
         condition = next(conditions, None)
         if condition is None:

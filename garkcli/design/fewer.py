@@ -26,7 +26,7 @@ from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
 
-class Form(Frozen):
+class LinearForm(Frozen):
     """A linear form Σ a_i t_i of parameters; the first of them has the coefficient 1.
 
     Attributes:
@@ -54,7 +54,9 @@ def _sum_text(terms: Sequence[tuple[str, fmpq]]) -> str:
     return "".join(parts)
 
 
-def fewest(family: Family, tableau: Tableau, fields: Sequence[Matrix]) -> tuple[Family, list[Form]]:
+def fewest(
+    family: Family, tableau: Tableau, fields: Sequence[Matrix]
+) -> tuple[Family, list[LinearForm]]:
     """The family with the fewest parameters that give all its steps, at least one, and each of them
     as a form in the old parameters.
 
@@ -70,7 +72,7 @@ def fewest(family: Family, tableau: Tableau, fields: Sequence[Matrix]) -> tuple[
     forms = []
     for k in kept:
         others = [(names[p], -v[k]) for p, v in zip(pivots, directions, strict=True)]
-        forms.append(Form(((names[k], fmpq(1)), *(x for x in reversed(others) if x[1]))))
+        forms.append(LinearForm(((names[k], fmpq(1)), *(x for x in reversed(others) if x[1]))))
     if not pivots:
         return family, forms
     ring = Parameters([names[k] for k in kept])

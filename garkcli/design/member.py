@@ -24,7 +24,7 @@ from garkcli.stability.linear import is_a_stable, is_l_stable, stability_functio
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.family import OSCILLATING, Family, Stability
+from garkcli.tableau.family import OSCILLATING, Family, RequiredStability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -226,7 +226,7 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
     return None
 
 
-def is_stable(wanted: Stability, tableau: Tableau) -> bool:
+def is_stable(wanted: RequiredStability, tableau: Tableau) -> bool:
     """Whether a method has a kind of stability; False if it is not applicable."""
     if wanted.kind in OSCILLATING:
         oscillator = usual_oscillator(tableau)

@@ -226,7 +226,7 @@ def values_on(part: Part, name: str) -> tuple[Interval, ...] | None:
     return where(is_allowed, critical)
 
 
-class Chart(Frozen):
+class RationalChart(Frozen):
     """Points of a part with at most one coordinate that is not free.
 
     Attributes:
@@ -247,14 +247,14 @@ class Chart(Frozen):
         return part.whole(replace(self.one, values=values))
 
 
-def charts(part: Part) -> list[Chart]:
+def charts(part: Part) -> list[RationalChart]:
     """Charts for all real points of a part that is free or has one equation in one coordinate; none
     for other parts.
     """
     names = part.ring.names
     if part.is_free:
         origin = RealRoot.rational(fmpq(0))
-        return [Chart(Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,)), 0, tuple(names))]
+        return [RationalChart(Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,)), 0, tuple(names))]
     equations = {name: what_is_asked(part, name) for name in names}
     constrained = [(name, p) for name, p in equations.items() if p is not None]
     if len(constrained) != 1 or len(part.equations) > 1:
@@ -262,7 +262,7 @@ def charts(part: Part) -> list[Chart]:
     [(name, p)] = constrained
     others = tuple(x for x in names if x != name)
     roots = [root for root, _ in real_roots(in_one(p))]
-    return [Chart(at_root(name, root), root.number, others) for root in roots]
+    return [RationalChart(at_root(name, root), root.number, others) for root in roots]
 
 
 def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:

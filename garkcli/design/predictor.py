@@ -13,24 +13,24 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.want import Asked, Meaning, Want
+from garkcli.design.want import Asked, Want, WantConditions
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import dot
 from garkcli.order.predictor import implicit_stages, misses, ratios, two_steps
 
 
-def _order(asked: Asked) -> Meaning:
+def _order(asked: Asked) -> WantConditions:
     predictor = asked.further.predictor
     every = [] if predictor is None else ratios(predictor, cast("int", asked.value))
     return _meaning("predictor-order", asked, every)
 
 
-def _order_of_equal_steps(asked: Asked) -> Meaning:
+def _order_of_equal_steps(asked: Asked) -> WantConditions:
     return _meaning("predictor-order-equal-steps", asked, [ONE])
 
 
-def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> Meaning:
+def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> WantConditions:
     """The conditions of all trees at given ratios.
 
     Raises:
@@ -52,7 +52,7 @@ def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> Meaning:
             for _, forest in conditions.members(n, asked.tableau.roots):
                 vector: Any = [ring.quotient(x * one, one) for x in forest.vector]
                 zeros += [dot(row, vector) for row in rows]
-    return Meaning(tuple(zeros), denominators, claims=((key, f'">= {order}"'),))
+    return WantConditions(tuple(zeros), denominators, claims=((key, f'">= {order}"'),))
 
 
 PREDICTOR = (

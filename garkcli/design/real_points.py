@@ -19,7 +19,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time, only_small
 from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import not_negative, value_of
-from garkcli.design.minimise.line import Conditions
+from garkcli.design.minimise.line import Constraints
 from garkcli.design.parts import Part
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided
@@ -97,7 +97,7 @@ def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) 
     Raises:
         NotDecided: the time limit has passed.
     """
-    search = _Search(family, ideal, real, is_method)
+    search = _MethodSearch(family, ideal, real, is_method)
     if search.finds_one():
         return True
     is_none = search.is_complete and ideal.is_proved and not family.stable
@@ -107,11 +107,11 @@ def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) 
 def has_point(family: Family, part: Part, is_method: IsMethod) -> bool:
     """Whether a method is found on a part, with short rational numbers for some coordinates."""
     there = replace(family, ring=part.ring)
-    search = _Search(there, part, part.ideal, lambda x, root: is_method(part.whole(x), root))
+    search = _MethodSearch(there, part, part.ideal, lambda x, root: is_method(part.whole(x), root))
     return search.has_method(part.ideal) if part.dimension <= 0 else search.has_sample()
 
 
-class _Search:
+class _MethodSearch:
     """A search for methods among the real zeros of an ideal.
 
     Attributes:
@@ -136,7 +136,7 @@ class _Search:
             return True
         self.is_complete = True
         if len(self.ring.names) == 1:
-            allowed = Conditions(
+            allowed = Constraints(
                 [in_one(p) for p in self.nonzero],
                 [in_one(p) for p in self.family.positive],
                 [in_one(p) for p in not_negative(self.family)],

@@ -164,7 +164,7 @@ class Slice(Members):
         return False if is_between else None
 
 
-class Kind(ABC):
+class StabilityKind(ABC):
     """A kind of stability of a family: the set of stable x ≥ 0 of each method, which should be
     everything.
 
@@ -237,7 +237,7 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
     return [((share,),) for share in shares_of(tableau, colour)]
 
 
-class AStability(Kind):
+class AStability(StabilityKind):
     """|R(z)| ≤ 1 for Re z ≤ 0, with λ for all colours or for one alone."""
 
     def __init__(self, members: Members, tableau: Tableau, colour: int | None = None) -> None:
@@ -290,7 +290,7 @@ class AStability(Kind):
         return max((k for k, a in enumerate(coefficients) if sign_of(a, t)), default=-1)
 
 
-class IStability(Kind):
+class IStability(StabilityKind):
     """All powers of the step matrix on the oscillator are bounded for every step size."""
 
     def __init__(self, members: Members, tableau: Tableau) -> None:
@@ -377,7 +377,7 @@ class TwoSprings(Frozen):
     greatest: fmpq | None = None
 
 
-class SpringStability(Kind):
+class SpringStability(StabilityKind):
     """All powers of the step matrix on a slow and a fast spring are bounded for all fast
     frequencies: at one slow frequency the step is a function of x = (hω_f)² and t.
     """

@@ -28,8 +28,8 @@ from garkcli.design.member import (
     member,
 )
 from garkcli.design.parts import (
-    Chart,
     Part,
+    RationalChart,
     at_root,
     charts,
     diagonal_unknowns,
@@ -49,7 +49,7 @@ from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, real_roots
 from garkcli.frozen import Frozen, replace
-from garkcli.tableau.family import Family, Stability
+from garkcli.tableau.family import Family, RequiredStability
 from garkcli.tableau.tableau import Tableau
 
 VALUES = [
@@ -107,7 +107,7 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
         return _stable_points(family, whose, part)
     kinds, attained = [], []
     for wanted in dict.fromkeys(family.stable):
-        line = _Line(family.tested(wanted), whose, part, wanted)
+        line = _PartLine(family.tested(wanted), whose, part, wanted)
         found, undecided = line.values()
         shown, attained_by_line = line.told(found, undecided)
         kinds.append(shown)
@@ -140,18 +140,18 @@ def _stable_points(family: Family, whose: Whose, part: Part) -> StablePart:
     return StablePart(part, tuple(kinds), (attained,) * len(kinds))
 
 
-def _told_of(values: StableValues, wanted: Stability) -> StableValues:
+def _told_of(values: StableValues, wanted: RequiredStability) -> StableValues:
     return replace(values, colour=wanted.colour, is_embedded=wanted.is_embedded)
 
 
-class _Line:
+class _PartLine:
     """A part along the coordinate on which a step depends.
 
     Attributes:
         name: the coordinate.
     """
 
-    def __init__(self, family: Family, whose: Whose, part: Part, wanted: Stability) -> None:
+    def __init__(self, family: Family, whose: Whose, part: Part, wanted: RequiredStability) -> None:
         self.family, self.whose, self.part, self.wanted = family, whose, part, wanted
         values: Any = part.values
         self.tableau = member(family.tableau, family.ring, values)
@@ -385,7 +385,7 @@ def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solut
         assert t is not None
         others = [key for key in names if key != name]
         for point in points(len(others)):
-            solution = Chart(at_root(name, t), t.number, tuple(others)).point(part, point)
+            solution = RationalChart(at_root(name, t), t.number, tuple(others)).point(part, point)
             if solution is not None and is_on(family, part, solution, solution.real[t.number]):
                 yield solution, solution.real[t.number]
 

@@ -108,7 +108,7 @@ End: TypeAlias = "Branch | RealRoot | None"
 """An end of a set of y: a function of t, a number over a single t, or None for infinity."""
 
 
-class Part(Frozen):
+class StripPart(Frozen):
     """An interval of y over a strip.
 
     Attributes:
@@ -141,7 +141,7 @@ class Strip(Frozen):
     """
 
     base: Interval
-    parts: tuple[Part, ...]
+    parts: tuple[StripPart, ...]
 
 
 class StablePlane(Shown, Frozen):
@@ -300,7 +300,7 @@ class _Plane:
         resultants = [projection.resultant(p, root, "t") for p in self.curves]
         return tuple(map(in_one, resultants)) if all(resultants) else None
 
-    def _parts(self, t: fmpq) -> tuple[Part, ...]:
+    def _parts(self, t: fmpq) -> tuple[StripPart, ...]:
         """The stable parts of an open strip, from one t inside.
 
         Raises:
@@ -318,7 +318,9 @@ class _Plane:
         def end(y: RealRoot | None) -> Branch | None:
             return None if y is None else next(x for root, x in branches if root == y)
 
-        return tuple(Part(end(x.start), end(x.end), x.has_start, x.has_end) for x in stable.found)
+        return tuple(
+            StripPart(end(x.start), end(x.end), x.has_start, x.has_end) for x in stable.found
+        )
 
     def _over(self, t: RealRoot, left: Strip, right: Strip) -> Strip:
         """The stable parts over a critical t."""
@@ -336,7 +338,7 @@ class _Plane:
         for side, parts in sides:
             if parts == list(stable.found):
                 return Strip(base, side.parts)
-        parts_here = (Part(x.start, x.end, x.has_start, x.has_end) for x in stable.found)
+        parts_here = (StripPart(x.start, x.end, x.has_start, x.has_end) for x in stable.found)
         return Strip(base, tuple(parts_here))
 
 

@@ -23,14 +23,14 @@ from typing import Literal, TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.fewer import Form
+from garkcli.design.fewer import LinearForm
 from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.stability_kinds import (
     AStability,
     IStability,
-    Kind,
     Members,
     SpringStability,
+    StabilityKind,
     TwoSprings,
 )
 from garkcli.errors import NotDecided, UsageProblem, counted
@@ -38,7 +38,7 @@ from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, sign_at
 from garkcli.frozen import Frozen
-from garkcli.tableau.family import OSCILLATING, Family, Stability
+from garkcli.tableau.family import OSCILLATING, Family, RequiredStability
 from garkcli.upward import Shown
 
 Wanted: TypeAlias = Literal["p-stable", "i-stable", "a-stable", "l-stable"]
@@ -68,14 +68,14 @@ class StableValues(Shown, Frozen):
     undecided: tuple[RealRoot, ...]
     two_springs: TwoSprings | None = None
     colour: int | None = None
-    form: Form | None = None
+    form: LinearForm | None = None
     is_apart: bool = False
     is_embedded: bool = False
 
     @property
-    def stability(self) -> Stability:
+    def stability(self) -> RequiredStability:
         """The kind of stability, with its weights and colours."""
-        return Stability(self.wanted, self.colour, self.is_embedded)
+        return RequiredStability(self.wanted, self.colour, self.is_embedded)
 
     @property
     def parameter(self) -> str:
@@ -167,7 +167,7 @@ def stable_values(
 
 
 def decided(
-    kind: Kind, ends: tuple[fmpq | None, fmpq | None]
+    kind: StabilityKind, ends: tuple[fmpq | None, fmpq | None]
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
     """The set between two ends, and the undecided values."""
     decision = _Decision(kind, ends)
@@ -258,7 +258,7 @@ def _refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings |
 class _Decision:
     """The decomposition of the line of a parameter for one kind of stability."""
 
-    def __init__(self, kind: Kind, ends: tuple[fmpq | None, fmpq | None]) -> None:
+    def __init__(self, kind: StabilityKind, ends: tuple[fmpq | None, fmpq | None]) -> None:
         self.least, self.greatest = ends
         self.kind = kind
         self.undecided: list[RealRoot] = []

@@ -58,7 +58,7 @@ class Zeros(Frozen):
     polynomials: tuple[fmpq_mpoly | fmpz_mpoly, ...]
 
 
-class Known(Frozen):
+class Knowledge(Frozen):
     """Knowledge of the real values of a family.
 
     Attributes:
@@ -108,9 +108,9 @@ class Step(Frozen):
         return ()
 
     @property
-    def known(self) -> Known:
+    def known(self) -> Knowledge:
         """Knowledge of the real values of a family; empty for other answers."""
-        return Known()
+        return Knowledge()
 
     @property
     def is_all(self) -> bool:
@@ -187,7 +187,7 @@ class Many(Decided):
         known: knowledge of the real values.
     """
 
-    known: Known = Known()
+    known: Knowledge = Knowledge()
 
     @property
     def has_methods(self) -> bool | None:
@@ -198,7 +198,7 @@ class Many(Decided):
         return self.known.found
 
 
-class EveryValue(Many):
+class AllValues(Many):
     """All values have the order."""
 
     kind = "every-value"

@@ -12,7 +12,7 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, fraction
 from garkcli.frozen import Frozen
 from garkcli.tableau.embedded import NOTHING, Further
-from garkcli.tableau.family import Radical, Stability
+from garkcli.tableau.family import Radical, RequiredStability
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -68,7 +68,7 @@ class Asked(Frozen):
         return block, own.b
 
 
-class Meaning(Frozen):
+class WantConditions(Frozen):
     """The conditions of a want on the parameters.
 
     Attributes:
@@ -88,7 +88,7 @@ class Meaning(Frozen):
     nonzero: tuple[fmpq_mpoly, ...] = ()
     positive: tuple[object, ...] = ()
     not_negative: tuple[object, ...] = ()
-    stable: tuple[Stability, ...] = ()
+    stable: tuple[RequiredStability, ...] = ()
     claims: tuple[tuple[str, str], ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
@@ -109,16 +109,16 @@ class Want(Frozen):
     key: str
     kind: Kind
     summary: str
-    meaning: Callable[[Asked], Meaning]
+    meaning: Callable[[Asked], WantConditions]
 
 
-def stability(kind: str, asked: Asked, is_embedded: bool = False) -> Meaning:
+def stability(kind: str, asked: Asked, is_embedded: bool = False) -> WantConditions:
     """A kind of stability, of the whole method or of one colour; decided at each solution."""
     colour = None
     if len(asked.colours) < asked.tableau.size:
         [colour] = asked.colours
         asked.diagonal(colour, kind)
-    return Meaning(stable=(Stability(kind, colour, is_embedded),))
+    return WantConditions(stable=(RequiredStability(kind, colour, is_embedded),))
 
 
 def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:

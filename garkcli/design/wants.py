@@ -14,7 +14,7 @@ from garkcli.design.dense import DENSE
 from garkcli.design.minimise.sector import rest_of_cosine
 from garkcli.design.pairs import pair_conditions
 from garkcli.design.predictor import PREDICTOR
-from garkcli.design.want import Asked, Meaning, Want, stability
+from garkcli.design.want import Asked, Want, WantConditions, stability
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import apply, characteristic_coefficients, dot
@@ -23,7 +23,7 @@ from garkcli.frozen import replace
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.embedded import with_weights
-from garkcli.tableau.family import Family, Stability
+from garkcli.tableau.family import Family, RequiredStability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
@@ -39,7 +39,7 @@ MOST_PRODUCTS = 200
 """Most products of blocks in the conditions of weak stage order."""
 
 
-def order_meaning(tableau: Tableau, asked: Asked) -> Meaning:
+def order_meaning(tableau: Tableau, asked: Asked) -> WantConditions:
     """The conditions of a tableau up to the wanted order."""
     conditions = FamilyConditions(tableau, asked.ring)
     one = asked.ring.constant(fmpq(1))
@@ -47,10 +47,10 @@ def order_meaning(tableau: Tableau, asked: Asked) -> Meaning:
     for k in range(1, cast("int", asked.value) + 1):
         polynomials = [condition.polynomial for condition in conditions.of_order(k)]
         zeros += [asked.ring.quotient(p, one) for p in polynomials]
-    return Meaning(tuple(zeros), conditions.denominators)
+    return WantConditions(tuple(zeros), conditions.denominators)
 
 
-def _pair_order(asked: Asked) -> Meaning:
+def _pair_order(asked: Asked) -> WantConditions:
     """The conditions of the pair, by the criterion of docs/pair-order.md if it applies."""
     parameters = asked.ring.names[: len(asked.ring.names) - len(asked.radicals)]
     criterion = pair_conditions(
@@ -69,7 +69,7 @@ def _pair_order(asked: Asked) -> Meaning:
     one = asked.ring.constant(fmpq(1))
     zeros = chain.from_iterable(criterion.of_order(k) for k in range(1, order + 1))
     why = criterion.obstacle(order)
-    return Meaning(
+    return WantConditions(
         tuple(asked.ring.quotient(p, one) for p in zeros),
         real=("pair-order",) if order > 2 else (),
         impossible=(f"no value has symplectic pair order {order}: {why}",) if why else (),
@@ -90,12 +90,12 @@ def as_embedded(asked: Asked, key: str) -> Tableau:
     return with_weights(asked.tableau, embedded)
 
 
-def _embedded_order(asked: Asked) -> Meaning:
+def _embedded_order(asked: Asked) -> WantConditions:
     """The order of the method with b̂ in place of b, at least."""
     return order_meaning(as_embedded(asked, "embedded-order"), asked)
 
 
-def _symplectic(asked: Asked) -> Meaning:
+def _symplectic(asked: Asked) -> WantConditions:
     """b_i^l a_ij^{l,m} + b_j^m a_ji^{m,l} − b_i^l b_j^m = 0.
 
     J. M. Sanz-Serna, BIT 28, 1988; for several colours A. Sandu, M. Günther, SINUM 53, 2015.
@@ -111,19 +111,19 @@ def _symplectic(asked: Asked) -> Meaning:
             asked.block(l, m, "symplectic")
             asked.block(m, l, "symplectic")
             zeros += chain.from_iterable(symplectic_defect(tableau, l, m))
-    return Meaning(tuple(zeros))
+    return WantConditions(tuple(zeros))
 
 
-def _stiffly_accurate(asked: Asked) -> Meaning:
+def _stiffly_accurate(asked: Asked) -> WantConditions:
     """The last row of A^{l,l} is b^l."""
     zeros = []
     for l in asked.colours:
         A, b = asked.diagonal(l, "stiffly-accurate")
         zeros += [x - y for x, y in zip(A[-1], b, strict=True)]
-    return Meaning(tuple(zeros))
+    return WantConditions(tuple(zeros))
 
 
-def at_infinity(asked: Asked) -> Meaning:
+def at_infinity(asked: Asked) -> WantConditions:
     """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA); the denominator has the degree of almost all
     methods of the family. E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
     sections IV.3 and IV.6.
@@ -147,20 +147,20 @@ def at_infinity(asked: Asked) -> Meaning:
         numerator, _ = fraction(denominator[degree], asked.ring)
         if not numerator.is_constant():
             nonzero.append(numerator)
-    return Meaning(tuple(zeros), tuple(nonzero))
+    return WantConditions(tuple(zeros), tuple(nonzero))
 
 
-def _embedded_at_infinity(asked: Asked) -> Meaning:
+def _embedded_at_infinity(asked: Asked) -> WantConditions:
     """R(∞) with the embedded weights in place of b."""
     return at_infinity(replace(asked, tableau=as_embedded(asked, "embedded-R-infinity")))
 
 
-def _embedded_stability(key: str, asked: Asked) -> Meaning:
+def _embedded_stability(key: str, asked: Asked) -> WantConditions:
     as_embedded(asked, key)
     return stability(key.removeprefix("embedded-"), asked, is_embedded=True)
 
 
-def _stability_order(asked: Asked) -> Meaning:
+def _stability_order(asked: Asked) -> WantConditions:
     """R(z) = exp z + O(z^(p+1)): b A^(k−1) 𝟙 = 1/k! for k = 1, …, p."""
     zeros: list[Any] = []
     for l in asked.colours:
@@ -169,20 +169,20 @@ def _stability_order(asked: Asked) -> Meaning:
         for k in range(1, cast("int", asked.value) + 1):
             zeros.append(dot(b, v) - fmpq(1, factorial(k)))
             v = apply(A, v)
-    return Meaning(tuple(zeros))
+    return WantConditions(tuple(zeros))
 
 
-def _level(key: str, asked: Asked) -> Meaning:
+def _level(key: str, asked: Asked) -> WantConditions:
     """A lower bound on an objective of the whole method."""
     if len(asked.colours) < asked.tableau.size or not isinstance(asked.value, fmpq):
         message = f"design: {key} is a rational number, and of the whole method"
         raise MethodError(message, f"write {key}: 3/2", code="wanted-without-meaning")
     if key == "sector":
         rest_of_cosine(asked.value)
-    return Meaning(levels=((f"-{key}", asked.value),))
+    return WantConditions(levels=((f"-{key}", asked.value),))
 
 
-def _stage_order(asked: Asked) -> Meaning:
+def _stage_order(asked: Asked) -> WantConditions:
     """Σ_i b_i^l (c_i^l)^{k−1} = 1/k, Σ_j a_ij^{l,m} (c_j^m)^{k−1} = (c_i^l)^k / k for k = 1, …, q.
 
     With s stages C(s + 1) is C(q) for every q > s. Let M have the d ≤ s nodes of a colour as its
@@ -205,10 +205,10 @@ def _stage_order(asked: Asked) -> Meaning:
             asked.block(l, m, "stage-order")
             for k in range(1, highest + 1):
                 zeros += defects.C(l, m, k)
-    return Meaning(tuple(zeros))
+    return WantConditions(tuple(zeros))
 
 
-def _weak_stage_order(asked: Asked) -> Meaning:
+def _weak_stage_order(asked: Asked) -> WantConditions:
     """b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^{k−1} − (c^{p})^k / k) = 0 for k = 1, …, q and all
     products of blocks between the colours.
 
@@ -245,10 +245,10 @@ def _weak_stage_order(asked: Asked) -> Meaning:
                     zeros += [dot(w, defects.C(l, m, k)) for k in orders]
             following += [(m, defects.before(l, m, w)) for m in asked.colours if (l, m) in edges]
         rows = following
-    return Meaning(tuple(zeros))
+    return WantConditions(tuple(zeros))
 
 
-def _consistent(asked: Asked) -> Meaning:
+def _consistent(asked: Asked) -> WantConditions:
     """A^{l,m} 𝟙 = c^l for every block of the colours l.
 
     A. Sandu, M. Günther, *A generalized-structure approach to additive Runge–Kutta methods*, SINUM
@@ -256,17 +256,17 @@ def _consistent(asked: Asked) -> Meaning:
     """
     defects = Defects(asked.tableau)
     edges = [(l, m) for l, m in asked.tableau.edges() if l in asked.colours]
-    return Meaning(tuple(x for l, m in edges for x in defects.C(l, m, 1)))
+    return WantConditions(tuple(x for l, m in edges for x in defects.C(l, m, 1)))
 
 
-def _nodes_in_unit_interval(asked: Asked) -> Meaning:
+def _nodes_in_unit_interval(asked: Asked) -> WantConditions:
     nodes = [x for l in asked.colours for x in asked.tableau.colours[l].c]
-    return Meaning(not_negative=(*nodes, *(1 - x for x in nodes)))
+    return WantConditions(not_negative=(*nodes, *(1 - x for x in nodes)))
 
 
-def _nodes_ascending(asked: Asked) -> Meaning:
+def _nodes_ascending(asked: Asked) -> WantConditions:
     rows = [asked.tableau.colours[l].c for l in asked.colours]
-    return Meaning(not_negative=tuple(y - x for row in rows for x, y in pairwise(row)))
+    return WantConditions(not_negative=tuple(y - x for row in rows for x, y in pairwise(row)))
 
 
 def _coefficients(asked: Asked) -> tuple[Any, ...]:
@@ -276,18 +276,18 @@ def _coefficients(asked: Asked) -> tuple[Any, ...]:
     return tuple(chain(*chain.from_iterable(blocks), *weights))
 
 
-def _largest_coefficient(asked: Asked) -> Meaning:
+def _largest_coefficient(asked: Asked) -> WantConditions:
     """|a| ≤ M and |b| ≤ M."""
     most: Any = asked.value
     entries = _coefficients(asked)
-    return Meaning(not_negative=(*(most - x for x in entries), *(most + x for x in entries)))
+    return WantConditions(not_negative=(*(most - x for x in entries), *(most + x for x in entries)))
 
 
-def _oscillating(kind: str, asked: Asked) -> Meaning:
+def _oscillating(kind: str, asked: Asked) -> WantConditions:
     if len(asked.colours) < asked.tableau.size:
         message = f"design: {kind} is meant of the whole method"
         raise MethodError(message, f"write {kind}: true", code="wanted-without-meaning")
-    return Meaning(stable=(Stability(kind),))
+    return WantConditions(stable=(RequiredStability(kind),))
 
 
 WANTS = {
@@ -322,7 +322,7 @@ WANTS = {
             "positive-weights",
             "flag",
             "every weight is positive",
-            lambda asked: Meaning(
+            lambda asked: WantConditions(
                 positive=tuple(x for l in asked.colours for x in asked.tableau.colours[l].b)
             ),
         ),
@@ -332,7 +332,7 @@ WANTS = {
             "nonnegative-coefficients",
             "flag",
             "no entry of A and no weight is negative",
-            lambda asked: Meaning(not_negative=_coefficients(asked)),
+            lambda asked: WantConditions(not_negative=_coefficients(asked)),
         ),
         Want(
             "largest-coefficient",

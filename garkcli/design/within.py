@@ -224,10 +224,10 @@ def find_within(
         ZeroWeight: a weight is zero for every value, so there is no conjugate.
     """
     with within(seconds):
-        return _Finding(rounding, whose).design(order or rounding.family.order)
+        return _ValueSearch(rounding, whose).design(order or rounding.family.order)
 
 
-class _Finding:
+class _ValueSearch:
     """The search for values.
 
     Args:

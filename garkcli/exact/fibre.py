@@ -27,7 +27,7 @@ Holds: TypeAlias = Callable[[Sequence[int]], bool]
 """Decides from the signs of polynomials whether a property holds."""
 
 
-class Root(Frozen, eq=False):
+class FibreRoot(Frozen, eq=False):
     """A number y > 0 at which curves meet the line.
 
     ``polynomial`` is in y over ℚ(t_0) and has y as a simple root, the only one between the rational
@@ -40,7 +40,7 @@ class Root(Frozen, eq=False):
     high: fmpq
     curves: frozenset[int]
 
-    def refined(self, bits: int) -> Root:
+    def refined(self, bits: int) -> FibreRoot:
         """The root with ``high − low`` ≤ 2^−bits."""
         low, high = self.low, self.high
         if high - low <= fmpq(1, 1 << bits):
@@ -95,19 +95,19 @@ class Fibre:
         return self._signs[key]
 
     @cached_property
-    def roots(self) -> list[Root]:
+    def roots(self) -> list[FibreRoot]:
         """All roots in ascending order, with disjoint bounds."""
-        roots: list[Root] = []
+        roots: list[FibreRoot] = []
         for place, curve in enumerate(self.curves):
             p = self.polynomial(curve)
             if p.degree > 0:
                 simple = p.square_free()
                 ends = self._isolated(simple)
-                roots += [Root(self, simple, *x, frozenset({place})) for x in ends]
+                roots += [FibreRoot(self, simple, *x, frozenset({place})) for x in ends]
         bits = FIRST_BITS
         while True:
             roots = sorted((root.refined(bits) for root in roots), key=lambda x: (x.low, x.high))
-            together: list[Root] = []
+            together: list[FibreRoot] = []
             for root in roots:
                 for place, other in enumerate(together):
                     same = self._common(other, root)
@@ -121,7 +121,7 @@ class Fibre:
             roots = together
             bits *= 2
 
-    def _common(self, a: Root, b: Root) -> Root | None:
+    def _common(self, a: FibreRoot, b: FibreRoot) -> FibreRoot | None:
         """The root that two share; None if they differ."""
         low, high = max(a.low, b.low), min(a.high, b.high)
         if low > high or a.curves & b.curves:
@@ -130,7 +130,7 @@ class Fibre:
         p = gcd(a.polynomial, b.polynomial)
         if p.degree < 1 or self.sign_on(p, low) * self.sign_on(p, high) > 0:
             return None
-        return Root(self, p, low, high, a.curves | b.curves)
+        return FibreRoot(self, p, low, high, a.curves | b.curves)
 
     def _isolated(self, p: Polynomial) -> Iterator[tuple[fmpq, fmpq]]:
         """Disjoint bounds of the positive roots of a square-free polynomial."""
@@ -184,7 +184,9 @@ class Fibre:
             bits *= 2
         return [first.low / 2, *between, self.roots[-1].high + 1]
 
-    def first_failure(self, polynomials: Sequence[fmpq_mpoly], holds: Holds) -> Root | fmpq | None:
+    def first_failure(
+        self, polynomials: Sequence[fmpq_mpoly], holds: Holds
+    ) -> FibreRoot | fmpq | None:
         """Returns the smallest y at which a property fails; 0 if it fails at once, None if it never
         fails.
 

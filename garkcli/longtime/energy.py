@@ -25,7 +25,7 @@ from garkcli.longtime.history import (
     SERIES,
     InvariantHistory,
     LongRun,
-    Stability,
+    StepMapStability,
     Verdict,
     count_steps,
     stability,
@@ -150,7 +150,7 @@ def oscillator_run(
 def _history(
     errors: _Errors,
     energy: float,
-    fate: Stability,
+    fate: StepMapStability,
     line: FittedLine,
     excused: float,
     kept: Integers,
@@ -200,7 +200,7 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
 
 
 def _verdict(
-    errors: _Errors, energy: float, fate: Stability, line: FittedLine, excused: float
+    errors: _Errors, energy: float, fate: StepMapStability, line: FittedLine, excused: float
 ) -> Verdict:
     """The verdict from the step map and the errors. A visible drift is undecided if without its
     uncertainty it is at most ``excused``, the error that rounded coefficients can cause.

@@ -26,7 +26,7 @@ Fate: TypeAlias = Literal["elliptic", "unstable", "contractive", "marginal"]
 """Orbits stay on ellipses; are unbounded; go to zero; stay bounded otherwise."""
 
 
-class Stability(Frozen):
+class StepMapStability(Frozen):
     """The long-time behaviour of the step map R of a linear problem.
 
     RᵀJR = J if and only if ``determinant`` is 1; ``fate`` is that of almost all orbits.
@@ -42,7 +42,7 @@ class Stability(Frozen):
         return self.determinant == ONE
 
 
-def stability(R: Matrix) -> Stability:
+def stability(R: Matrix) -> StepMapStability:
     """Decides the fate of the orbits of ``R``, shape (2, 2).
 
     >>> from flint import fmpq
@@ -53,7 +53,7 @@ def stability(R: Matrix) -> Stability:
     """
     (a, b), (c, d) = R
     determinant, trace = a * d - b * c, a + d
-    return Stability(determinant, trace, _fate(R, determinant, trace))
+    return StepMapStability(determinant, trace, _fate(R, determinant, trace))
 
 
 def _fate(R: Matrix, determinant: Number, trace: Number) -> Fate:
@@ -184,7 +184,7 @@ class LongRun(Shown, Frozen):
     states: tuple[State, ...] = ()
     turns: int = 0
     escaped: fmpq | None = None
-    stability: Stability | None = None
+    stability: StepMapStability | None = None
     method: GarkMethod | None = None
 
     @property

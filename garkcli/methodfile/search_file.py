@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from garkcli.design.member import Whose
-from garkcli.design.search.run import Task, Timed, do
+from garkcli.design.search.run import SearchTask, Timed, do
 from garkcli.design.search.search import Search
 from garkcli.errors import MethodError
 from garkcli.frozen import Frozen
@@ -47,7 +47,7 @@ class FileSearch(Frozen):
         """The search, made once in each process."""
         return _search(self)
 
-    def do(self, task: Task) -> Timed:
+    def do(self, task: SearchTask) -> Timed:
         """Returns the result of a task and the time it took."""
         return do(self.search, task)
 

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import Any
 
 from garkcli.deadline import until
-from garkcli.design.want import Asked, Meaning, Want
+from garkcli.design.want import Asked, Want, WantConditions
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.frozen import Frozen, fields
@@ -180,7 +180,7 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
 
 def meaning_of(
     wishes: Wishes, made: Builder[FamilyValues], source: Source, deadline: float | None = None
-) -> Meaning:
+) -> WantConditions:
     """Returns all demands as conditions on the parameters.
 
     At ``deadline``, a value of ``time.monotonic``, the remaining ones are left undecided; None for
@@ -191,11 +191,13 @@ def meaning_of(
     values = made.values
     tableau, ring = made.tableau, values.domain.ring
     pairs = [(values.number(unknown), values.number(given)) for unknown, given in wishes.fixed]
-    meanings = [Meaning(zeros=(unknown - given,)) for unknown, given in pairs]
+    meanings = [WantConditions(zeros=(unknown - given,)) for unknown, given in pairs]
     for name, free in values.numbers.free.items():
         x: Any = ring.parameter(name)
         bounds = (enumerate(p.coefficients) for p in free.bounds)
-        meanings.append(Meaning(not_negative=tuple(sum(a * x**k for k, a in p) for p in bounds)))
+        meanings.append(
+            WantConditions(not_negative=tuple(sum(a * x**k for k, a in p) for p in bounds))
+        )
     for wish in wishes.wishes:
         try:
             want, asked_of = meant_of(wish.want, tableau)
@@ -213,10 +215,10 @@ def meaning_of(
                 asked = Asked(asked_of, ring, number, colours, made.further, radicals)
                 meanings.append(want.meaning(asked))
         except NotDecided:
-            meanings.append(Meaning(unsettled=(wish.want.key,)))
+            meanings.append(WantConditions(unsettled=(wish.want.key,)))
         except GarkError as error:
             source.fault(wish.node, error.message, error.help, code=error.code)
     together: dict[str, Any] = {}
-    for name in fields(Meaning):
+    for name in fields(WantConditions):
         together[name] = tuple(chain.from_iterable(getattr(one, name) for one in meanings))
-    return Meaning(**together)
+    return WantConditions(**together)

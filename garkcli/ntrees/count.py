@@ -25,7 +25,7 @@ from flint import fmpz, fmpz_poly
 
 from garkcli.errors import TreeError
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import LINEAR, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.kind import LINEAR, PLAIN, SEVERAL, VertexKind
 from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class Admissible(Frozen):
 
     colours: int
     branches: tuple[Colours, ...]
-    kinds: tuple[Kind, ...]
+    kinds: tuple[VertexKind, ...]
 
     @classmethod
     def of(
@@ -101,7 +101,7 @@ class Admissible(Frozen):
         """For each colour the first one that admits the same branches: their trees differ in their
         roots only.
         """
-        first: dict[tuple[Colours, Kind], int] = {}
+        first: dict[tuple[Colours, VertexKind], int] = {}
         natures = zip(self.branches, self.kinds, strict=True)
         return tuple(first.setdefault(nature, l) for l, nature in enumerate(natures))
 
@@ -170,7 +170,7 @@ def _grown(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[i
 class _Growing:
     """The forests on a colour, f(0), f(1), …, as far as they are counted."""
 
-    def __init__(self, order: int, branches: Counter[int], kind: Kind) -> None:
+    def __init__(self, order: int, branches: Counter[int], kind: VertexKind) -> None:
         self.branches = branches
         self.kind = kind
         self.has_several = SEVERAL in kind.arity

@@ -17,7 +17,7 @@ ANY: Arity = frozenset({0, 1, SEVERAL})
 _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
 
 
-class Kind(Frozen):
+class VertexKind(Frozen):
     """The kind of the vertices of a colour.
 
     Attributes:
@@ -46,13 +46,13 @@ class Kind(Frozen):
         return perm(order, self.weight)
 
     @property
-    def of_linear_field(self) -> Kind:
+    def of_linear_field(self) -> VertexKind:
         """The kind for a linear vector field.
 
         >>> Kind().of_linear_field == LINEAR
         True
         """
-        return Kind(self.arity - {SEVERAL}, self.weight, self.is_exact)
+        return VertexKind(self.arity - {SEVERAL}, self.weight, self.is_exact)
 
     @cached_property
     def stems(self) -> Arity:
@@ -72,20 +72,20 @@ class Kind(Frozen):
         return " or ".join(_WORDS[n] for n in sorted(self.arity))
 
 
-PLAIN = Kind()
-LINEAR = Kind(frozenset({0, 1}))
+PLAIN = VertexKind()
+LINEAR = VertexKind(frozenset({0, 1}))
 """A linear vector field."""
-LEAF = Kind(frozenset({0}))
+LEAF = VertexKind(frozenset({0}))
 """A constant vector field, such as ṫ = 1 of time."""
-ONE_BRANCH = Kind(frozenset({1}))
+ONE_BRANCH = VertexKind(frozenset({1}))
 """The Jacobian of a vector field at the beginning of the step."""
-ARGUMENT = Kind(is_field=False)
+ARGUMENT = VertexKind(is_field=False)
 """One argument of a vector field with several arguments."""
-NOT_ONE = Kind(frozenset({0, SEVERAL}))
+NOT_ONE = VertexKind(frozenset({0, SEVERAL}))
 """A vector field beside its Jacobian."""
-MATRIX = Kind(frozenset({1}), is_exact=False)
+MATRIX = VertexKind(frozenset({1}), is_exact=False)
 """An arbitrary matrix."""
-ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
+ERROR_OF_MATRIX = VertexKind(frozenset({1}), weight=2, is_exact=False)
 """The E of a matrix f' + h E."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds of vector fields that stages evaluate."""

@@ -24,7 +24,7 @@ from garkcli import numpy_on_use as np
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, Counts, Edges, counts_upto
-from garkcli.ntrees.kind import SEVERAL, Arity, Kind
+from garkcli.ntrees.kind import SEVERAL, Arity, VertexKind
 from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class Columns(Frozen):
         return cls(*ids, *small, *[np.empty(length, exact) for _ in range(2)])
 
     @classmethod
-    def vertex(cls, root: int, kind: Kind) -> Columns:
+    def vertex(cls, root: int, kind: VertexKind) -> Columns:
         """The tree of a single vertex of a colour."""
         made = cls.empty(1, np.int64)
         made.stem[:] = -1
@@ -130,7 +130,7 @@ class Growth:
     """
 
     def __init__(
-        self, lower: Columns, order: int, kind: Kind, stems: range, branches: range
+        self, lower: Columns, order: int, kind: VertexKind, stems: range, branches: range
     ) -> None:
         self.lower = lower
         self.order = order

@@ -7,7 +7,7 @@ from itertools import groupby
 from math import factorial, prod
 from typing import TYPE_CHECKING
 
-from garkcli.ntrees.kind import FIELDS, PLAIN, Kind
+from garkcli.ntrees.kind import FIELDS, PLAIN, VertexKind
 from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class Tree(Shown):
 
     __slots__ = ("__dict__", "branches", "kind", "order", "root")
 
-    def __init__(self, root: int, branches: Iterable[Tree] = (), kind: Kind = PLAIN) -> None:
+    def __init__(self, root: int, branches: Iterable[Tree] = (), kind: VertexKind = PLAIN) -> None:
         self.root = root
         self.kind = kind
         ordered = sorted(branches, key=Tree.sort_key)

@@ -30,7 +30,7 @@ from flint import arb, arb_mat, ctx
 from garkcli.exact.enclosing import Entries, entrywise_max, plus, scalar_product, times
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
-from garkcli.order.recursion import Forest, OrderByOrder
+from garkcli.order.recursion import ForestVector, OrderByOrder
 from garkcli.tableau.enclosure import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
 
@@ -43,7 +43,7 @@ class _Hull(Frozen, eq=False):
     if there are none of that kind.
     """
 
-    members: Sequence[Forest]
+    members: Sequence[ForestVector]
     weight: arb
     error: Entries
     size: Entries
@@ -106,7 +106,9 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         factor = kind.integrated(order)
         A = self.enclosure.A[k, m] * factor
         members = [
-            Forest(_image(A, x.vector), (Tree(m, x.branches, kind),), exact=x.exact * kind.is_exact)
+            ForestVector(
+                _image(A, x.vector), (Tree(m, x.branches, kind),), exact=x.exact * kind.is_exact
+            )
             for x in trees.members
         ]
         absolute = self._absolute[k, m] * factor
@@ -139,13 +141,13 @@ def _unit(stages: int) -> _Hull:
     """The hull of the single vertex: its vector is 𝟙, without an error."""
     one = [arb(1)] * stages
     zero = [arb(0)] * stages
-    vertex = Forest(one, ())
+    vertex = ForestVector(one, ())
     return _Hull([vertex], arb(1), zero, one)
 
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
     members = [
-        Forest(times(v.vector, w.vector), v.branches + w.branches, exact=v.exact * w.exact)
+        ForestVector(times(v.vector, w.vector), v.branches + w.branches, exact=v.exact * w.exact)
         for v in x.members
         for w in y.members
     ]
@@ -171,7 +173,7 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
     return reduce(_in_both, around)
 
 
-def _around(kept: Sequence[Forest], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
+def _around(kept: Sequence[ForestVector], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
     """The bounds of one hull around the members that are kept.
 
     ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,

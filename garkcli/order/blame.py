@@ -41,7 +41,7 @@ FEW_CONDITIONS_UNASKED = 2_000
 """Most conditions that are evaluated without a claim."""
 
 
-class Missed(Frozen):
+class MissedOrder(Frozen):
     """A claimed order that the method misses.
 
     ``order`` is the first failing one, ``of`` the key of the claim. With ``is_embedded`` it is the
@@ -64,7 +64,9 @@ class Missed(Frozen):
             return None
 
 
-def repairs(method: AnyTableau, missed: Missed, failing: Sequence[Condition]) -> Iterator[Repair]:
+def repairs(
+    method: AnyTableau, missed: MissedOrder, failing: Sequence[Condition]
+) -> Iterator[Repair]:
     """Single entries whose change restores the claimed order. With exact coefficients the new value
     solves one failing condition.
     """
@@ -104,7 +106,7 @@ def named_blocks(tableau: Tableau) -> list[Edge]:
     return sorted({named_block(tableau, edge) for edge in tableau.edges()})
 
 
-def count_entries(method: Tableau, missed: Missed) -> int:
+def count_entries(method: Tableau, missed: MissedOrder) -> int:
     """The number of entries that may be wrong."""
     return sum(1 for _ in _entries(method, missed.is_embedded, missed.keeps_shape))
 
@@ -141,7 +143,7 @@ def _has_points(method: Tableau, l: int) -> bool:
 
 
 def _solution(
-    method: Tableau, missed: Missed, entry: RepairedEntry, failing: Condition
+    method: Tableau, missed: MissedOrder, entry: RepairedEntry, failing: Condition
 ) -> Number | None:
     """The value of an entry with which a failing condition holds, if it is linear in the entry:
     from its values at the entry and at one and two beyond. None if not linear or constant.
@@ -196,7 +198,7 @@ class Blame(Frozen):
 
 @doing("the likely cause")
 def blame_of(
-    method: AnyTableau, missed: Missed, known: tuple[Repair, ...] | None = None
+    method: AnyTableau, missed: MissedOrder, known: tuple[Repair, ...] | None = None
 ) -> Blame | None:
     """Examines all conditions of the first failing order of a method, its conjugate or their pair.
 
@@ -245,7 +247,7 @@ def blame_of(
 
 
 @doing("which entry is wrong")
-def slip_of(method: AnyTableau, missed: Missed, found: AnyOrder) -> Blame | None:
+def slip_of(method: AnyTableau, missed: MissedOrder, found: AnyOrder) -> Blame | None:
     """Finds a single entry that costs a method several orders, if no order is claimed.
 
     Some value of an entry may satisfy a condition by chance, but hardly all of two orders. One
@@ -272,7 +274,9 @@ def slip_of(method: AnyTableau, missed: Missed, found: AnyOrder) -> Blame | None
     return blame and replace(blame, restored=restored)
 
 
-def _restoring(method: AnyTableau, missed: Missed, failing: Tree) -> Iterator[tuple[Repair, int]]:
+def _restoring(
+    method: AnyTableau, missed: MissedOrder, failing: Tree
+) -> Iterator[tuple[Repair, int]]:
     """Repairs with the orders that they give."""
     if not isinstance(method, Tableau):
         from garkcli.order.suspects import suspects  # slopes, which exact methods do without

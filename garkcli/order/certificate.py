@@ -23,7 +23,7 @@ from garkcli.exact.matrix import LinearMap, dot
 from garkcli.exact.span import Span
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
-from garkcli.order.recursion import Forest, Forests, Spans
+from garkcli.order.recursion import Forests, ForestVector, Spans
 from garkcli.order.tolerance import unnatural, within
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -151,12 +151,12 @@ class StageSpans(Spans):
 
     def __init__(self, tableau: Tableau) -> None:
         maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
-        super().__init__(tableau, (Forest(space.one) for space in tableau.spaces), maps)
+        super().__init__(tableau, (ForestVector(space.one) for space in tableau.spaces), maps)
         self.degree = tableau.degree
 
     def _joined(self, k: int, parts: Iterable[Forests]) -> Forests:
         span = Span(1 + self.tableau.spaces[k].stages * self.degree)
-        members: list[Forest] = []
+        members: list[ForestVector] = []
         for part in parts:
             rows = [(fmpq(x.exact), *flat(x.vector, self.degree)) for x in part]
             members += [part[i] for i in span.insert(rows)]

@@ -22,7 +22,7 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import StageSpans, Witness
-from garkcli.order.functionals import Functional, Undecided, first_failure
+from garkcli.order.functionals import Functional, TooManyTrees, first_failure
 from garkcli.order.meant import AnyTableau, printed, tolerance_of
 from garkcli.order.tolerance import NOT_FOUND, within
 from garkcli.tableau.embedded import DenseOutput, Weights
@@ -84,7 +84,7 @@ def dense_order(
     tolerance = tolerance_of(method)
     try:
         failure = first_failure(method, functionals, orders, spans)
-    except Undecided as found:
+    except TooManyTrees as found:
         why = f"order {found.order} is too much to decide"
         return DenseOrder(found.order - 1, None, why, tolerance)
     if failure is None:
@@ -215,7 +215,7 @@ def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
     largest = max(space.stages for space in tableau.spaces)
     try:
         failure = first_failure(method, [functional], range(1, 2 * largest + 1))
-    except Undecided:
+    except TooManyTrees:
         return None
     return None if failure is None else False
 

@@ -59,7 +59,7 @@ class FailedCondition(Frozen):
     witness: Witness
 
 
-class Undecided(Exception):
+class TooManyTrees(Exception):
     """An order has more trees than are examined one by one."""
 
     def __init__(self, order: int) -> None:
@@ -86,7 +86,7 @@ def first_failure(
     judges = [with_weights(method.near, functional.weights) for functional in functionals]
     for order in orders:
         if count_conditions(method.near, order) > MOST_TREES:
-            raise Undecided(order)
+            raise TooManyTrees(order)
         for number, (judge, functional) in enumerate(zip(judges, functionals, strict=True)):
             share = functional.share(order)
             tree = tree_missed(judge, order, share, method.grain)
@@ -190,6 +190,6 @@ def _leading(
     """The first order of trees at which the estimate does not vanish; None if undecided."""
     try:
         failure = first_failure(method, [difference], orders, spans)
-    except Undecided:
+    except TooManyTrees:
         return None
     return None if failure is None else failure.witness.tree.order

@@ -32,7 +32,7 @@ NEXT_TO_NOTHING = 0.1
 """Largest shift of the other numbers, as a part of the suspect's."""
 
 
-class Entry(Frozen):
+class EntryAddress(Frozen):
     """An entry of a method.
 
     ``letter`` is a, b, c, ``embedded`` or ``dense``. All indices count from 0: ``l`` and ``m`` are
@@ -60,8 +60,8 @@ class Nearness(Frozen):
     """
 
     distance: fmpq
-    entry: Entry | None
-    suspect: Entry | None
+    entry: EntryAddress | None
+    suspect: EntryAddress | None
     is_full: bool
     is_proved: bool
 
@@ -118,14 +118,14 @@ def far_alone(basis: Floats, shifts: Floats) -> int | None:
     return best if off > FAR and left[best] < NEXT_TO_NOTHING * off and is_alone else None
 
 
-def _entry_of(search: Recovery, k: int) -> Entry:
+def _entry_of(search: Recovery, k: int) -> EntryAddress:
     """The first entry that is a printed number itself, or else one that depends on it."""
     with ctx.workprec(search.bits):
         made = search.box.around(search.origin.shifts).made
     size = made.size // (1 + len(search.printed_further.rows))
-    found: list[tuple[int, Entry]] = []
+    found: list[tuple[int, EntryAddress]] = []
 
-    def look(entry: Entry, x: Any) -> None:
+    def look(entry: EntryAddress, x: Any) -> None:
         if isinstance(x, Affine) and x.slopes.get(k):
             found.append((len(x.slopes), entry))
 
@@ -133,23 +133,23 @@ def _entry_of(search: Recovery, k: int) -> Entry:
         l = next(l for l, colour in enumerate(made.colours) if colour.space == space)
         for i, row in enumerate(block):
             for j, x in enumerate(row):
-                look(Entry("a", l, m, i, j), x)
+                look(EntryAddress("a", l, m, i, j), x)
     for number, colour in enumerate(made.colours):
         which, l = divmod(number, size)
         for j, x in enumerate(colour.b):
             look(_weight(search, which, l, j), x)
     for l, colour in enumerate(made.colours[:size]):
         for j, x in enumerate(colour.c):
-            look(Entry("c", l, None, None, j), x)
+            look(EntryAddress("c", l, None, None, j), x)
     return min(found, key=lambda x: x[0])[1]
 
 
-def _weight(search: Recovery, row: int, l: int, j: int) -> Entry:
+def _weight(search: Recovery, row: int, l: int, j: int) -> EntryAddress:
     """The entry of b, or of a further row of weights."""
     if not row:
-        return Entry("b", l, None, None, j)
+        return EntryAddress("b", l, None, None, j)
     if search.printed_further.embedded is not None:
         if row == 1:
-            return Entry("embedded", l, None, None, j)
+            return EntryAddress("embedded", l, None, None, j)
         row -= 1
-    return Entry("dense", l, None, row - 1, j)
+    return EntryAddress("dense", l, None, row - 1, j)

@@ -19,7 +19,7 @@ from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, LinearMap
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import SEVERAL, Kind
+from garkcli.ntrees.kind import SEVERAL, VertexKind
 from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Edge, Tableau
 
@@ -104,7 +104,7 @@ class OrderByOrder(ABC, Generic[Value]):
         """The value of the forests of at least two branches."""
 
 
-class Forest(Frozen):
+class ForestVector(Frozen):
     """A forest, and its contribution to the stage vector of a tree.
 
     ``vector`` is the product of the branches' contributions times ``scale``, a common denominator,
@@ -117,14 +117,14 @@ class Forest(Frozen):
     scale: Any = ONE
     exact: int = 1
 
-    def required(self, kind: Kind, order: int) -> fmpq:
+    def required(self, kind: VertexKind, order: int) -> fmpq:
         """The required product of weights and vector, for trees of an order with a root of a kind:
         1/ρ if the vertex counts one order.
         """
         return fmpq(self.exact * kind.is_exact, kind.integrated(order))
 
 
-Forests: TypeAlias = Sequence[Forest]
+Forests: TypeAlias = Sequence[ForestVector]
 
 
 class Spans(OrderByOrder[Forests]):
@@ -136,7 +136,7 @@ class Spans(OrderByOrder[Forests]):
     def __init__(
         self,
         tableau: Tableau,
-        vertices: Iterable[Forest],
+        vertices: Iterable[ForestVector],
         maps: Mapping[Edge, LinearMap | EntrywiseMap],
         scale: Any = ONE,
     ) -> None:
@@ -144,7 +144,7 @@ class Spans(OrderByOrder[Forests]):
         self._maps = maps
         self._scale = scale
 
-    def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, Forest]]:
+    def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, ForestVector]]:
         """Returns forests that span those of all trees with conditions of an order, with their root
         colours.
 
@@ -159,7 +159,7 @@ class Spans(OrderByOrder[Forests]):
         factor = kind.integrated(order)
         images = self._maps[k, m].images([tuple(factor * y for y in x.vector) for x in trees])
         return [
-            Forest(
+            ForestVector(
                 image, (Tree(m, x.branches, kind),), self._scale * x.scale, x.exact * kind.is_exact
             )
             for image, x in zip(images, trees, strict=True)
@@ -181,7 +181,7 @@ class Spans(OrderByOrder[Forests]):
                     vector = self._product(k, branch.vector, rest.vector)
                     trees = (*branch.branches, *rest.branches)
                     exact = branch.exact * rest.exact
-                    batch.append(Forest(vector, trees, branch.scale * rest.scale, exact))
+                    batch.append(ForestVector(vector, trees, branch.scale * rest.scale, exact))
                 yield batch
 
     def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.design.stable_plane import End, Part, StablePlane, Strip
+from garkcli.design.stable_plane import End, StablePlane, Strip, StripPart
 from garkcli.errors import MethodError
 from garkcli.exact.cells import between
 from garkcli.exact.roots import RealRoot
@@ -22,7 +22,7 @@ from garkcli.sweep.report import SweepReport, kept, pareto_front
 from garkcli.sweep.row import Row
 
 if TYPE_CHECKING:
-    from garkcli.design.search.curve import Curve as Optima
+    from garkcli.design.search.curve import OptimaCurve as Optima
 
 FACTOR = 20.0
 """An axis is logarithmic if its largest number is more than this times the smallest."""
@@ -215,7 +215,7 @@ def _widened(numbers: Sequence[float]) -> list[float]:
     return [min(found) - 1, max(found) + 1]
 
 
-def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
+def _shape(strip: Strip, part: StripPart, x: Axis, y: Axis) -> Shape:
     """Returns a part over a strip: a region, or a line over a single value."""
     base = strip.base
     if base.is_point:

@@ -22,7 +22,7 @@ from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
     from garkcli.bridges.judging import Judged
-    from garkcli.bridges.subject import Subject
+    from garkcli.bridges.subject import TableSubject
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -50,7 +50,7 @@ def _is_doubtful(found: Audited) -> bool:
     return any(x.level != "note" for x in found.findings)
 
 
-def place_and_orders(found: Audited | Subject, d: Plain) -> str:
+def place_and_orders(found: Audited | TableSubject, d: Plain) -> str:
     """``a.py:3 rk4: order 4``."""
     words = [] if found.order is None else [f"order {_least(found.order)}"]
     if words and found.embedded_order is not None:
@@ -125,7 +125,7 @@ TABLE: Section[Audited] = Section(
     Row("findings_in_words", rows_of(rows), lambda x: x.findings, DETAIL),
     title=place_and_orders,
 )
-WRONG: Section[tuple[Audited | Subject, Sequence[Remark]]] = Section(
+WRONG: Section[tuple[Audited | TableSubject, Sequence[Remark]]] = Section(
     Row("findings_in_words", rows_of(rows), lambda x: x[1]),
     title=lambda x, d: place_and_orders(x[0], d),
 )

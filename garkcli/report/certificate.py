@@ -25,7 +25,7 @@ from garkcli.exact.traces import rational_text
 from garkcli.exact.traces import told as made_of
 from garkcli.frozen import replace
 from garkcli.ntrees.kind import FIELDS
-from garkcli.ntrees.kind import Kind as VertexKind
+from garkcli.ntrees.kind import VertexKind as VertexKind
 from garkcli.ntrees.notation import format_tree
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Order, Proof

@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder, DenseWitness
     from garkcli.order.functionals import Estimator
-    from garkcli.order.nearness import Entry, Nearness
+    from garkcli.order.nearness import EntryAddress, Nearness
     from garkcli.order.predictor import PredictorOrders, StageOrder
     from garkcli.order.repair import Repair
     from garkcli.order.simplifying import Simplifying
@@ -612,7 +612,7 @@ ROUNDING_HINT: Section[RoundingHint] = Section(
 
 
 class EntryPlace(NamedTuple):
-    entry: Entry
+    entry: EntryAddress
     tableau: Tableau
 
 
@@ -632,7 +632,7 @@ class PrintDistance(NamedTuple):
         """An entry that may be misprinted."""
         return self._placed(self.near.suspect)
 
-    def _placed(self, entry: Entry | None) -> EntryPlace | None:
+    def _placed(self, entry: EntryAddress | None) -> EntryPlace | None:
         return None if entry is None else EntryPlace(entry, self.analysis.tableau)
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from flint import arb, fmpq
 
 from garkcli.convergence.result import Convergence, curve
-from garkcli.convergence.result import Row as Step
+from garkcli.convergence.result import StepSizeRow as Step
 from garkcli.errors import Remark, counted
 from garkcli.frozen import Frozen
 from garkcli.page.figures import log10, order_text, scientific

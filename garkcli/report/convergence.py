@@ -16,7 +16,7 @@ from garkcli.convergence.result import (
     Verdict,
     curve,
 )
-from garkcli.convergence.result import Row as Step
+from garkcli.convergence.result import StepSizeRow as Step
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too

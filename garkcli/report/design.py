@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, get_args
 from garkcli.design.choices import Choice as Choices
 from garkcli.design.design import Design, estimates_nothing
 from garkcli.design.member import Whose
-from garkcli.design.minimise.objective import Level as LevelObjective
-from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
+from garkcli.design.minimise.objective import LevelObjective as LevelObjective
+from garkcli.design.minimise.result import Candidate, Extent, Minimum, ObjectiveLimit, Proof
 from garkcli.design.minimise.smallest import DECIMALS
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
 from garkcli.design.steps import (
+    AllValues,
     Decided,
-    EveryValue,
     Found,
     Many,
     NoValue,
@@ -103,13 +103,13 @@ class OrderDemand(NamedTuple):
         return conditions(self.design.family, nonzero)
 
     @property
-    def solutions(self) -> list[Solutions]:
+    def solutions(self) -> list[ShownSolution]:
         """Each real root of what was found, then the others as one."""
         found = []
         for x in self.step.found:
-            found += [Solutions(self.design, x, k) for k in range(len(x.solution.real))]
+            found += [ShownSolution(self.design, x, k) for k in range(len(x.solution.real))]
             if x.solution.degree > len(x.solution.real):
-                found.append(Solutions(self.design, x, None))
+                found.append(ShownSolution(self.design, x, None))
         return found
 
     @property
@@ -118,7 +118,7 @@ class OrderDemand(NamedTuple):
         return self.step.kind, self.step.known.is_real, self.zeros, self.conditions
 
 
-class Solutions(NamedTuple):
+class ShownSolution(NamedTuple):
     """A real solution, by its number among the roots of what was found, or those that are not
     real.
     """
@@ -233,7 +233,7 @@ def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
             yield f"{which}: {wish} cannot be met{how}"
         case Undecided():
             yield from map(d.prose, _undecided(design, step))
-        case EveryValue():
+        case AllValues():
             yield f"every value{where(found.conditions, d)}"
             yield from _real(found, d)
         case Decided():
@@ -273,7 +273,7 @@ def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:
     return said
 
 
-def _verdict(x: Solutions, d: Plain) -> str:
+def _verdict(x: ShownSolution, d: Plain) -> str:
     """Order, stability and further facts of a real solution."""
     design, found, index = x.design, x.found, x.number
     if found.order is None:
@@ -293,7 +293,7 @@ def _verdict(x: Solutions, d: Plain) -> str:
 TIMES = {1: "", 2: ", a double solution", 3: ", a triple solution"}
 
 
-def _solution(x: Solutions, d: Plain) -> str:
+def _solution(x: ShownSolution, d: Plain) -> str:
     times = x.found.solution.multiplicity
     often = TIMES.get(times, f", {times} times")
     if x.values is None:
@@ -395,7 +395,7 @@ def _of_single(design: Design, best: Step | None) -> str:
 
 def _briefly(step: Step) -> str:
     """``a family of dimension 2``; ``3 of 4 solutions``."""
-    if isinstance(step, EveryValue):
+    if isinstance(step, AllValues):
         return "every value"
     if isinstance(step, Variety):
         return f"a family of dimension {step.ideal.dimension}"
@@ -511,7 +511,7 @@ def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
     return f"{joined(_parameters(minimum, candidate), d)}: {'; '.join(said)}"
 
 
-def _toward(limit: Limit, d: Plain) -> str:
+def _toward(limit: ObjectiveLimit, d: Plain) -> str:
     toward, name = limit.toward, d.expression(limit.parameter)
     if toward.end is not None:
         return f"{name} {d.prose('→')} {number(toward.end, d)}"
@@ -547,7 +547,7 @@ END: Kind[RealRoot | str] = Kind(
 )
 
 
-def _accepted(x: Solutions) -> bool | None:
+def _accepted(x: ShownSolution) -> bool | None:
     """Whether a solution is as stable as wanted; None if nothing is wanted or decided."""
     if not x.design.family.stable:
         return None
@@ -583,7 +583,7 @@ FURTHER: Rows[Found] = (
     optional("dense_order", COUNT, _dense_order),
     optional("predictor_order", COUNT, _predictor_order),
 )
-REAL: Section[Solutions] = Section(
+REAL: Section[ShownSolution] = Section(
     Row("values", VALUES_OF, lambda x: x.values),
     Row("real", constant(value=True), lambda _: True),
     Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
@@ -593,13 +593,13 @@ REAL: Section[Solutions] = Section(
     via(lambda x: x.found, FURTHER[1:]),
     via(lambda x: x.found, OF_FOUND),
 )
-NOT_REAL: Section[Solutions] = Section(
+NOT_REAL: Section[ShownSolution] = Section(
     Row("values", NO_VALUES, lambda x: x.values),
     Row("real", constant(value=False), lambda _: False),
     Row("count", POSITION, lambda x: x.others),
     via(lambda x: x.found, OF_FOUND),
 )
-SOLUTION: Section[Solutions] = SectionChoice(
+SOLUTION: Section[ShownSolution] = SectionChoice(
     lambda x: NOT_REAL if x.number is None else REAL, REAL, NOT_REAL
 )
 CONDITIONS: Kind[Sequence[Reason]] = Kind(Json(S.array(S.TEXT), lambda xs, _: list(map(str, xs))))
@@ -650,7 +650,7 @@ def _gradient(minimum: Minimum) -> str | None:
     return polynomial_text(primitive, name)
 
 
-def _end(limit: Limit) -> RealRoot | str:
+def _end(limit: ObjectiveLimit) -> RealRoot | str:
     end = limit.toward.end
     return end if end is not None else "infinity" if limit.toward.is_right else "-infinity"
 
@@ -671,7 +671,7 @@ MINIMISER: Section[Minimiser] = Section(
     ),
     via(lambda x: x.candidate.found, FURTHER[1:]),
 )
-LIMIT: Section[Limit] = Section(
+LIMIT: Section[ObjectiveLimit] = Section(
     Row("parameter", TEXT, lambda x: x.parameter), Row("toward", END, _end)
 )
 OBJECTIVE: Section[Minimum] = Section(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import NamedTuple, get_args
 
 from garkcli.design.member import Whose
-from garkcli.design.search.curve import Curve, Knot
+from garkcli.design.search.curve import Knot, OptimaCurve
 from garkcli.design.search.search import Search
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -34,7 +34,7 @@ class CurveReport(NamedTuple):
 
     file: str
     search: Search
-    curve: Curve
+    curve: OptimaCurve
 
     @property
     def knots(self) -> list[tuple[Knot, CurveReport]]:

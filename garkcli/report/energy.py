@@ -11,7 +11,14 @@ from flint import fmpq
 from garkcli.errors import counted
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.frozen import Frozen, replace
-from garkcli.longtime.history import WORDS, Doubt, InvariantHistory, LongRun, Stability, Verdict
+from garkcli.longtime.history import (
+    WORDS,
+    Doubt,
+    InvariantHistory,
+    LongRun,
+    StepMapStability,
+    Verdict,
+)
 from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
@@ -169,7 +176,7 @@ def _times(history: InvariantHistory) -> str:
     return f"{digit:g}"
 
 
-def _determinant(stability: Stability) -> str:
+def _determinant(stability: StepMapStability) -> str:
     return to_decimal(stability.determinant - 1, 4)
 
 

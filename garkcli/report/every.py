@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from garkcli.check.every_facts import Fact, exceptions, fact_reason, zeros_reason
+from garkcli.check.every_facts import FamilyFact, exceptions, fact_reason, zeros_reason
 from garkcli.check.every_facts import told as told_value
 from garkcli.check.every_family import EveryFamily
 from garkcli.check.every_properties import find_property
@@ -72,7 +72,7 @@ FACT: S.Schema = kinds.record(
 FACT["required"] = FACT["required"][:-2]
 
 
-def fact_data(f: Fact, inner: Kind[V], d: Plain) -> dict[str, object]:
+def fact_data(f: FamilyFact, inner: Kind[V], d: Plain) -> dict[str, object]:
     """A value for almost all parameters, with exceptions and open cases."""
 
     def data(x: V | None) -> object:
@@ -93,10 +93,10 @@ def fact_data(f: Fact, inner: Kind[V], d: Plain) -> dict[str, object]:
     return {**found, "why": str(f.why)} if f.why else found
 
 
-def lifted(inner: Kind[V]) -> Kind[Fact]:
+def lifted(inner: Kind[V]) -> Kind[FamilyFact]:
     """The kind for families: a value with exceptions."""
 
-    def words(f: Fact, d: Plain) -> str:
+    def words(f: FamilyFact, d: Plain) -> str:
         from garkcli.tell.dialect import Plain
 
         plain, of_value = (
@@ -129,7 +129,7 @@ def _higher(o: EveryOrder, name: str) -> Reason:
         return Reason(f"; no value has order {higher}")
     special = tuple(x for x in o.fact.special if x[1] is not None)
     if special:
-        return exceptions(Fact(o.order, special), name, lambda x: f"order {x}")
+        return exceptions(FamilyFact(o.order, special), name, lambda x: f"order {x}")
     if o.fact.zeros:
         return Reason(f"; order {higher} or more where {{}}", zeros_reason(o.fact.zeros))
     return Reason(f"; no real value of the file has order {higher}")
@@ -156,7 +156,7 @@ BLOCK_LISTS: Kind[Sequence[tuple[int, int]]] = Kind(
 
 
 def of_blocks(name: str, kind: Kind[kinds.BlockTable]) -> Row[EveryValue]:
-    def get(e: EveryValue) -> Fact:
+    def get(e: EveryValue) -> FamilyFact:
         rows = (lambda x: [x]) if name == "B" else (lambda x: x)
         return e.simplifying(name).of(lambda x: kinds.BlockTable(rows(x), e.limit))
 
@@ -215,13 +215,13 @@ FAMILY: Rows[EveryValue] = [
 ]
 
 
-def verdicts(o: Outcome) -> dict[str, Fact] | None:
+def verdicts(o: Outcome) -> dict[str, FamilyFact] | None:
     if not o.wants_properties or o.every is None:
         return None
     return {key: o.every.verdict(key) for key in KEYS}
 
 
-VERDICTS: Kind[dict[str, Fact]] = Kind(
+VERDICTS: Kind[dict[str, FamilyFact]] = Kind(
     Json(
         {"type": "object", "properties": dict.fromkeys(KEYS, FACT), "additionalProperties": False},
         lambda found, d: {key: fact_data(x, ANY, d) for key, x in found.items()},
@@ -258,7 +258,7 @@ class EveryStability(Frozen):
     functions: tuple[FamilyFunction, ...]
 
     @property
-    def facts(self) -> dict[str, Fact]:
+    def facts(self) -> dict[str, FamilyFact]:
         return {key: find_property(self.family, key, LIMIT) for key in STABILITIES}
 
 

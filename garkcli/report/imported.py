@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from garkcli.bridges.collecting import Result
+from garkcli.bridges.collecting import TableResult
 from garkcli.bridges.judging import Judged
-from garkcli.bridges.subject import Subject
+from garkcli.bridges.subject import TableSubject
 from garkcli.errors import Remark, counted
 from garkcli.report.audited import MOST, WRONG
 from garkcli.report.remarks import OF_TABLE
@@ -24,14 +24,14 @@ ORDER: Kind[int] = Kind(COUNT.what, Words(lambda x, _: str(x), absent="no method
 class ImportedMethod(NamedTuple):
     """A result with the file that it was written to."""
 
-    result: Result
+    result: TableResult
     file: str | None
 
     @property
     def name(self) -> str:
         return self.result.table.name or self.result.stem
 
-    def order(self, get: Callable[[Subject], Judged | None]) -> Answer[int]:
+    def order(self, get: Callable[[TableSubject], Judged | None]) -> Answer[int]:
         """An order, as well as the digits of the method let it be known."""
         method = self.result.method
         found = None if method is None else get(method)
@@ -40,7 +40,7 @@ class ImportedMethod(NamedTuple):
         return Answer(found.order, Status(method.tolerance or None, found.is_limited))
 
 
-def all_found(results: Sequence[Result], files: Mapping[int, str]) -> list[ImportedMethod]:
+def all_found(results: Sequence[TableResult], files: Mapping[int, str]) -> list[ImportedMethod]:
     return [ImportedMethod(x, files.get(k)) for k, x in enumerate(results)]
 
 
@@ -48,7 +48,7 @@ def _notes(found: Sequence[ImportedMethod]) -> list[tuple[str, str]]:
     return [(x.name, note) for x in found for note in x.result.notes()]
 
 
-def _wrong(found: Sequence[ImportedMethod]) -> list[tuple[Subject, Sequence[Remark]]]:
+def _wrong(found: Sequence[ImportedMethod]) -> list[tuple[TableSubject, Sequence[Remark]]]:
     results = (x.result for x in found)
     return [(x.method, x.errors) for x in results if x.method is not None and x.errors]
 
@@ -102,6 +102,6 @@ REPORT: Report[Sequence[ImportedMethod]] = Report.only(
 )
 
 
-def yaml_text(results: Sequence[Result]) -> str:
+def yaml_text(results: Sequence[TableResult]) -> str:
     """The method files, parted as YAML parts documents."""
     return "---\n".join(x.method.text for x in results if x.method is not None)

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, get_args
 from flint import fmpq
 
 from garkcli.backward.energy import ModifiedEnergy, ModifiedRun, Verdict
-from garkcli.convergence.result import Row as Step
+from garkcli.convergence.result import StepSizeRow as Step
 from garkcli.frozen import Frozen
 from garkcli.page.figures import scientific
 from garkcli.report.convergence import STEP_SIZE

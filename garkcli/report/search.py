@@ -9,9 +9,9 @@ from typing import NamedTuple, get_args
 from flint import ctx
 
 from garkcli.design.member import Whose
-from garkcli.design.minimise.objective import Level as LevelObjective
-from garkcli.design.minimise.objective import Single, Sum
-from garkcli.design.search.run import Ending, Method, Result
+from garkcli.design.minimise.objective import LevelObjective as LevelObjective
+from garkcli.design.minimise.objective import Single, WeightedSum
+from garkcli.design.search.run import Ending, FoundMethod, SearchResult
 from garkcli.design.search.run import decimals as decimals_of
 from garkcli.design.search.search import Proof, Search
 from garkcli.errors import ExpressionError, counted
@@ -47,12 +47,12 @@ class SearchReport(NamedTuple):
 
     file: str
     search: Search
-    result: Result
+    result: SearchResult
     files: Sequence[str | None]
     start: str | None = None
 
     @property
-    def methods(self) -> list[tuple[Method, str | None]]:
+    def methods(self) -> list[tuple[FoundMethod, str | None]]:
         return list(zip(self.result.methods, self.files, strict=True))
 
 
@@ -76,7 +76,7 @@ def _found(x: SearchReport, d: Plain) -> str:
     )
 
 
-def _verdict(method: Method) -> str:
+def _verdict(method: FoundMethod) -> str:
     match method.proof:
         case "exact":
             return f"exact: order {method.order}, by the certificate"
@@ -99,7 +99,7 @@ def with_root(values: Mapping[str, str]) -> Mapping[str, str]:
     return {"r": root, **{name: x.replace(root, "r") for name, x in values.items()}}
 
 
-def _values(method: Method, d: Plain) -> Iterator[str]:
+def _values(method: FoundMethod, d: Plain) -> Iterator[str]:
     if not method.is_exact:
         for name, value in method.values.items():
             whole, _, decimals = value.partition(".")
@@ -137,9 +137,9 @@ def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-def _of(objective: Single | Sum) -> str:
+def _of(objective: Single | WeightedSum) -> str:
     """The name of an objective without its sign."""
-    return objective.key if isinstance(objective, Sum) else objective.key.removeprefix("-")
+    return objective.key if isinstance(objective, WeightedSum) else objective.key.removeprefix("-")
 
 
 def _objective_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
@@ -149,7 +149,7 @@ def _objective_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
     return [("objective", d.prose(objective.summary.format(next=report.search.order + 1)))]
 
 
-def _key(objective: Single | Sum | None) -> str | None:
+def _key(objective: Single | WeightedSum | None) -> str | None:
     return None if objective is None else objective.key
 
 
@@ -161,7 +161,7 @@ VALUES: S.Schema = {
     "description": "Exact numbers; decimals where the proof is not exact.",
     "additionalProperties": S.TEXT,
 }
-OF_METHOD: Rows[Method] = [
+OF_METHOD: Rows[FoundMethod] = [
     Row("proof", choice(*get_args(Proof)), lambda x: x.proof),
     Row("order", POSITION, lambda x: x.order),
     Row("residual", RESIDUAL, lambda x: x.residual),
@@ -169,7 +169,7 @@ OF_METHOD: Rows[Method] = [
     Row("values", Kind(Json(VALUES, lambda values, _: dict(values))), lambda x: x.values),
     maybe("objective", TEXT, lambda x: x.objective),
 ]
-METHOD: Section[tuple[Method, str | None]] = Section(
+METHOD: Section[tuple[FoundMethod, str | None]] = Section(
     maybe("file", TEXT, lambda x: x[1]), via(lambda x: x[0], OF_METHOD)
 )
 SECONDS: Kind[float] = Kind(

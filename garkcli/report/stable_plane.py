@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from flint import fmpq
 
-from garkcli.design.stable_plane import Branch, End, Part, StablePlane, Strip
+from garkcli.design.stable_plane import Branch, End, StablePlane, Strip, StripPart
 from garkcli.exact.cells import Interval
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial
@@ -16,7 +16,7 @@ from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.plots.curves import stable_plane_scene
-from garkcli.tableau.family import Stability
+from garkcli.tableau.family import RequiredStability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, via
 from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, record
@@ -69,7 +69,7 @@ def end_words(end: End, names: tuple[str, ...], d: Plain) -> str:
     )
 
 
-def _part_words(part: Part, names: tuple[str, ...], d: Plain) -> str:
+def _part_words(part: StripPart, names: tuple[str, ...], d: Plain) -> str:
     if part.start is not None and part.start == part.end:
         return f"{d.expression(names[1])} = {end_words(part.start, names, d)}"
     if part.start is None and part.end is None:
@@ -101,7 +101,7 @@ def strips(values: StablePlane, d: Plain) -> list[tuple[str, str]]:
 
 def _answer(values: StablePlane, d: Plain) -> str:
     names = " and ".join(map(d.expression, values.family.ring.names))
-    text = d.prose(Stability("a-stable", values.colour).in_words(values.family.tableau))
+    text = d.prose(RequiredStability("a-stable", values.colour).in_words(values.family.tableau))
     if not values.strips:
         found = "no value that is decided" if values.undecided else "no value"
         return f"the method is {text} for {found} of {names}"

@@ -12,7 +12,7 @@ from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, 
 from garkcli.sources.known import conversion
 from garkcli.sources.linear_stages import FORMS as ROSENBROCK
 from garkcli.sources.linear_stages import rosenbrock_table
-from garkcli.sources.registers import Converted, converted
+from garkcli.sources.registers import ConvertedScheme, converted
 from garkcli.sources.shaping import (
     ZERO,
     Texts,
@@ -373,7 +373,7 @@ def _with_ends(roles: Roles) -> Roles:
 _ENDS = ("first", "last")
 
 
-def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
+def _of_registers(meant: Meant, roles: Roles) -> tuple[str, ConvertedScheme] | None:
     """The form of low-storage and Shu–Osher coefficients, and the converted method; None for
     others.
     """

@@ -16,7 +16,7 @@ from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.known import CONSTANTS, CONVERSIONS, Call, conversion, in_words, result
+from garkcli.sources.known import CONSTANTS, CONVERSIONS, KnownCall, conversion, in_words, result
 from garkcli.sources.signatures import SIGNATURES, other_kind
 from garkcli.sources.values import (
     FILL,
@@ -25,7 +25,7 @@ from garkcli.sources.values import (
     Function,
     Null,
     Number,
-    Record,
+    SourceRecord,
     Type,
     Unknown,
     Value,
@@ -93,7 +93,7 @@ class Space(dict[str, Value]):
     def __init__(self, up: Space | None = None) -> None:
         super().__init__()
         self.up = up
-        self.calls: list[Record] = []
+        self.calls: list[SourceRecord] = []
         self.lines: dict[str, int] = {}
         self.returned: Value | None = None
 
@@ -116,7 +116,7 @@ class Space(dict[str, Value]):
 
 Place: TypeAlias = tuple[Any, Any]
 """A container of a value, and the name or index of the value in it."""
-Made = TypeVar("Made", Array, Record)
+Made = TypeVar("Made", Array, SourceRecord)
 
 
 class Evaluator:
@@ -138,7 +138,7 @@ class Evaluator:
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
         """Called before an array is assigned anew."""
 
-    def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
+    def refilled(self, scope: ir.Scope, record: SourceRecord, name: str) -> None:
         """Called before a field is assigned anew."""
 
     def __init__(
@@ -294,7 +294,7 @@ class Evaluator:
             self._owner = target.name.rpartition("::")[0] if isinstance(target, ir.Name) else ""
             value = self.value(statement.value, space)
             self._owner = ""
-        if isinstance(value, Record) and not value.key:
+        if isinstance(value, SourceRecord) and not value.key:
             # RK["Heun"] = …
             key = self.value(target.at[-1], space) if isinstance(target, ir.Index) else NULL
             name = target.name if isinstance(target, ir.Name) else ""
@@ -340,7 +340,7 @@ class Evaluator:
     def _shaped(self, value: Value | None, counts: Sequence[int | None], fill: Value) -> Value:
         if not counts:
             return fill if value is None else value
-        if isinstance(value, (Unknown, Record)):
+        if isinstance(value, (Unknown, SourceRecord)):
             return value
         items: list[Value] = []
         if value is not None:
@@ -382,7 +382,7 @@ class Evaluator:
             return [(space, name)]
         match target:
             case ir.Field(of=of, name=key) | ir.Index(of=of, at=(ir.Text(text=key),)):
-                record = self._changed(of, space, Record("", {}, (), self.line))
+                record = self._changed(of, space, SourceRecord("", {}, (), self.line))
                 return [] if record is None else [(record.fields, key)]
             case ir.Index(of=of, at=at):
                 array = self._changed(of, space, Array([], is_growing=True))
@@ -412,7 +412,7 @@ class Evaluator:
         if not is_free:
             return None
         inside[key] = made
-        if isinstance(made, Record) and self._scopes[-1].kind == "module":
+        if isinstance(made, SourceRecord) and self._scopes[-1].kind == "module":
             made.key = str(key)
         if inside is space:
             space.lines.setdefault(str(key), self.line)
@@ -429,8 +429,8 @@ class Evaluator:
                 if isinstance(target, ir.Index):
                     space.lines[key] = line
                 record = self.value(of, space) if isinstance(value, Array) else NULL
-                old = record.fields.get(key, NULL) if isinstance(record, Record) else value
-                if isinstance(record, Record) and shown(old) != shown(value):
+                old = record.fields.get(key, NULL) if isinstance(record, SourceRecord) else value
+                if isinstance(record, SourceRecord) and shown(old) != shown(value):
                     self.refilled(self._scopes[-1], record, key)
         if len(items) == len(places) > 0:
             for (inside, key), item in zip(places, items, strict=True):
@@ -519,9 +519,9 @@ class Evaluator:
                 line = line or self.line
                 fields = {name: self._kept(self.value(x, space)) for name, x in pairs}
                 for name, value in fields.items():
-                    if isinstance(value, Record):
+                    if isinstance(value, SourceRecord):
                         value.key = name
-                record = Record("", fields, (), line)
+                record = SourceRecord("", fields, (), line)
                 space.calls.append(record)
                 return record
             case ir.Transposed(of=of):
@@ -602,7 +602,7 @@ class Evaluator:
         if name := _plain_name(expr):
             return self._named(name, space)
         of = self.value(expr.of, space)
-        if isinstance(of, Record) and expr.name in of.fields:
+        if isinstance(of, SourceRecord) and expr.name in of.fields:
             return of.fields[expr.name]
         if isinstance(of, Array) and expr.name == "T":
             return transposed(of, self.line)
@@ -617,7 +617,7 @@ class Evaluator:
     def _entry(self, expr: ir.Index, space: Space) -> Value:
         of = self.value(expr.of, space)
         at = list(expr.at)
-        while at and isinstance(of, Record) and isinstance(at[0], ir.Text):
+        while at and isinstance(of, SourceRecord) and isinstance(at[0], ir.Text):
             key = at.pop(0)
             assert isinstance(key, ir.Text)
             of = of.fields.get(key.text, self.unknown(f"the key {key.text}"))
@@ -734,7 +734,7 @@ class Evaluator:
         if isinstance(callee, ir.Field) and plain in _OF_ARRAYS:
             owner = self.value(callee.of, space)
             args = [owner, *args] if isinstance(owner, Array) else args
-        built = result(Call(plain, call, named, self), args)
+        built = result(KnownCall(plain, call, named, self), args)
         if built is not None:
             return built
         has_none = target is None and not named and all(isinstance(x, Type) for x in args)
@@ -759,14 +759,14 @@ class Evaluator:
         are_halves = plain in SIGNATURES and SIGNATURES[plain].form == "halves"
         # another record in it is a table of its own
         separate: list[Value] = [
-            self.unknown(described(x)) if isinstance(x, Record) and not are_halves else x
+            self.unknown(described(x)) if isinstance(x, SourceRecord) and not are_halves else x
             for x in (*args, *named.values())
         ]
         fields = dict(zip(named, separate[len(args) :], strict=True))
         if not args and plain in SIGNATURES and SIGNATURES[plain].counts:
             # the known call takes its arguments by place, so the names of arguments decide
             plain = ""
-        record = Record(plain, fields, separate[: len(args)], line)
+        record = SourceRecord(plain, fields, separate[: len(args)], line)
         space.calls.append(record)
         return record
 
@@ -929,7 +929,7 @@ def shown(value: Value) -> object:
             return value.scalar.text
         case Array(items=items):
             return tuple(map(shown, items))
-        case Record(kind=kind, fields=fields):
+        case SourceRecord(kind=kind, fields=fields):
             return kind, tuple((name, shown(x)) for name, x in fields.items())
         case Word(text=text):
             return text

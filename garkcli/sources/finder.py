@@ -51,7 +51,7 @@ from garkcli.sources.values import (
     Array,
     Null,
     Number,
-    Record,
+    SourceRecord,
     Type,
     Unknown,
     Value,
@@ -197,16 +197,18 @@ class TableFinder(Harvester):
         written-out step, by the names of numbers.
         """
         super().ended(scope, space)
-        records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
+        records = [x.fields for x in space.values() if isinstance(x, SourceRecord) and not x.kind]
         packed = roles_of_kpp(space)
         packed = packed or next(filter(None, (roles_of_kpp(x, "") for x in records)), None)
         if packed is not None:
             self._of_kpp(packed, scope)
             return
         records_made = list(space.calls)
-        if isinstance(space.returned, Record) and space.returned not in records_made:
+        if isinstance(space.returned, SourceRecord) and space.returned not in records_made:
             records_made.append(space.returned)
-        records_made += [x for x in space.values() if isinstance(x, Record) and x.kind in _MADE]
+        records_made += [
+            x for x in space.values() if isinstance(x, SourceRecord) and x.kind in _MADE
+        ]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count, first = self._count(), len(self._meant)
@@ -302,7 +304,7 @@ class TableFinder(Harvester):
         self._of_names({x: copied(space[x]) for x in roles}, space.lines, scope, known)
         self._taken |= {(x, space.lines.get(x, 0)) for x in roles}
 
-    def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
+    def refilled(self, scope: ir.Scope, record: SourceRecord, name: str) -> None:
         """Makes a table of a structure before its matrix or weights are replaced."""
         super().refilled(scope, record, name)
         both = _matrix_and_weights(record)
@@ -318,13 +320,13 @@ class TableFinder(Harvester):
         """
         order = space.get("order", space.get("ORDER"))
         for record in space.values():
-            if isinstance(record, Record):
+            if isinstance(record, SourceRecord):
                 users = self._users.setdefault((record.kind, record.line), {})
                 users[scope.name] = order if isinstance(order, Number) else None
 
     # records and calls
 
-    def _of_record(self, record: Record, scope: ir.Scope) -> None:
+    def _of_record(self, record: SourceRecord, scope: ir.Scope) -> None:
         if len({x in self._refilled for x in _matrix_and_weights(record)}) > 1:
             self._unread(self._name(record, scope), self.line, ANEW)
             return
@@ -392,7 +394,7 @@ class TableFinder(Harvester):
         place = self._place(name, line, is_sure=is_sure)
         self._meant.append(Meant(place, roles, signature, record.kind or "record"))
 
-    def _name(self, record: Record, scope: ir.Scope) -> str:
+    def _name(self, record: SourceRecord, scope: ir.Scope) -> str:
         """The name of a table: a title, a constant, or the function that makes it."""
         signature = SIGNATURES.get(record.kind, NAMED)
         first = record.args[0] if record.args else None
@@ -432,7 +434,7 @@ class TableFinder(Harvester):
             self._meant.append(Meant(place, dict(block), maker="B"))
         if tableaus:
             return
-        records = [x for x in values.values() if isinstance(x, Record) and not x.kind]
+        records = [x for x in values.values() if isinstance(x, SourceRecord) and not x.kind]
         fields = _roles_of(records[0].fields, ROLES) if len(records) == 1 else {}
         is_table = "A" in fields or "b" in fields
         orders = {x: fields[x] for x in _ORDERS if x in fields and not is_table}
@@ -490,7 +492,9 @@ class TableFinder(Harvester):
                 if is_arm and role in {"c", "c1", "c2"} and not is_written(value):
                     continue
             else:
-                is_made = isinstance(value, Unknown) or (isinstance(value, Record) and value.kind)
+                is_made = isinstance(value, Unknown) or (
+                    isinstance(value, SourceRecord) and value.kind
+                )
                 is_array = is_made and not _OBJECT.match(described(value))
                 if stem_and_role is not None and stem_and_role[1] in BESIDE and is_array:
                     groups[stem_and_role[0] or owner].unread[stem_and_role[1]] = value
@@ -572,7 +576,7 @@ def _have_hats(roles: Roles) -> bool:
     return {"A", "b", "A1", "embedded"} <= set(roles)
 
 
-def _matrix_and_weights(record: Record) -> dict[int, Value]:
+def _matrix_and_weights(record: SourceRecord) -> dict[int, Value]:
     """A and b of a record by their identities, which distinguish them from others with equal
     numbers.
     """
@@ -620,9 +624,9 @@ def _with_grid(numbered: Roles) -> Roles:
     return roles
 
 
-def _halves_of(values: Sequence[Value]) -> Sequence[Record]:
+def _halves_of(values: Sequence[Value]) -> Sequence[SourceRecord]:
     """The two tables combined by a call; empty if it has other arguments."""
-    tables = [x for x in values if isinstance(x, Record)]
+    tables = [x for x in values if isinstance(x, SourceRecord)]
     return tables if len(tables) == len(values) == 2 else ()
 
 

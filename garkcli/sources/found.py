@@ -178,6 +178,7 @@ class FoundTable(Frozen):
 
     @property
     def is_multirate(self) -> bool:
+        """Whether it is a multirate infinitesimal method."""
         return self.coupling is not None or self.is_slow
 
     @property

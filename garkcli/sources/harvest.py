@@ -30,7 +30,7 @@ from garkcli.sources.values import (
     Array,
     Null,
     Number,
-    Record,
+    SourceRecord,
     Unknown,
     Value,
     items_of,
@@ -98,7 +98,7 @@ class Harvester(Evaluator):
         line = space.lines.get(name, scope.line)
         self._before[id(space)] += self.harvest.arrays(name, space[name], line)
 
-    def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
+    def refilled(self, scope: ir.Scope, record: SourceRecord, name: str) -> None:
         """Harvests a field before a new value replaces it."""
         del scope
         path = f"{record.key or record.kind}.{name}"
@@ -112,7 +112,7 @@ class Harvester(Evaluator):
         for record in space.calls:
             self.harvest.gather(record.key or record.kind, record, record.line, gathered)
         arrays = gathered.arrays
-        if isinstance(space.returned, Array | Record):
+        if isinstance(space.returned, Array | SourceRecord):
             arrays += self.harvest.arrays(scope.name, space.returned, scope.line)
         arrays += self._before.pop(id(space), []) + self._before.pop(0, [])
         for (owner, name), numbers in list(self._placed.items()):
@@ -181,7 +181,7 @@ class Harvest:
     def gather(self, name: str, value: Value, line: int, found: Gathered) -> None:
         """Adds the arrays, single numbers and orders of a value."""
         numbers: Mapping[str, Value] = {name: value}
-        if isinstance(value, Record):
+        if isinstance(value, SourceRecord):
             line = value.line or line
             numbers = {f"{name}.{key}": x for key, x in value.fields.items()}
         for key, x in numbers.items():
@@ -190,14 +190,14 @@ class Harvest:
                 n = whole(x)
                 if n is not None and 1 <= n <= MOST_ORDER and _ORDER.search(key):
                     found.orders.append((key.rpartition(".")[0], n))
-        if isinstance(value, Array | Record):
+        if isinstance(value, Array | SourceRecord):
             found.arrays += self.arrays(name, value, line)
 
     def arrays(self, name: str, value: Value | None, line: int, level: int = 0) -> Iterator[Given]:
         """The arrays of numbers in a value, at any depth."""
         if level > MOST_LEVELS:
             return
-        if isinstance(value, Record):
+        if isinstance(value, SourceRecord):
             line = value.line or line
             rows = [x for x in value.fields.values() if isinstance(x, Array)]
             if len(rows) == len(value.fields) > 1 and all(map(str.isdigit, value.fields)):
@@ -248,7 +248,7 @@ class Harvest:
                     yield Given(name, line, whole_rows, is_matrix=True)
                 return
         for i, x in enumerate(items):
-            if isinstance(x, Array | Record):
+            if isinstance(x, Array | SourceRecord):
                 yield from self.arrays(f"{name}.{i}", x, line, level + 1)
 
     def _row(self, items: Iterable[Value]) -> tuple[Entry, ...] | None:

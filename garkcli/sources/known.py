@@ -22,7 +22,7 @@ from garkcli.sources.values import (
     Array,
     Function,
     Number,
-    Record,
+    SourceRecord,
     Type,
     Unknown,
     Value,
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from garkcli.sources.evaluate import Evaluator
 
 
-class Call(Frozen):
+class KnownCall(Frozen):
     """A call of a known function with its evaluated arguments."""
 
     name: str
@@ -142,7 +142,7 @@ def _known(names: str) -> Callable[[Known], Known]:
     return declared
 
 
-def result(call: Call, args: list[Value]) -> Value | None:
+def result(call: KnownCall, args: list[Value]) -> Value | None:
     """The value of a call; None if no function is known for so many arguments."""
     function = CALLS.get(call.name)
     if function is None:
@@ -191,7 +191,7 @@ CONVERSIONS = frozenset(_TYPES.split())
 """Types, and functions that return their argument, a number, list or matrix."""
 
 
-def _vector(call: Call, values: Sequence[Value]) -> Value | None:
+def _vector(call: KnownCall, values: Sequence[Value]) -> Value | None:
     """``vector(n, x)`` of C++: n times x, or zero."""
     count = whole(values[0]) if 0 < len(values) < 3 else None
     if count is None or not 0 <= count <= MAX_STAGES**2:
@@ -221,7 +221,7 @@ _QUOTIENTS = frozenset(
 
 
 @_known(_TYPES)
-def _converted(call: Call, *args: Value) -> Value | None:
+def _converted(call: KnownCall, *args: Value) -> Value | None:
     values = [x for x in args if not isinstance(x, Type)]
     if any(x == ir.Name("undef") for x in call.expr.args):
         return _made(call, *args)
@@ -249,7 +249,7 @@ _ROOTS = {
 
 
 @_known(" ".join([*_ROOTS, "nthroot", "real_nthroot", "root", "Surd"]))
-def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
+def _root(call: KnownCall, value: Value, index: Value = NULL) -> Value | None:
     n = _ROOTS.get(call.name) or whole(index)
     if n is None:
         return call.unknown()
@@ -259,7 +259,7 @@ def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
 
 
 @_known("acos atan")
-def _angle(call: Call, value: Value) -> Value | None:
+def _angle(call: KnownCall, value: Value) -> Value | None:
     """π in programs: ``acos(-1)``, ``4*atan(1)``."""
     if call.name == "acos" and whole(value) == -1:
         return PI
@@ -268,7 +268,7 @@ def _angle(call: Call, value: Value) -> Value | None:
 
 
 @_known("cos sin Cos Sin dcos dsin")
-def _of_angle(call: Call, angle: Value) -> Value | None:
+def _of_angle(call: KnownCall, angle: Value) -> Value | None:
     """The cosine of a rational multiple of π, half of a root of an integer polynomial."""
     if not isinstance(angle, Number) or not (angle.is_zero or "pi" in angle.scalar.text):
         return call.unknown()
@@ -286,7 +286,7 @@ def _of_angle(call: Call, angle: Value) -> Value | None:
 
 
 @_known("constructor")
-def _constructed(call: Call, *sizes: Value) -> Value | None:
+def _constructed(call: KnownCall, *sizes: Value) -> Value | None:
     """An object constructed from sizes, ``Matrix A(2, 2)``, with entries assigned later; with a
     fraction it is that number, ``scalar x(0.5)``.
     """
@@ -297,14 +297,14 @@ def _constructed(call: Call, *sizes: Value) -> Value | None:
 
 
 @_known("inv")
-def _inverse(call: Call, value: Value) -> Value | None:
+def _inverse(call: KnownCall, value: Value) -> Value | None:
     if isinstance(value, Array):
         return call.unknown()
     return call.evaluator.combined("/", real(ONE), value)
 
 
 @_known("Root root_of")
-def _root_of(call: Call, polynomial: Value, which: Value) -> Value | None:
+def _root_of(call: KnownCall, polynomial: Value, which: Value) -> Value | None:
     """A root of a polynomial: by its number in Mathematica, otherwise by a decimal near it."""
     if not isinstance(polynomial, Number) or not isinstance(which, Number):
         return call.unknown()
@@ -326,7 +326,7 @@ def _sizes(values: Iterable[Value]) -> list[int]:
     return valid if len(valid) == len(counts) <= 2 else []
 
 
-def _filled(call: Call, fill: Value, args: Iterable[Value]) -> Value:
+def _filled(call: KnownCall, fill: Value, args: Iterable[Value]) -> Value:
     known = [x for x in args if not isinstance(x, Type | Word)]
     if len(known) > 1 and isinstance(known[0], Unknown):
         # zeros(T, 2, 2) with unknown T
@@ -348,12 +348,12 @@ _FILLS = {
 
 
 @_known(" ".join([*_FILLS, "empty", "similar"]))
-def _made(call: Call, *args: Value) -> Value | None:
+def _made(call: KnownCall, *args: Value) -> Value | None:
     return _filled(call, _FILLS.get(call.name, call.unknown("never assigned")), args)
 
 
 @_known("buildArray")
-def _built(call: Call, _: Value, count: Value, columns: Value = NULL) -> Value | None:
+def _built(call: KnownCall, _: Value, count: Value, columns: Value = NULL) -> Value | None:
     """``MathArrays.buildArray(field, n, m)``; rows with -1 entries come later."""
     if whole(columns) == -1:
         return _filled(call, NULL, [count])
@@ -361,17 +361,17 @@ def _built(call: Call, _: Value, count: Value, columns: Value = NULL) -> Value |
 
 
 @_known("fill")
-def _fill(call: Call, value: Value, *sizes: Value) -> Value | None:
+def _fill(call: KnownCall, value: Value, *sizes: Value) -> Value | None:
     return _filled(call, value, sizes) if sizes else None
 
 
 @_known("zero one")
-def _unit(call: Call, *_: Value) -> Value | None:
+def _unit(call: KnownCall, *_: Value) -> Value | None:
     return ZERO if call.name == "zero" else real(ONE)
 
 
 @_known("sum")
-def _sum(call: Call, values: Value, axis: Value = NULL) -> Value | None:
+def _sum(call: KnownCall, values: Value, axis: Value = NULL) -> Value | None:
     """The sum of a list; for a matrix the sums of its rows."""
     along = whole(call.named.get("axis", call.named.get("dims", axis)))
     if not isinstance(values, Array):
@@ -387,23 +387,23 @@ def _sum(call: Call, values: Value, axis: Value = NULL) -> Value | None:
 
 
 @_known("transpose permutedims adjoint")
-def _transposed(call: Call, value: Value, *_: Value) -> Value | None:
+def _transposed(call: KnownCall, value: Value, *_: Value) -> Value | None:
     return transposed(value, call.line)
 
 
 @_known("flatten ravel")
-def _flat(call: Call, value: Value, *_: Value) -> Value | None:
+def _flat(call: KnownCall, value: Value, *_: Value) -> Value | None:
     """The entries of an array by rows."""
     return call.array(value.flat()) if isinstance(value, Array) else None
 
 
 @_known("reversed reverse")
-def _turned(call: Call, value: Value) -> Value | None:
+def _turned(call: KnownCall, value: Value) -> Value | None:
     return call.array(value.items[::-1]) if isinstance(value, Array) else None
 
 
 @_known("tril triu")
-def _triangle(call: Call, value: Value, above: Value = ZERO) -> Value | None:
+def _triangle(call: KnownCall, value: Value, above: Value = ZERO) -> Value | None:
     """The part of a matrix on one side of its diagonal, or of the diagonal ``above`` above it."""
     off, is_lower = whole(above), call.name == "tril"
     if not isinstance(value, Array) or not value.is_matrix or off is None:
@@ -425,7 +425,7 @@ def _without_open(shape: Sequence[Value], count: int) -> Sequence[Value]:
 
 
 @_known("reshape")
-def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
+def _reshaped(call: KnownCall, value: Value, *shape: Value) -> Value | None:
     """The entries in another shape: by columns in Julia, MATLAB and Fortran, by rows in Python."""
     if not isinstance(value, Array):
         return value
@@ -457,7 +457,7 @@ def _of_square(shape: Sequence[Value], count: int) -> list[int]:
 
 
 @_known("from_row_slice from_column_slice from_vec")
-def _of_slice(call: Call, *rest: Value) -> Value | None:
+def _of_slice(call: KnownCall, *rest: Value) -> Value | None:
     """``DMatrix::from_row_slice(2, 2, …)``: a matrix from its entries by rows, or by columns."""
     if len(rest) > 1 and isinstance(rest[-1], Unknown):
         # its storage
@@ -471,7 +471,7 @@ def _of_slice(call: Call, *rest: Value) -> Value | None:
 
 
 @_known("vcat concatenate hstack vstack")
-def _stacked(call: Call, *parts: Value) -> Value | None:
+def _stacked(call: KnownCall, *parts: Value) -> Value | None:
     """Lists behind one another, matrices below one another."""
     if len(parts) == 1 and isinstance(parts[0], Array) and call.evaluator.base == 0:
         parts = tuple(parts[0].items)
@@ -484,7 +484,7 @@ def _stacked(call: Call, *parts: Value) -> Value | None:
 CALLS["list +"] = _stacked
 
 
-def _repeated(call: Call, values: Value, times: Value) -> Value | None:
+def _repeated(call: KnownCall, values: Value, times: Value) -> Value | None:
     """Copies of a list behind one another."""
     count = whole(times)
     if not isinstance(values, Array) or count is None or count > MAX_STAGES:
@@ -497,7 +497,7 @@ CALLS["list *"] = _repeated
 
 
 @_known("map")
-def _mapped(call: Call, function: Value, values: Value) -> Value | None:
+def _mapped(call: KnownCall, function: Value, values: Value) -> Value | None:
     is_argument = isinstance(function, Unknown) and function.reason.startswith("the argument")
     if isinstance(function, Function):
         return _each(call, function, values)
@@ -506,7 +506,7 @@ def _mapped(call: Call, function: Value, values: Value) -> Value | None:
     return conversion([values], call.line)
 
 
-def _each(call: Call, function: Value, values: Value) -> Value | None:
+def _each(call: KnownCall, function: Value, values: Value) -> Value | None:
     """``[f(x) for x in …]``."""
     if not isinstance(function, Function) or not isinstance(values, Array):
         return call.unknown()
@@ -518,7 +518,7 @@ CALLS["list of each"] = _each
 
 
 @_known("zip")
-def _zipped(call: Call, *lists: Value) -> Value | None:
+def _zipped(call: KnownCall, *lists: Value) -> Value | None:
     """Lists entry by entry, as long as the shortest one."""
     if not lists or not all(isinstance(x, Array) for x in lists):
         return call.unknown()
@@ -527,17 +527,17 @@ def _zipped(call: Call, *lists: Value) -> Value | None:
 
 
 @_known("power pow Power SUNRpowerR")
-def _power(call: Call, base: Value, exponent: Value) -> Value | None:
+def _power(call: KnownCall, base: Value, exponent: Value) -> Value | None:
     return call.evaluator.combined("^", base, exponent)
 
 
 @_known("PetscSqr SUNSQR")
-def _square(call: Call, value: Value) -> Value | None:
+def _square(call: KnownCall, value: Value) -> Value | None:
     return call.evaluator.combined("*", value, value)
 
 
 @_known("length len size")
-def _length(call: Call, value: Value = NULL, axis: Value = NULL) -> Value | None:
+def _length(call: KnownCall, value: Value = NULL, axis: Value = NULL) -> Value | None:
     """The number of entries of a list, or of rows of a matrix; of columns for ``size(A, 2)``."""
     if call.name == "size" and whole(axis) == 1 + call.evaluator.base:
         rows = items_of(value)
@@ -546,7 +546,7 @@ def _length(call: Call, value: Value = NULL, axis: Value = NULL) -> Value | None
 
 
 @_known("diag")
-def _diagonal(call: Call, value: Value, above: Value = ZERO) -> Value | None:
+def _diagonal(call: KnownCall, value: Value, above: Value = ZERO) -> Value | None:
     """A matrix with the entries of a list on its diagonal, or on the diagonal ``above`` above
     it.
     """
@@ -563,32 +563,34 @@ def _diagonal(call: Call, value: Value, above: Value = ZERO) -> Value | None:
 
 
 @_known("struct")
-def _record(call: Call, *args: Value) -> Value | None:
+def _record(call: KnownCall, *args: Value) -> Value | None:
     """``struct('A', …)``."""
     pairs = zip(args[::2], args[1::2], strict=False)
-    return Record("", {key.text: x for key, x in pairs if isinstance(key, Word)}, (), call.line)
+    return SourceRecord(
+        "", {key.text: x for key, x in pairs if isinstance(key, Word)}, (), call.line
+    )
 
 
 @_known("ARKodeButcherTable_Alloc ARKodeSPRKTable_Alloc")
-def _allocated(call: Call, count: Value = NULL, *_: Value) -> Value | None:
+def _allocated(call: KnownCall, count: Value = NULL, *_: Value) -> Value | None:
     """Arrays of zeros of SUNDIALS, ``ARKodeButcherTable_Alloc(stages, embedded)``."""
     n = whole(count)
     if n is None or not 0 < n <= MAX_STAGES:
         return call.unknown("the number of stages is not written out")
     if call.name == "ARKodeSPRKTable_Alloc":
         rows = {x: call.filled(FILL, n) for x in ("a", "ahat")}
-        return Record(call.name, {**rows, "q": FILL, "stages": integer(n)}, (), call.line)
+        return SourceRecord(call.name, {**rows, "q": FILL, "stages": integer(n)}, (), call.line)
     rows = {"A": call.filled(FILL, n, n)} | {x: call.filled(FILL, n) for x in "bcd"}
-    return Record(call.name, {**rows, "q": FILL, "p": FILL}, (), call.line)
+    return SourceRecord(call.name, {**rows, "q": FILL, "p": FILL}, (), call.line)
 
 
 @_known("ARKodeButcherTable_LoadERK ARKodeButcherTable_LoadDIRK")
-def _loaded(call: Call, _: Value) -> Value | None:
+def _loaded(call: KnownCall, _: Value) -> Value | None:
     """A built-in table of SUNDIALS, by its name."""
     name = call.expr.args[0]
     if not isinstance(name, ir.Name):
         return call.unknown()
-    return Record(LOADED, {"base": Word(name.name)}, (), call.line)
+    return SourceRecord(LOADED, {"base": Word(name.name)}, (), call.line)
 
 
 LOADED = "ARKodeButcherTable_Load"
@@ -597,7 +599,7 @@ SLOW = "the slow method of a coupling"
 
 
 @_known("MRIStepCoupling_Alloc")
-def _coupling(call: Call, powers: Value, stages: Value, _: Value) -> Value | None:
+def _coupling(call: KnownCall, powers: Value, stages: Value, _: Value) -> Value | None:
     """Matrices of zeros of SUNDIALS for each power of τ, with a row for the embedded value."""
     n, count, kind = whole(stages), whole(powers), call.expr.args[2]
     if n is None or count is None or not (0 < n <= MAX_STAGES and 0 < count <= MAX_STAGES):
@@ -609,16 +611,18 @@ def _coupling(call: Call, powers: Value, stages: Value, _: Value) -> Value | Non
     fields |= {"c": call.filled(FILL, n), "q": FILL, "p": FILL, "stages": integer(n)}
     if isinstance(kind, ir.Name):
         fields["type"] = Word(kind.name)
-    return Record(call.name, fields, (), call.line)
+    return SourceRecord(call.name, fields, (), call.line)
 
 
 @_known("MRIStepCoupling_MIStoMRI")
-def _of_slow(call: Call, slow: Value, order: Value, embedded: Value) -> Value | None:
+def _of_slow(call: KnownCall, slow: Value, order: Value, embedded: Value) -> Value | None:
     """The coupling of a slow method."""
-    if not isinstance(slow, Record) or not ({"A", "b"} <= set(slow.fields) or slow.kind == LOADED):
+    if not isinstance(slow, SourceRecord) or not (
+        {"A", "b"} <= set(slow.fields) or slow.kind == LOADED
+    ):
         return call.unknown()
     fields = {key: copied(x) for key, x in slow.fields.items()}
     slow.kind = SLOW
     orders = {"q": order, "p": embedded}
     fields |= {key: x for key, x in orders.items() if whole(x) is not None}
-    return Record(call.name, fields, (), call.line)
+    return SourceRecord(call.name, fields, (), call.line)

@@ -58,7 +58,7 @@ SCHEMES: Mapping[str, Callable[..., Steps]] = {
 Nested: TypeAlias = "str | Sequence[Nested]"
 
 
-class Converted(Frozen):
+class ConvertedScheme(Frozen):
     """Coefficients computed from printed ones.
 
     Attributes:
@@ -72,7 +72,7 @@ class Converted(Frozen):
     units: Units
 
 
-def converted(form: str, *printed: Nested) -> Converted:
+def converted(form: str, *printed: Nested) -> ConvertedScheme:
     """The matrix and the weights of a scheme.
 
     Args:
@@ -109,7 +109,7 @@ def converted(form: str, *printed: Nested) -> Converted:
             tuple(written(x, ball, off) for x, ball in zip(*row, strict=True))
             for row in zip((*exact.A, exact.b), (*rounded.A, rounded.b), strict=True)
         )
-    return Converted(tuple(A), b, tuple(off.items()))
+    return ConvertedScheme(tuple(A), b, tuple(off.items()))
 
 
 def _steps(form: str, rows: Sequence[Any]) -> Steps:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.values import ZERO, Array, Number, Record, Value, whole
+from garkcli.sources.values import ZERO, Array, Number, SourceRecord, Value, whole
 
 TINY = 1e-9
 """Rounding of weights leaves their sum this near to 1."""
@@ -24,7 +24,7 @@ def blocks_in(
     """The names and roles of block matrices in a value, also under the keys of a dictionary, and
     beside their order. A matrix under a number is named after ``title``.
     """
-    if isinstance(value, Record) and not value.kind:
+    if isinstance(value, SourceRecord) and not value.kind:
         for key, x in value.fields.items():
             yield from blocks_in(f"{title or name} {key}" if key.isdigit() else key, x)
     elif isinstance(value, Array) and value.is_matrix:

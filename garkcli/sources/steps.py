@@ -24,7 +24,7 @@ from garkcli.sources.values import (
     Array,
     Form,
     Number,
-    Record,
+    SourceRecord,
     Terms,
     Unknown,
     Value,
@@ -84,7 +84,7 @@ def step_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = Tr
         return _by_every_way(body, space, like)
     except NoStep as error:
         of_loops = list(_in_loops(body, space, like))
-        if len({shown(Record("", x)) for x in of_loops}) != 1:
+        if len({shown(SourceRecord("", x)) for x in of_loops}) != 1:
             raise NoStep(error.looks_like or bool(of_loops)) from None
         return of_loops[0]
 
@@ -140,7 +140,7 @@ def _by_every_way(
                 raise
             is_lost = True
         else:
-            by_content[shown(Record("", roles))] = roles
+            by_content[shown(SourceRecord("", roles))] = roles
     if is_lost or len(by_content) != 1:
         raise NoStep(looks_like=bool(by_content))
     return by_content.popitem()[1]
@@ -543,7 +543,7 @@ class Follower(Evaluator):
                 for x in slopes
             ]
             roles = self._of(separate, is_system=True)
-            by_content[shown(Record("", roles))] = roles
+            by_content[shown(SourceRecord("", roles))] = roles
         if len(by_content) != 1:
             raise NoStep
         return by_content.popitem()[1]

@@ -106,7 +106,7 @@ class Array(Mutable, eq=False):
         return Array(items, self.is_growing, self.fill)
 
 
-class Record(Mutable, eq=False):
+class SourceRecord(Mutable, eq=False):
     """Values by name: of a structure, of a dictionary; or a call with its arguments.
 
     Attributes:
@@ -156,7 +156,7 @@ class Form(Frozen, eq=False):
     terms: Terms
 
 
-Value: TypeAlias = Number | Unknown | Array | Record | Word | Null | Type | Function | Form
+Value: TypeAlias = Number | Unknown | Array | SourceRecord | Word | Null | Type | Function | Form
 Terms: TypeAlias = Mapping[tuple[str, ...], Value]
 NULL = Null()
 
@@ -318,7 +318,7 @@ def described(value: Value) -> str:
     match value:
         case Unknown(reason=reason):
             return reason
-        case Record(kind=kind) if kind:
+        case SourceRecord(kind=kind) if kind:
             return f"the call {kind}"
         case Array():
             return "an array"
@@ -402,7 +402,7 @@ def size(value: Value, level: int = 0) -> int:
         raise RecursionError
     if isinstance(value, Array):
         return 1 + sum(map(size, value.items, repeat(level + 1)))
-    if isinstance(value, Record):
+    if isinstance(value, SourceRecord):
         return 1 + sum(map(size, (*value.fields.values(), *value.args), repeat(level + 1)))
     if not isinstance(value, Number):
         return 1
@@ -417,7 +417,7 @@ def copied(value: Value) -> Value:
     """A copy with its own arrays and fields."""
     if isinstance(value, Array):
         return value.map(copied)
-    if isinstance(value, Record):
+    if isinstance(value, SourceRecord):
         fields = {name: copied(x) for name, x in value.fields.items()}
-        return Record(value.kind, fields, value.args, value.line, value.key)
+        return SourceRecord(value.kind, fields, value.args, value.line, value.key)
     return value

@@ -19,7 +19,15 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import Matrix, Vector, add, subtract
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import ERROR_OF_MATRIX, LEAF, MATRIX, NOT_ONE, ONE_BRANCH, PLAIN, Kind
+from garkcli.ntrees.kind import (
+    ERROR_OF_MATRIX,
+    LEAF,
+    MATRIX,
+    NOT_ONE,
+    ONE_BRANCH,
+    PLAIN,
+    VertexKind,
+)
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, StateLayout
@@ -30,7 +38,7 @@ Numbers: TypeAlias = "list[Any]"
 Fields: TypeAlias = "Callable[..., Numbers]"
 Taken: TypeAlias = Literal["exact", "old", "diagonal"]
 """The matrix that a step uses for the Jacobian."""
-_TAKEN: dict[tuple[Kind, ...], Taken] = {
+_TAKEN: dict[tuple[VertexKind, ...], Taken] = {
     (NOT_ONE, ONE_BRANCH): "exact",
     (NOT_ONE, ONE_BRANCH, ERROR_OF_MATRIX): "old",
     (PLAIN, MATRIX): "diagonal",

@@ -31,7 +31,7 @@ class Lines:
         self._indent = self._indent[:-1]
 
 
-class Sum(Frozen):
+class StageSum(Frozen):
     """A sum of w f in a stage: the w of each evaluation, and a text for each component, empty if
     zero.
     """
@@ -66,7 +66,7 @@ class StageWriter:
         self.values: dict[FieldEvaluation, list[str]] = {}
         self.stages: dict[Stage, list[str]] = {}
         self.number = {vertex: i for i, vertex in enumerate((*graph.sums, *graph.evaluations))}
-        self._known_sums: list[Sum] = []
+        self._known_sums: list[StageSum] = []
 
     def explicit(self, block: StageBlock) -> None:
         """Writes all vertices of ``block`` except its unknowns."""
@@ -106,7 +106,7 @@ class StageWriter:
 
     def total(
         self, stage: Stage | None, evaluations: Sequence[FieldEvaluation], group: Group
-    ) -> Sum:
+    ) -> StageSum:
         """The sum of w f over ``evaluations``, which drive ``group``; built on a known sum that has
         at least two of its terms, so each stage of a composition extends the one before.
         """
@@ -124,11 +124,11 @@ class StageWriter:
                 if evaluation not in base.terms and f != "0":
                     parts.append(f"{w}*{f}")
             texts.append(" + ".join(parts))
-        return Sum(terms, texts)
+        return StageSum(terms, texts)
 
-    def _largest_part(self, terms: dict[FieldEvaluation, str], size: int) -> Sum:
+    def _largest_part(self, terms: dict[FieldEvaluation, str], size: int) -> StageSum:
         """The known sum with the most of these terms and no others; empty if none has two."""
-        largest = Sum({}, [""] * size)
+        largest = StageSum({}, [""] * size)
         for known in self._known_sums:
             is_part = len(known.terms) > 1 and known.terms.items() <= terms.items()
             if is_part and len(known.terms) > len(largest.terms):

@@ -13,7 +13,7 @@ from garkcli.design.choices import values_text
 from garkcli.design.design import find_parameters
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, member
-from garkcli.design.search.run import Method, results
+from garkcli.design.search.run import FoundMethod, results
 from garkcli.design.solutions import solutions
 from garkcli.errors import GarkError, MethodError, MethodFileError, counted
 from garkcli.exact.field import Number
@@ -26,7 +26,7 @@ from garkcli.sweep.plan import Criteria, Point
 from garkcli.tableau.tableau import Tableau
 
 
-def first_find(point: Point) -> Method | None:
+def first_find(point: Point) -> FoundMethod | None:
     """Returns the first method that ``gark design --search`` finds from the seed of a point; None
     if it finds none.
     """
@@ -40,7 +40,7 @@ def first_find(point: Point) -> Method | None:
     return None
 
 
-def _drawn(point: Point, draw: Draw) -> Method:
+def _drawn(point: Point, draw: Draw) -> FoundMethod:
     """Returns a method for which the pair has the wanted order, with randomly drawn free
     parameters.
 
@@ -56,13 +56,13 @@ def _drawn(point: Point, draw: Draw) -> Method:
         for root in solution.real:
             if is_admissible(family, solution, root):
                 values = {name: solution.values[name] for name in family.parameters}
-                return Method(1, "exact", order, values_text(values, root), "0")
+                return FoundMethod(1, "exact", order, values_text(values, root), "0")
     message = f"no transfer is known whose symplectic pair has order {order}"
     cure = "take methods with positive weights whose symplectic pair has this order"
     raise MethodError(message, cure, code="not-found")
 
 
-def method_found(point: Point, method: Method) -> Tableau:
+def method_found(point: Point, method: FoundMethod) -> Tableau:
     """Returns an exact method as read from the text of its file."""
     claim = f"{'pair-' * point.template.is_drawn}order: {method.order}"
     return loads(with_values(_asked(point).family, method.values, "", claim), point.key).tableau

@@ -45,7 +45,7 @@ OSCILLATING = ("p-stable", "i-stable")
 """Kinds of stability for the harmonic oscillator."""
 
 
-class Stability(Frozen):
+class RequiredStability(Frozen):
     """A required kind of stability.
 
     Attributes:
@@ -109,7 +109,7 @@ class Family(Frozen, kw_only=True):
     positive: tuple[fmpq_mpoly, ...] = ()
     not_negative: tuple[fmpq_mpoly, ...] = ()
     order: int | None = None
-    stable: tuple[Stability, ...] = ()
+    stable: tuple[RequiredStability, ...] = ()
     claims_of_wanted: tuple[tuple[str, str], ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
@@ -124,7 +124,7 @@ class Family(Frozen, kw_only=True):
         """The family of the methods with the same steps on linear problems."""
         return replace(self, tableau=on_linear_problems(self.tableau))
 
-    def tested(self, wanted: Stability) -> Self:
+    def tested(self, wanted: RequiredStability) -> Self:
         """The family of the methods that a required stability is about, on linear problems."""
         embedded = self.further.embedded
         if not wanted.is_embedded or embedded is None:

@@ -12,7 +12,7 @@ from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import FIELDS, LINEAR, PLAIN, Kind
+from garkcli.ntrees.kind import FIELDS, LINEAR, PLAIN, VertexKind
 from garkcli.ntrees.tree import Tree
 from garkcli.tableau.stages import OF_OTHERS, Flow, Jets, PointSpace, StageSpace
 
@@ -43,7 +43,7 @@ class Colour(Frozen):
     c: Vector
     term: int = 0
     part: Part = "y"
-    kind: Kind = PLAIN
+    kind: VertexKind = PLAIN
     late: int | None = 0
 
     @property

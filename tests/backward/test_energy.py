@@ -16,7 +16,7 @@ from garkcli import hamiltonian, load, loads
 from garkcli.backward import energy
 from garkcli.backward.energy import ModifiedRun, modified_run
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm, modified_formula
-from garkcli.convergence.result import Row, slope_between
+from garkcli.convergence.result import StepSizeRow, slope_between
 from garkcli.errors import UsageProblem
 from garkcli.frozen import replace
 from garkcli.report.modified_energy import REPORT
@@ -134,11 +134,11 @@ def test_slopes_settle_above_rounding_alone() -> None:
     they show nothing.
     """
 
-    def table(errors: list[arb]) -> list[Row]:
-        rows: list[Row] = []
+    def table(errors: list[arb]) -> list[StepSizeRow]:
+        rows: list[StepSizeRow] = []
         for k, error in enumerate(errors):
             slope = slope_between(rows[-1] if rows else None, fmpq(1, 2**k), error)
-            rows.append(Row(fmpq(1, 2**k), error, slope, error, digits=30))
+            rows.append(StepSizeRow(fmpq(1, 2**k), error, slope, error, digits=30))
         return rows
 
     errors = [arb(2) ** (-4 * k) for k in range(energy.ROWS)]

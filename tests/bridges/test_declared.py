@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import garkcli
-from garkcli.bridges.collecting import Result, collected
+from garkcli.bridges.collecting import TableResult, collected
 from garkcli.check.check_file import check_method
 from garkcli.methodfile.load import loads
 from tests.bridges.test_audit import PLANTED, SOURCES
@@ -40,7 +40,7 @@ end
 """Ralston's method, and the 3/8 rule with a sign changed in its last row."""
 
 
-def verdict(found: Result) -> int:
+def verdict(found: TableResult) -> int:
     """What ``gark check`` makes of the file of a method: its exit code."""
     assert found.method is not None
     return check_method(loads(found.method.text)).exit_code

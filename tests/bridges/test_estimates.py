@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from garkcli.bridges.audit import audited
-from garkcli.bridges.collecting import Result, collected
+from garkcli.bridges.collecting import TableResult, collected
 from tests.cli.harness import gark
 
 SHAMPINE = """
@@ -22,7 +22,7 @@ LOW = ("7/24", "1/4", "1/3", "1/8")
 """The embedded weights that Bogacki and Shampine published."""
 
 
-def imported(text: str, tmp_path: Path) -> Result:
+def imported(text: str, tmp_path: Path) -> TableResult:
     """The only method of a source in Python."""
     path = tmp_path / "solver.py"
     path.write_text(text, encoding="utf-8")
@@ -30,7 +30,7 @@ def imported(text: str, tmp_path: Path) -> Result:
     return found
 
 
-def weights(found: Result) -> tuple[str, ...]:
+def weights(found: TableResult) -> tuple[str, ...]:
     """The embedded weights that were read."""
     assert found.method is not None
     (row,) = found.method.method.embedded or ()

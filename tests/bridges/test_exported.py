@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from garkcli.bridges.collecting import Result, collected
+from garkcli.bridges.collecting import TableResult, collected
 from garkcli.methodfile.load import load, loads
 from tests.cli.harness import ROOT, gark
 from tests.whole import IS_WHOLE
@@ -41,7 +41,7 @@ TEXTS = {
 }
 
 
-def back(path: Path) -> Result:
+def back(path: Path) -> TableResult:
     """The only method of a document."""
     [found] = collected([str(path)])
     return found

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from garkcli import loads
-from garkcli.bridges.collecting import Result, collected
+from garkcli.bridges.collecting import TableResult, collected
 from garkcli.bridges.importing import entry_text
 from garkcli.bridges.readers.registry import all_readers, find_tables, readers_for, suffixes
 from garkcli.bridges.sources import source_files
@@ -55,7 +55,7 @@ FOUND = {
 
 
 @pytest.fixture(scope="module")
-def results() -> dict[tuple[str, int], Result]:
+def results() -> dict[tuple[str, int], TableResult]:
     """What is found in the folder of sources, by file and line."""
     found = {}
     for result in collected(source_files([str(SOURCES)])):
@@ -65,7 +65,7 @@ def results() -> dict[tuple[str, int], Result]:
 
 
 @in_whole
-def test_every_table_is_found(results: dict[tuple[str, int], Result]) -> None:
+def test_every_table_is_found(results: dict[tuple[str, int], TableResult]) -> None:
     """Each at its line with its name, its orders as the certificate has them; nothing else is
     taken for a table: neither a linear system nor a table of words.
     """
@@ -138,7 +138,9 @@ SAME = {
 
 
 @pytest.mark.parametrize("place", SAME, ids=lambda x: f"{x[0]}:{x[1]}")
-def test_numbers_are_exact(results: dict[tuple[str, int], Result], place: tuple[str, int]) -> None:
+def test_numbers_are_exact(
+    results: dict[tuple[str, int], TableResult], place: tuple[str, int]
+) -> None:
     """Fractions, products of constants and roots are what they are, in every language."""
     found = results[place].method
     assert found is not None
@@ -148,7 +150,7 @@ def test_numbers_are_exact(results: dict[tuple[str, int], Result], place: tuple[
     assert str(found.method.c) == str(wanted.c)
 
 
-def test_a_method_that_is_first_same_as_last(results: dict[tuple[str, int], Result]) -> None:
+def test_a_method_that_is_first_same_as_last(results: dict[tuple[str, int], TableResult]) -> None:
     """SciPy leaves out the last stage, whose weight is the last one of E: it is there again."""
     found = results["solvers.py", 9].method
     assert found is not None

@@ -11,7 +11,7 @@ from flint import fmpq
 
 from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
-from garkcli.check.every_facts import Fact, fact_reason
+from garkcli.check.every_facts import FamilyFact, fact_reason
 from garkcli.check.every_family import every_family
 from garkcli.check.every_properties import COMPARING, SIGNS, STABLE, find_property
 from garkcli.check.every_value import EveryValue, every_value
@@ -59,7 +59,7 @@ def holds_in(intervals: tuple[Interval, ...], root: RealRoot) -> bool:
     return False
 
 
-def at(fact: Fact, root: RealRoot) -> object:
+def at(fact: FamilyFact, root: RealRoot) -> object:
     """What a fact says of one value of the parameter."""
     if fact.where is not None:
         return holds_in(fact.where, root)

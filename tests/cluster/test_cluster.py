@@ -14,7 +14,7 @@ import pytest
 from garkcli import loads_family
 from garkcli.crew.cluster import Cluster, _done
 from garkcli.crew.work import WorkerLost
-from garkcli.design.search.run import Result, results
+from garkcli.design.search.run import SearchResult, results
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.search_file import FileSearch
 from garkcli.sweep.file import load_plan
@@ -80,7 +80,7 @@ def test_a_sweep_that_loses_a_worker(cluster: Any, tmp_path: Path) -> None:
     assert searched == [4] * 4
 
 
-def told(result: Result) -> tuple[object, ...]:
+def told(result: SearchResult) -> tuple[object, ...]:
     """A result without its time."""
     counts = result.starts, result.successes, result.degenerate
     return (*counts, result.methods)

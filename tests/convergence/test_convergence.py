@@ -10,7 +10,7 @@ import pytest
 from flint import arb, fmpq
 
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.result import Row, observed_order
+from garkcli.convergence.result import StepSizeRow, observed_order
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
@@ -209,7 +209,7 @@ def test_observed_order_of_a_known_expansion(ratio: fmpq) -> None:
     less so.
     """
     h = [fmpq(1, 10) * ratio**k for k in range(4)]
-    rows = [Row(x, arb(x**3 * (1 + x - 2 * x * x)), None, arb(0)) for x in h]
+    rows = [StepSizeRow(x, arb(x**3 * (1 + x - 2 * x * x)), None, arb(0)) for x in h]
     assert observed_order(rows) == pytest.approx(3, abs=2e-3)
     plain = observed_order(rows[-2:])
     assert plain is not None

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from garkcli.convergence.convergence import converge
 from garkcli.convergence.ladder import MAX_ROWS, ROWS, halvings, is_complete, plateau, trimmed
-from garkcli.convergence.result import Row, observed_order
+from garkcli.convergence.result import StepSizeRow, observed_order
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
 from garkcli.problems.builtin import hamiltonian
@@ -22,16 +22,16 @@ from garkcli.tableau.forms import gark
 from tests.stepping.test_step import RECTANGULAR
 
 
-def rows_of(error: Callable[[float], float], count: int) -> list[Row]:
+def rows_of(error: Callable[[float], float], count: int) -> list[StepSizeRow]:
     """Rows with h = 1, 1/2, …"""
-    made: list[Row] = []
+    made: list[StepSizeRow] = []
     for k in range(count):
         slope = None if k == 0 else log2(error(2.0 ** (1 - k)) / error(2.0**-k))
-        made.append(Row(fmpq(1, 2**k), arb(error(2.0**-k)), slope, arb(0)))
+        made.append(StepSizeRow(fmpq(1, 2**k), arb(error(2.0**-k)), slope, arb(0)))
     return made
 
 
-def ladder_of(error: Callable[[float], float]) -> list[Row]:
+def ladder_of(error: Callable[[float], float]) -> list[StepSizeRow]:
     """The ladder that errors like these make, from a solution of size 1."""
     for count in range(1, 40):
         rows = rows_of(error, count)
@@ -74,9 +74,10 @@ def test_plateau_is_small() -> None:
     is none.
     """
 
-    def rows(*slopes: float) -> list[Row]:
+    def rows(*slopes: float) -> list[StepSizeRow]:
         return [
-            Row(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0)) for k, s in enumerate(slopes)
+            StepSizeRow(fmpq(1, 2**k), arb(1) / 100 ** min(k, 4), s, arb(0))
+            for k, s in enumerate(slopes)
         ]
 
     rounding = arb(1) / 10**9

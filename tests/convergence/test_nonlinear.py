@@ -10,7 +10,7 @@ import pytest
 from flint import arb, fmpq
 
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.result import Convergence, Row, Visible
+from garkcli.convergence.result import Convergence, StepSizeRow, Visible
 from garkcli.convergence.stepped_solver import SteppedSolver
 from garkcli.errors import UsageProblem
 from garkcli.families.registry import diagonal_method
@@ -162,7 +162,7 @@ def test_failing_step_ends_with_1() -> None:
 
 def made(observed: float | None, is_sharp: bool = False, **changes: Any) -> Convergence:
     """What would be observed with this order, where 4 is to be seen."""
-    row = Row(fmpq(1), arb(1), None, arb(0))
+    row = StepSizeRow(fmpq(1), arb(1), None, arb(0))
     visible = Visible(4, is_sharp, "")
     problem = hamiltonian("pendulum", 2)
     result = Convergence(problem, fmpq(1), (row, row), 0, observed, 4, visible)
@@ -185,7 +185,7 @@ def made(observed: float | None, is_sharp: bool = False, **changes: Any) -> Conv
         (made(9.0, short_order=4.0, are_given=True), "disagree"),
         (made(3.5, has_settled=False), "undecided"),
         (made(None), "undecided"),
-        (made(None, rows=(Row(fmpq(1), arb(0), None, arb(0)),)), "undecided"),
+        (made(None, rows=(StepSizeRow(fmpq(1), arb(0), None, arb(0)),)), "undecided"),
     ],
 )
 def test_verdict(result: Convergence, verdict: str) -> None:

@@ -19,11 +19,17 @@ from garkcli import find_parameters, load, loads, loads_family, minimise, search
 from garkcli.design.design import stable_sets
 from garkcli.design.member import further_member, member
 from garkcli.design.minimise.measures import MEASURES
-from garkcli.design.minimise.objective import Level, Measure, Objective, Subject, Sum
+from garkcli.design.minimise.objective import (
+    LevelObjective,
+    Objective,
+    ObjectiveSubject,
+    SearchMeasure,
+    WeightedSum,
+)
 from garkcli.design.minimise.sector import rest_of_cosine
 from garkcli.design.minimise.sums import objective_of
 from garkcli.design.search.goals import meant
-from garkcli.design.search.optimum import Program
+from garkcli.design.search.optimum import Optimisation
 from garkcli.design.search.search import Search
 from garkcli.design.search.tasks import HIGHEST, Least, Missing
 from garkcli.design.stable_values import stable_values
@@ -49,7 +55,7 @@ SDIRK = "unknown: {stages: 3, shape: [sdirk, stiffly-accurate]}\ndesign: {order:
 ROSENBROCK = "unknown: {stages: 3, shape: rosenbrock}\ndesign: {order: 2}"
 
 
-def program(text: str, objective: str) -> tuple[Search, Program]:
+def program(text: str, objective: str) -> tuple[Search, Optimisation]:
     """The search of a family, and its minimisation."""
     family = loads_family(text)
     assert family.order is not None
@@ -84,7 +90,7 @@ design: {order: 2, embedded-order: 1}
 
 @pytest.mark.parametrize("text", [PAIR, IMPLICIT_PAIR, IMEX_PAIR])
 @pytest.mark.parametrize("measure", MEASURES, ids=lambda x: x.key)
-def test_measures_in_floats_are_the_exact_ones(text: str, measure: Measure) -> None:
+def test_measures_in_floats_are_the_exact_ones(text: str, measure: SearchMeasure) -> None:
     """In floats by trees, exactly by spans and conditions; gradients by differences."""
     if measure.key.endswith("infinity") and text != IMPLICIT_PAIR:
         with pytest.raises(UsageProblem, match="R\\(∞\\) is"):
@@ -96,7 +102,7 @@ def test_measures_in_floats_are_the_exact_ones(text: str, measure: Measure) -> N
         values = dict(zip(ring.names, point, strict=True))
         further = further_member(family.further, ring, values)
         tableau = member(search.tableau, ring, values)
-        exact = measure.squared(Subject.of(family, tableau, search.order, further))
+        exact = measure.squared(ObjectiveSubject.of(family, tableau, search.order, further))
         x = floats(point)
         assert made.total.value(x) ** 2 == pytest.approx(int(exact.p) / int(exact.q), rel=1e-9)
         task = Least(made.total, x)
@@ -146,7 +152,7 @@ def test_smooth_objectives_are_the_exact_ones(text: str, objective: str) -> None
     for point in points(search, 3):
         values = dict(zip(search.family.ring.names, point, strict=True))
         tableau = member(search.tableau, search.family.ring, values)
-        quotient = exact.formula(Subject(tableau, search.order), None)
+        quotient = exact.formula(ObjectiveSubject(tableau, search.order), None)
         wanted = quotient.numerator / quotient.denominator
         value, gradient = goal.at(floats(point))
         assert value == pytest.approx(int(wanted.p) / int(wanted.q), rel=1e-10)
@@ -193,7 +199,7 @@ def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
     search, made = program(text, objective)
     exact = meant(objective, search.tableau)
     [(_, goal)] = made.total.levels
-    assert isinstance(exact, Level)
+    assert isinstance(exact, LevelObjective)
     names = search.family.ring.names
     point = {"-ssp": SSP33_POINT, "-sector": SDIRK_POINT}.get(objective, [fmpq(1, 2)])
     values = dict(zip(names, point, strict=True))
@@ -347,11 +353,11 @@ def test_sums_are_their_terms() -> None:
     for name, weight in {"error": 1, "largest": 0.01, "-ssp": -0.02}.items():
         one = objective_of(name)
         if isinstance(one, Objective):
-            quotient = one.formula(Subject(tableau, 2), None)
+            quotient = one.formula(ObjectiveSubject(tableau, 2), None)
             total += weight * float(quotient.numerator / quotient.denominator)
-        elif isinstance(one, Measure):
-            total += weight * float(one.squared(Subject(tableau, 2))) ** 0.5
-        elif isinstance(one, Level):
+        elif isinstance(one, SearchMeasure):
+            total += weight * float(one.squared(ObjectiveSubject(tableau, 2))) ** 0.5
+        elif isinstance(one, LevelObjective):
             total += weight * float(one.value(tableau).ball(64))  # type: ignore[union-attr]
     assert float(both.objective) == pytest.approx(total, rel=1e-10)
 
@@ -392,7 +398,7 @@ def test_sums_that_are_none_are_refused(text: str, says: str) -> None:
 def test_sums_are_read_as_people_write_them() -> None:
     """Hyphens within names are no signs; numbers may be on either side."""
     found = objective_of("error-coupling/2 + 3*(largest + 2*D) - 1/10*imaginary-interval")
-    assert isinstance(found, Sum)
+    assert isinstance(found, WeightedSum)
     assert {x.key: str(w) for w, x in found.terms} == {
         "error-coupling": "1/2",
         "largest": "3",
@@ -504,7 +510,7 @@ def test_levels_may_be_wanted(key: str, bound: str) -> None:
     """The best method has the level, exactly; the least error without it has not."""
     text = "unknown: {stages: 4, shape: explicit}\ndesign: {order: 3"
     level = meant(f"-{key}", loads_family(f"{text}}}").tableau)
-    assert isinstance(level, Level)
+    assert isinstance(level, LevelObjective)
 
     def size(wanted: str, objective: str) -> float:
         family = loads_family(f"{text}{wanted}}}")

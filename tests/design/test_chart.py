@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from garkcli.design.search.chart import Chart, OutsideError
-from garkcli.design.search.descent import Look, Task, descended
+from garkcli.design.search.descent import Look, OptimiserTask, descended
 
 
 def sphere(x: Any) -> tuple[Any, Any]:
@@ -37,7 +37,7 @@ def test_a_chart_ends() -> None:
         chart.at(np.array([2.0, 0.0]))
 
 
-class Highest(Task):
+class Highest(OptimiserTask):
     """The point of the sphere farthest above x_3 = −1, with x_1 at least 1/2; a level, or not."""
 
     def __init__(self, has_level: bool) -> None:

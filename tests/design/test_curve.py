@@ -13,7 +13,7 @@ import pytest
 
 from garkcli import find_parameters, loads_family, minimise
 from garkcli.crew.work import Alone
-from garkcli.design.search.curve import Curve, along, front
+from garkcli.design.search.curve import OptimaCurve, along, front
 from garkcli.design.search.run import do
 from garkcli.design.search.search import Search
 from garkcli.errors import UsageProblem
@@ -27,10 +27,10 @@ design: {order: 2, range: {gamma: [1/10, 1/2]}}
 """
 
 
-def last(steps: Any) -> Curve:
+def last(steps: Any) -> OptimaCurve:
     """The finished curve."""
     *_, curve = steps
-    assert isinstance(curve, Curve)
+    assert isinstance(curve, OptimaCurve)
     return curve
 
 

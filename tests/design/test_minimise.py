@@ -23,7 +23,7 @@ from garkcli.design.member import Whose, member
 from garkcli.design.minimise import smallest
 from garkcli.design.minimise.climbing import climbed
 from garkcli.design.minimise.minimise import minimise
-from garkcli.design.minimise.objective import Level
+from garkcli.design.minimise.objective import LevelObjective
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Candidate, Minimum
 from garkcli.design.minimise.smallest import (
@@ -526,7 +526,7 @@ def test_critical_numbers_of_a_large_degree(allowed: str, is_reached: bool) -> N
     best = least(SEVENTH.replace("[-3, 1/4]", allowed), "-real-interval", 1)
     method = "A: [[0, 0], [1/4, 0]]\nb: [1/2, 1/2]\n"
     there = OBJECTIVES["-real-interval"]
-    assert isinstance(there, Level)
+    assert isinstance(there, LevelObjective)
     eight = RealRoot.rational(fmpq(8))
     assert there.value(loads(method).tableau) == eight
     assert best.extent == "all"
@@ -548,7 +548,7 @@ def test_signs_of_intervals_are_those_of_steps(objective: str, direction: comple
     text = "parameters: {g: free}\nA: [[g, 0], [1/3, 2*g - 1]]\nb: [1/4, 3/4]\n"
     family = loads_family(text)
     level = OBJECTIVES[f"{objective}-interval"]
-    assert isinstance(level, Level)
+    assert isinstance(level, LevelObjective)
     (sign,) = level.signs(family.tableau, family.ring).polynomials
     for g in (fmpq(1, 5), fmpq(2, 3), fmpq(-1, 2), fmpq(3)):
         A = np.array([[float(g), 0], [1 / 3, 2 * float(g) - 1]])
@@ -586,7 +586,7 @@ def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
     best = least(text, objective, 1)
     assert best.extent == "all"
     level = OBJECTIVES[objective]
-    assert isinstance(level, Level)
+    assert isinstance(level, LevelObjective)
     family = loads_family(text)
 
     def at(a: fmpq) -> float:
@@ -619,7 +619,7 @@ def test_a_level_of_a_large_degree() -> None:
     exact = fmpq(mantissa) * fmpq(2) ** int(exponent)
     family = loads_family(text)
     level = OBJECTIVES["-imaginary-interval"]
-    assert isinstance(level, Level)
+    assert isinstance(level, LevelObjective)
     sides = []
     for shift in (fmpq(-1, 10**12), fmpq(1, 10**12)):
         found = level.shown(level.value(member(family.tableau, family.ring, {"a": exact + shift})))

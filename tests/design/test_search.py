@@ -22,7 +22,7 @@ from garkcli.design.search.nearest import nearest_member
 from garkcli.design.search.points import Fixings, is_proved, polished, rank
 from garkcli.design.search.recognise import minimal_polynomial, rational, recognised
 from garkcli.design.search.residuals import Generators, Residuals
-from garkcli.design.search.run import Method, Result, Solution, decimals, results
+from garkcli.design.search.run import FoundMethod, SearchResult, SolutionTask, decimals, results
 from garkcli.design.search.search import BITS, Search
 from garkcli.design.search.snap import values_near
 from garkcli.errors import NotDecided
@@ -79,7 +79,7 @@ def system_of(family: FamilyFile, order: int) -> Residuals:
     return Residuals(family.tableau, family.ring, order, relations)
 
 
-def finished(search: Search, starts: int, seed: int = 0, most: int = 5) -> Result:
+def finished(search: Search, starts: int, seed: int = 0, most: int = 5) -> SearchResult:
     """The result of a whole search."""
     return list(results(search, starts, seed, most))[-1]
 
@@ -567,7 +567,7 @@ def test_an_end_in_the_middle_keeps_what_is_found(
     calls: list[int] = []
 
     def until(self: Alone[Any, Any], tasks: Any) -> Any:
-        if isinstance(tasks[0], Solution):
+        if isinstance(tasks[0], SolutionTask):
             calls.append(1)
             if len(calls) > 1:
                 raise end
@@ -606,19 +606,19 @@ def test_the_file_is_of_what_is_proved_most(
     """Of a numerical find and an exact one after it --emit writes the exact one."""
     path, made = tmp_path / "family.yaml", tmp_path / "made.gark.yaml"
     path.write_text(SDIRK2, encoding="utf-8")
-    work: Callable[..., Any] = Solution.result
+    work: Callable[..., Any] = SolutionTask.result
     first: list[object] = []
 
-    def weaker(self: Solution, search: Search) -> object:
+    def weaker(self: SolutionTask, search: Search) -> object:
         found = work(self, search)
-        assert isinstance(found, Method)
+        assert isinstance(found, FoundMethod)
         if first:
             return found
         first.append(found)
         digits = {"g": "0.7886751345948128822545743902509787278238"}
         return replace(found, proof="numerical", values=digits, residual="1e-246")
 
-    monkeypatch.setattr(Solution, "result", weaker)
+    monkeypatch.setattr(SolutionTask, "result", weaker)
     arguments = ["--order", "3", "--search", "9", "--emit", str(made)]
     run = gark("design", str(path), *arguments)
     assert run.out.index("numerical: residuals") < run.out.index("exact: order 3")

@@ -28,7 +28,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
 from garkcli.stability.oscillator import usual_oscillator
-from garkcli.tableau.family import Family, Stability
+from garkcli.tableau.family import Family, RequiredStability
 from garkcli.tableau.forms import pair, spelled_out
 from tests.cli.harness import gark
 from tests.whole import in_whole, sample
@@ -39,7 +39,7 @@ ANY = '"?"'
 def p_stable(methods: str, transfer: str = ANY) -> Family:
     """A family of which P-stability is wanted."""
     family = loads_family(f"methods: [{methods}]\ntransfer: {transfer}")
-    return replace(family, stable=(Stability("p-stable"),))
+    return replace(family, stable=(RequiredStability("p-stable"),))
 
 
 def last(family: Family, order: int) -> Step:
@@ -274,7 +274,7 @@ def test_few_terms_that_are_much_work() -> None:
         - [5/18 + p3/9, 4/9 - 2/3*p1 + p2/3 + 4/9*p3, -2/9 + 2/3*p1 + 2/3*p2 + 4/9*p3]
       - [[1/18, 2/9, 2/9], [1/18, 2/9, 2/9], [1/18, 2/9, 2/9]]
     """
-    family = replace(loads_family(given), stable=(Stability("p-stable"),))
+    family = replace(loads_family(given), stable=(RequiredStability("p-stable"),))
     found = find_parameters(family, 1, "pair", seconds=60).last.known.of_stable
     assert found is not None
     ideal = found.ideal

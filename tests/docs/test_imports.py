@@ -1,4 +1,6 @@
-"""The graph of imports of the package, those inside functions included, has no circle."""
+"""The graph of imports of the package, those inside functions included, has no circle; class names
+mean one thing.
+"""
 
 from __future__ import annotations
 
@@ -100,3 +102,29 @@ def test_no_room_hides_a_public_name() -> None:
     """A room that has been imported is an attribute of the package: only the catalogue is both."""
     rooms = {name.partition(".")[2] for name in module_files()}
     assert rooms & set(garkcli.__all__) == {"catalogue"}
+
+
+GIVE_MEANING = {"garkcli.cli.options", "garkcli.sources.ir"}
+"""Modules whose classes are named with the module, ``opt.Kind`` and ``ir.Call``."""
+
+
+def test_a_class_name_means_one_thing() -> None:
+    """Each is used once in the package, except in modules that are imported as modules."""
+    trees = {
+        name: ast.parse(path.read_text(encoding="utf-8")) for name, path in module_files().items()
+    }
+    homes: dict[str, list[str]] = {}
+    for name, tree in trees.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ClassDef) and name not in GIVE_MEANING:
+                homes.setdefault(node.name, []).append(name)
+    assert len(homes) > 500
+    assert {name: modules for name, modules in homes.items() if len(modules) > 1} == {}
+    named_alone = {
+        (node.module, alias.name)
+        for tree in trees.values()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.module in GIVE_MEANING
+        for alias in node.names
+    }
+    assert [f"{module}: {name}" for module, name in named_alone if name in homes] == []

@@ -12,7 +12,7 @@ import pytest
 from garkcli.errors import TreeError
 from garkcli.ntrees.blocks import blocks_of
 from garkcli.ntrees.count import Admissible, counts_of, counts_upto
-from garkcli.ntrees.kind import LEAF, LINEAR, PLAIN, Kind
+from garkcli.ntrees.kind import LEAF, LINEAR, PLAIN, VertexKind
 from garkcli.ntrees.listing import FEW, listed, trees_of
 from garkcli.ntrees.notation import format_tree
 from garkcli.ntrees.table import TreeTable
@@ -22,15 +22,17 @@ from tests.whole import at_most, in_whole
 ARITIES = [
     frozenset(some) for some in chain.from_iterable(combinations((0, 1, 2), n) for n in (1, 2, 3))
 ]
-NOT_ONE, ONE = Kind(frozenset({0, 2})), Kind(frozenset({1}))
+NOT_ONE, ONE = VertexKind(frozenset({0, 2})), VertexKind(frozenset({1}))
 CASES = {
     "rosenbrock": Admissible(2, ((0, 1), (0, 1)), (NOT_ONE, ONE)),
-    "W": Admissible(2, ((0, 1), (0, 1)), (PLAIN, Kind(frozenset({1}), is_exact=False))),
-    "two orders": Admissible(2, ((0, 1), (1,)), (PLAIN, Kind(weight=2))),
-    "leaf": Admissible(3, ((0, 1, 2), (0,), ()), (Kind(frozenset({2, 0})), LINEAR, LEAF)),
+    "W": Admissible(2, ((0, 1), (0, 1)), (PLAIN, VertexKind(frozenset({1}), is_exact=False))),
+    "two orders": Admissible(2, ((0, 1), (1,)), (PLAIN, VertexKind(weight=2))),
+    "leaf": Admissible(3, ((0, 1, 2), (0,), ()), (VertexKind(frozenset({2, 0})), LINEAR, LEAF)),
     **{
         f"{sorted(arity)}, {weight}": Admissible(
-            2, ((0, 1), (0, 1)), (Kind(arity, weight), Kind(frozenset({0, 1}), 3 - weight))
+            2,
+            ((0, 1), (0, 1)),
+            (VertexKind(arity, weight), VertexKind(frozenset({0, 1}), 3 - weight)),
         )
         for arity in ARITIES
         for weight in (1, 2)
@@ -120,21 +122,21 @@ def test_density_of_vertices_that_count_twice() -> None:
     """γ of a tall tree of vertices that count two orders is n!, as of twice as many that count one:
     the solution of ÿ = y.
     """
-    tall = Tree(0, (), Kind(weight=2))
+    tall = Tree(0, (), VertexKind(weight=2))
     for n in range(2, 6):
-        tall = Tree(0, (tall,), Kind(weight=2))
+        tall = Tree(0, (tall,), VertexKind(weight=2))
         assert (tall.order, tall.density) == (2 * n, prod(range(1, 2 * n + 1)))
 
 
 def test_vertices_that_count_nothing_have_no_list() -> None:
     """Trees with them would have no end."""
     with pytest.raises(TreeError, match="no end"):
-        Admissible(1, ((0,),), (Kind(weight=0),))
+        Admissible(1, ((0,),), (VertexKind(weight=0),))
 
 
 def test_table_in_python_integers_with_bare_stems() -> None:
     """Beyond order 20 the columns hold Python integers; γ of the tall tree is exact."""
-    admissible = Admissible(2, ((1,), (0, 1)), (Kind(frozenset({0})), ONE))
+    admissible = Admissible(2, ((1,), (0, 1)), (VertexKind(frozenset({0})), ONE))
     table = TreeTable.of(admissible, 24)
     assert counts_upto(admissible, 24)[-1] == (0, 1)
     (last,) = table.ids(24)

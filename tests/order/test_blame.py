@@ -10,7 +10,7 @@ from flint import fmpq
 from garkcli import Tableau, conjugate, find_order, load, loads
 from garkcli.check.check_file import check_file
 from garkcli.frozen import replace
-from garkcli.order.blame import Missed, blame_of
+from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.repair import Repair
 from garkcli.order.tolerance import within
 from tests.whole import in_whole
@@ -26,7 +26,7 @@ def example(name: str) -> Tableau:
 def test_misprinted_collocation_example() -> None:
     """The paper's misprinted block A^{1,2} is named; no single entry repairs four wrong ones."""
     tableau = load(str(ROOT / "tests/examples/failing/collocation-misprinted.gark.yaml")).tableau
-    blame = blame_of(tableau, Missed(3, 4))
+    blame = blame_of(tableau, MissedOrder(3, 4))
     assert blame is not None
     assert blame.culprit == (0, 1)
     assert blame.in_every == ((0, 1),)
@@ -48,7 +48,7 @@ def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
     true = block[i][j]
     block[i][j] = true + fmpq(1, 7)
     wrong = replace(tableau, blocks={**tableau.blocks, key: tuple(map(tuple, block))})
-    blame = blame_of(wrong, Missed(find_order(wrong).order + 1, 4))
+    blame = blame_of(wrong, MissedOrder(find_order(wrong).order + 1, 4))
     assert blame is not None
     assert blame.culprit == key
     assert Repair(*key, i, j, true + fmpq(1, 7), true) in blame.repairs
@@ -62,7 +62,7 @@ def test_single_wrong_weight() -> None:
     tableau = example("collocation-conjugate")
     b = tableau.colours[1].b
     colours = (tableau.colours[0], replace(tableau.colours[1], b=(b[0], fmpq(3, 5), b[2])))
-    blame = blame_of(replace(tableau, colours=colours), Missed(1, 4))
+    blame = blame_of(replace(tableau, colours=colours), MissedOrder(1, 4))
     assert blame is not None
     assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [(1, None, 1, fmpq(2, 3))]
 
@@ -82,7 +82,7 @@ b: [1/6, 0, 2/3, 1/6, 0]
 """
     wrong = loads(text).tableau
     assert find_order(wrong).order == 3
-    blame = blame_of(wrong, Missed(4, 4))
+    blame = blame_of(wrong, MissedOrder(4, 4))
     assert blame is not None
     assert Repair(0, 0, 4, 1, fmpq(1, 3), fmpq(1, 6)) in blame.repairs
 
@@ -92,7 +92,7 @@ def test_right_method_has_no_repair_for_more() -> None:
     have.
     """
     tableau = example("rectangular")
-    blame = blame_of(tableau, Missed(5, 6))
+    blame = blame_of(tableau, MissedOrder(5, 6))
     assert blame is not None
     assert blame.repairs == ()
 
@@ -100,7 +100,7 @@ def test_right_method_has_no_repair_for_more() -> None:
 def test_too_many_conditions() -> None:
     """Beyond the limit nothing is listed and nothing is claimed."""
     tableau = example("gauss6-lobatto7")
-    assert blame_of(conjugate(tableau), Missed(13, 14)) is None
+    assert blame_of(conjugate(tableau), MissedOrder(13, 14)) is None
 
 
 PRINTED = """

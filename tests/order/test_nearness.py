@@ -14,7 +14,7 @@ from garkcli.exact.affine import Affine, Forms
 from garkcli.methodfile.load import load, loads
 from garkcli.order.existence import has_zero, is_proved_to_exist
 from garkcli.order.meant import as_meant
-from garkcli.order.nearness import Entry, Nearness, far_alone
+from garkcli.order.nearness import EntryAddress, Nearness, far_alone
 from garkcli.order.rounded import RoundedTableau
 from tests.cli.harness import gark
 from tests.whole import in_whole, sample
@@ -47,7 +47,7 @@ def test_one_entry_is_far_off() -> None:
     """
     found = nearness_of(OFF)
     assert found.distance == fmpq(7, 10)
-    assert found.entry == found.suspect == Entry("b", 0, None, None, 2)
+    assert found.entry == found.suspect == EntryAddress("b", 0, None, None, 2)
     assert nearness_of(TWO_OFF).suspect is None
     assert nearness_of(THREE_EIGHTHS.replace("{b3}", "0.375")).suspect is None
 
@@ -67,7 +67,7 @@ b: [0.166666666667, 0.333333333333, 0.333333333333, 0.166666666667]
   weights: [[1, -1.5, {third}], [0, 1, -{third}], [0, 1, -{third}], [0, -0.5, 0.6666666673667]]
 """
         found = nearness_of(text)
-        assert found.entry == Entry("dense", 0, None, 2, 3)
+        assert found.entry == EntryAddress("dense", 0, None, 2, 3)
         assert found.distance == fmpq(7, 10)
 
 

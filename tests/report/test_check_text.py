@@ -10,7 +10,7 @@ from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
-from garkcli.order.blame import Missed, blame_of
+from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.constants import error_constants
 from garkcli.page.lines import aligned
 from garkcli.page.look import Look
@@ -193,7 +193,7 @@ def test_hints_and_constants_of_one_colour() -> None:
     """
     method = loads(ONE_ENTRY)
     analysis = analyse(method.tableau)
-    blame = blame_of(method.tableau, Missed(2, 2))
+    blame = blame_of(method.tableau, MissedOrder(2, 2))
     assert blame is not None
     hint = str(blame_text(blame, ["1"]))
     assert hint.startswith("the one condition of order 2 fails; ")

@@ -13,7 +13,7 @@ import pytest
 from flint import arb, fmpq
 
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.result import Convergence, Cost, Row, curve
+from garkcli.convergence.result import Convergence, Cost, StepSizeRow, curve
 from garkcli.errors import Remark
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
@@ -193,7 +193,7 @@ def test_csv_has_every_column() -> None:
 def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> ConvergedMethod:
     """A method with these errors and costs."""
     rows = tuple(
-        Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
+        StepSizeRow(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
         for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
     return ConvergedMethod(

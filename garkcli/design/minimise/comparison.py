@@ -14,11 +14,11 @@ from garkcli.design.design import Design, further_of, order_of
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import further_member, is_admissible, is_as_stable, member, not_negative
 from garkcli.design.minimise.climbing import GRID, Point, climbed
-from garkcli.design.minimise.line import Conditions, Within
-from garkcli.design.minimise.objective import Level, Objective, Size, Subject
-from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
+from garkcli.design.minimise.line import Constraints, Within
+from garkcli.design.minimise.objective import LevelObjective, Objective, ObjectiveSubject, Size
+from garkcli.design.minimise.result import Candidate, Extent, Minimum, ObjectiveLimit, Proof
 from garkcli.design.pairs import least_error
-from garkcli.design.parts import Chart, Part, charts, points_of
+from garkcli.design.parts import Part, RationalChart, charts, points_of
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import is_on, stable_part
 from garkcli.design.steps import Decided, Found, Solutions
@@ -33,7 +33,7 @@ from garkcli.frozen import Mutable, field, replace
 from garkcli.tableau.tableau import Tableau
 
 
-class Comparison(Mutable):
+class Minimisation(Mutable):
     """Collects the values to compare.
 
     Attributes:
@@ -51,10 +51,10 @@ class Comparison(Mutable):
 
     design: Design
     step: Decided
-    objective: Objective | Level
+    objective: Objective | LevelObjective
     extent: Extent = "all"
     candidates: list[Candidate] = field(default_factory=list)
-    limits: list[Limit] = field(default_factory=list)
+    limits: list[ObjectiveLimit] = field(default_factory=list)
     gradients: list[tuple[str, Polynomial]] = field(default_factory=list)
     parts: list[Part] = field(default_factory=list)
     share: float | None = None
@@ -200,19 +200,19 @@ class Comparison(Mutable):
         value = self.value_of(solution, index)
         self.candidates.append(Candidate(value, method, index, is_constant, proof))
 
-    def subject(self, values: Mapping[str, Any]) -> Subject:
+    def subject(self, values: Mapping[str, Any]) -> ObjectiveSubject:
         """The methods with values for the unknowns, which may be coordinates of a part."""
         family = self.design.family
         further = further_member(family.further, family.ring, values)
         tableau = member(self.design.tableau, family.ring, values)
-        return Subject.of(family, tableau, self.step.order, further)
+        return ObjectiveSubject.of(family, tableau, self.step.order, further)
 
     def tableau(self, part: Part) -> Tableau:
         """The tableau in the coordinates of a part."""
         values = cast("Mapping[str, Number]", part.values)
         return member(self.design.tableau, self.design.family.ring, values)
 
-    def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[Chart, Point] | None:
+    def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[RationalChart, Point] | None:
         """A good method of a part by trial, with its chart and free coordinates; None if none is
         found.
 
@@ -228,10 +228,10 @@ class Comparison(Mutable):
         all_charts = charts(part)
         if not all_charts or len(all_charts[0].names) > max(GRID):
             raise NotDecided
-        best: tuple[Any, Chart, Point] | None = None
+        best: tuple[Any, RationalChart, Point] | None = None
         for chart in all_charts:
 
-            def ranked(point: Point, chart: Chart = chart) -> Any:
+            def ranked(point: Point, chart: RationalChart = chart) -> Any:
                 solution = self.at_point(part, chart, point)
                 if solution is None:
                     return None
@@ -242,7 +242,7 @@ class Comparison(Mutable):
                 best = ranked(point), chart, point
         return None if best is None else best[1:]
 
-    def at_point(self, part: Part, chart: Chart, point: Point) -> Solution | None:
+    def at_point(self, part: Part, chart: RationalChart, point: Point) -> Solution | None:
         """A method by its free coordinates; None if there is none in the comparison."""
         solution = chart.point(part, point)
         if solution is None or not self.takes(solution, solution.real[chart.index], part):
@@ -259,7 +259,7 @@ class Comparison(Mutable):
             for polynomial in ends_of(intervals):
                 yield fraction(polynomial(x), part.ring)[0]
 
-    def conditions(self, part: Part) -> Conditions:
+    def conditions(self, part: Part) -> Constraints:
         """The conditions on the one coordinate of a part."""
         family = self.design.family
 
@@ -267,7 +267,7 @@ class Comparison(Mutable):
             expressed = (part.expressed(p, family.ring) for p in polynomials)
             return [in_one(sign_polynomial(x, part.ring)) for x in expressed]
 
-        return Conditions(
+        return Constraints(
             [in_one(p) for p in part.nonzero],
             signs(family.positive),
             signs(not_negative(family)),

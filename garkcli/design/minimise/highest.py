@@ -20,15 +20,15 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.member import member, method_at
-from garkcli.design.minimise.comparison import Comparison
-from garkcli.design.minimise.line import Conditions, Toward
-from garkcli.design.minimise.objective import ORIGIN, Level, Signs, Size
-from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
+from garkcli.design.minimise.comparison import Minimisation
+from garkcli.design.minimise.line import Constraints, Toward
+from garkcli.design.minimise.objective import ORIGIN, LevelObjective, LevelSigns, Size
+from garkcli.design.minimise.result import Candidate, Extent, ObjectiveLimit, Proof
 from garkcli.design.parts import Part, at_root
 from garkcli.design.solutions import Solution
 from garkcli.design.steps import Found
 from garkcli.exact.cells import Point, between, roots_of, sign_of
-from garkcli.exact.fibre import Fibre, Root
+from garkcli.exact.fibre import Fibre, FibreRoot
 from garkcli.exact.field import ZERO
 from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial, in_one
@@ -40,7 +40,7 @@ TRIALS = 16
 """Numbers below the greatest level tried to show that another level is smaller."""
 MOST_DEGREE = 6
 """Largest degree of a greatest level that is checked a second time."""
-_Level: TypeAlias = "RealRoot | Root | None"
+_Level: TypeAlias = "RealRoot | FibreRoot | None"
 """A level; on a fibre it is known to any number of digits."""
 
 
@@ -78,7 +78,7 @@ def height(level: Size) -> tuple[bool, RealRoot]:
     return level is None, ORIGIN if level is None else level
 
 
-def on_levels(level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> Levels:
+def on_levels(level: Callable[[fmpq], Size], signs: LevelSigns, allowed: Constraints) -> Levels:
     """The greatest level.
 
     Args:
@@ -102,7 +102,9 @@ def on_levels(level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) 
 class _Line:
     """The t-axis with its critical points."""
 
-    def __init__(self, level: Callable[[fmpq], Size], signs: Signs, allowed: Conditions) -> None:
+    def __init__(
+        self, level: Callable[[fmpq], Size], signs: LevelSigns, allowed: Constraints
+    ) -> None:
         self.level = level
         self.signs = signs
         self.allowed = allowed
@@ -207,9 +209,9 @@ class _Line:
         if below > len(meeting):
             return None
         limit = meeting[below - 1]
-        return limit.exact if isinstance(limit, Root) else limit
+        return limit.exact if isinstance(limit, FibreRoot) else limit
 
-    def _meeting(self, end: RealRoot | None) -> tuple[Sequence[RealRoot | Root], list[fmpq]]:
+    def _meeting(self, end: RealRoot | None) -> tuple[Sequence[RealRoot | FibreRoot], list[fmpq]]:
         """The points where curves meet the line at an end, and a number before, between and behind
         these.
         """
@@ -229,7 +231,7 @@ def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[Hi
     exact: list[Size] = []
     most: Size = ORIGIN
     for _, level in attained:
-        if isinstance(level, Root):
+        if isinstance(level, FibreRoot):
             # first digits show that most are smaller
             is_less = most is None or level.ball(FIRST_BITS) < most.ball(FIRST_BITS)
             level = ORIGIN if is_less else level.exact
@@ -273,10 +275,10 @@ def _in_turn(points: Sequence[RealRoot]) -> Iterator[Point]:
             yield right
 
 
-class Highest(Comparison):
+class Highest(Minimisation):
     """Levels at critical values and at samples between them."""
 
-    objective: Level
+    objective: LevelObjective
 
     def best(self, values: Sequence[Size]) -> Size:
         return max(values, key=height)
@@ -291,7 +293,7 @@ class Highest(Comparison):
         ring = self.design.family.ring
         tableau = method_at(self.design.tableau, ring, solution, solution.real[index])
         if tableau is None:
-            raise TooLarge
+            raise FieldTooLarge
         return self.objective.value(tableau)
 
     def add(
@@ -300,7 +302,7 @@ class Highest(Comparison):
         """Adds a method with its value, unless its number field is too large."""
         try:
             super().add(solution, index, is_constant, proof)
-        except TooLarge:
+        except FieldTooLarge:
             self.extent = "found"
 
     def over_line(self, part: Part) -> None:
@@ -321,7 +323,7 @@ class Highest(Comparison):
             is_constant = high.is_sample and not levels.limits
             self.candidates.append(Candidate(levels.greatest, method, high.t.number, is_constant))
         for toward in levels.limits:
-            self.limits.append(Limit(toward.value, name, toward))
+            self.limits.append(ObjectiveLimit(toward.value, name, toward))
 
     def over_variety(self, part: Part) -> None:
         """Adds a good method by trial."""
@@ -333,5 +335,5 @@ class Highest(Comparison):
             self.add(solution, chart.index, proof="numerical")
 
 
-class TooLarge(Exception):
+class FieldTooLarge(Exception):
     """A number field is too large for the engines of stability."""

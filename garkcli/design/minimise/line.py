@@ -53,7 +53,7 @@ class Within(Frozen):
         return critical
 
 
-class Conditions(Frozen):
+class Constraints(Frozen):
     """The conditions for numbers to be allowed.
 
     Attributes:
@@ -124,7 +124,7 @@ class OnLine(Frozen):
     gradient: Polynomial
 
 
-def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Conditions) -> OnLine:
+def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Constraints) -> OnLine:
     """The candidates for the least value of N/D.
 
     Args:

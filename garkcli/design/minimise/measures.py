@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import fmpq
 
-from garkcli.design.minimise.objective import Measure, Subject
+from garkcli.design.minimise.objective import ObjectiveSubject, SearchMeasure
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.errors import UsageProblem
 from garkcli.exact.matrix import characteristic_coefficients
@@ -29,7 +29,7 @@ def coefficients_of(tableau: Tableau) -> Iterator[Any]:
     yield from chain(*chain.from_iterable(blocks), *(colour.b for colour in tableau.colours))
 
 
-def numbers_of(subject: Subject) -> Iterator[Any]:
+def numbers_of(subject: ObjectiveSubject) -> Iterator[Any]:
     """The entries, all weights and the nodes."""
     yield from coefficients_of(subject.tableau)
     yield from chain.from_iterable(colour.c for colour in subject.tableau.colours)
@@ -69,13 +69,13 @@ def _error(tableau: Tableau, order: int) -> fmpq:
     return _rational(quotient.numerator / quotient.denominator)
 
 
-def _largest_error(subject: Subject) -> fmpq:
+def _largest_error(subject: ObjectiveSubject) -> fmpq:
     conditions = all_conditions(subject.tableau, subject.order + 1)
     errors: list[Any] = [(x.value - x.required) / x.tree.symmetry for x in conditions]
     return max((x * x for x in errors), default=fmpq(0))
 
 
-def _embedded_error(subject: Subject) -> fmpq:
+def _embedded_error(subject: ObjectiveSubject) -> fmpq:
     tableau, order = subject.embedded
     return _error(tableau, order + 1)
 
@@ -88,12 +88,12 @@ def _quotient(numerator: fmpq, denominator: fmpq) -> fmpq:
     return numerator / denominator
 
 
-def _b(subject: Subject) -> fmpq:
+def _b(subject: ObjectiveSubject) -> fmpq:
     tableau, order = subject.embedded
     return _quotient(_error(tableau, order + 2), _embedded_error(subject))
 
 
-def _c(subject: Subject) -> fmpq:
+def _c(subject: ObjectiveSubject) -> fmpq:
     tableau, order = subject.embedded
     rows = zip(tableau.colours, subject.tableau.colours, strict=True)
     difference = tuple(tuple(x - y for x, y in zip(a.b, b.b, strict=True)) for a, b in rows)
@@ -105,7 +105,7 @@ def _c(subject: Subject) -> fmpq:
     return _quotient(total, _embedded_error(subject))
 
 
-def _e(subject: Subject) -> fmpq:
+def _e(subject: ObjectiveSubject) -> fmpq:
     _, order = subject.embedded
     return _quotient(_error(subject.tableau, order + 2), _embedded_error(subject))
 
@@ -120,33 +120,33 @@ def _infinity(tableau: Tableau, key: str) -> fmpq:
 
 
 MEASURES = (
-    Measure(
+    SearchMeasure(
         "A", "(Σ e(u)²)^½ over the trees of order {next}", lambda x: _error(x.tableau, x.order + 1)
     ),
-    Measure("largest-error", "max |e(u)| over the trees of order {next}", _largest_error),
-    Measure(
+    SearchMeasure("largest-error", "max |e(u)| over the trees of order {next}", _largest_error),
+    SearchMeasure(
         "embedded-A",
         "(Σ ê(u)²)^½ over the trees of order q + 1, q and ê those of the embedded weights",
         _embedded_error,
     ),
-    Measure("B", "‖ê‖ of order q + 2 over ‖ê‖ of order q + 1, q the embedded order", _b),
-    Measure("C", "‖ê − e‖ of order q + 2 over ‖ê‖ of order q + 1, q the embedded order", _c),
-    Measure(
+    SearchMeasure("B", "‖ê‖ of order q + 2 over ‖ê‖ of order q + 1, q the embedded order", _b),
+    SearchMeasure("C", "‖ê − e‖ of order q + 2 over ‖ê‖ of order q + 1, q the embedded order", _c),
+    SearchMeasure(
         "D",
         "the largest coefficient, embedded weight or node in size",
         lambda x: _largest(numbers_of(x)),
     ),
-    Measure("E", "‖e‖ of order q + 2 over ‖ê‖ of order q + 1, q the embedded order", _e),
-    Measure(
+    SearchMeasure("E", "‖e‖ of order q + 2 over ‖ê‖ of order q + 1, q the embedded order", _e),
+    SearchMeasure(
         "largest", "the largest coefficient in size", lambda x: _largest(coefficients_of(x.tableau))
     ),
-    Measure(
+    SearchMeasure(
         "nonzero",
         "the number of coefficients that are not 0",
         lambda x: fmpq(sum(map(bool, coefficients_of(x.tableau)))) ** 2,
     ),
-    Measure("infinity", "|R(∞)|", lambda x: _infinity(x.tableau, "infinity")),
-    Measure(
+    SearchMeasure("infinity", "|R(∞)|", lambda x: _infinity(x.tableau, "infinity")),
+    SearchMeasure(
         "embedded-infinity",
         "|R(∞)| of the method with the embedded weights",
         lambda x: _infinity(x.embedded[0], "embedded-infinity"),

@@ -13,9 +13,9 @@ from time import monotonic
 
 from garkcli.deadline import seconds_left, until, within
 from garkcli.design.design import Design
-from garkcli.design.minimise.comparison import Comparison
+from garkcli.design.minimise.comparison import Minimisation
 from garkcli.design.minimise.highest import Highest
-from garkcli.design.minimise.objective import Either, Level
+from garkcli.design.minimise.objective import Either, LevelObjective
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
@@ -64,13 +64,13 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
     if isinstance(objective, Either):
         objective = objective.meant(design.tableau)
     objective = exactly(objective)
-    comparison: Comparison
+    comparison: Minimisation
     compared, among = design, step
     if step.known.of_stable is not None:
         # all methods of this ideal have the wanted stability
         compared = replace(design, family=replace(design.family, stable=()))
         among = replace(step, ideal=step.known.of_stable.ideal)
-    if isinstance(objective, Level):
+    if isinstance(objective, LevelObjective):
         comparison = Highest(compared, among, objective)
     else:
         comparison = Smallest(compared, among, objective)
@@ -86,7 +86,7 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
         return replace(comparison.result(), design=design, step=step)
 
 
-def _over(comparison: Comparison, parts: Sequence[Part]) -> None:
+def _over(comparison: Minimisation, parts: Sequence[Part]) -> None:
     """Compares the methods of all parts, each in its share of the time; if a part is too large or
     curved, the best of the others is only the best found.
 

@@ -17,7 +17,7 @@ from garkcli.tableau.embedded import NOTHING, Further, with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
-Formula: TypeAlias = Callable[["Subject", "Parameters | None"], Quotient]
+Formula: TypeAlias = Callable[["ObjectiveSubject", "Parameters | None"], Quotient]
 """From methods and the parameters in their coefficients (None for numbers) to the numerator and
 denominator of the objective.
 """
@@ -49,7 +49,7 @@ def none_is_negative(signs: Sequence[int]) -> bool:
     return min(signs, default=0) >= 0
 
 
-class Signs(Frozen):
+class LevelSigns(Frozen):
     """The condition on signs that defines a level.
 
     Attributes:
@@ -67,7 +67,7 @@ class Signs(Frozen):
     common: Sequence[fmpq_mpoly] = ()
 
 
-class Level(Frozen):
+class LevelObjective(Frozen):
     """A number to maximise: the y up to which a condition on the signs of polynomials holds from 0
     on; it may be 0 or infinite.
 
@@ -83,7 +83,7 @@ class Level(Frozen):
     key: str
     summary: str
     value: Callable[[Tableau], Size]
-    signs: Callable[[Tableau, Parameters], Signs] | None = None
+    signs: Callable[[Tableau, Parameters], LevelSigns] | None = None
     is_square: bool = False
     claim: str | None = None
 
@@ -107,7 +107,7 @@ class Level(Frozen):
         return shown is None or not shown < RealRoot.rational(bound)
 
 
-class Subject(Frozen):
+class ObjectiveSubject(Frozen):
     """Methods with their embedded weights and orders.
 
     Attributes:
@@ -125,7 +125,7 @@ class Subject(Frozen):
     dense_order: int | None = None
 
     @classmethod
-    def of(cls, family: Family, tableau: Tableau, order: int, further: Further) -> Subject:
+    def of(cls, family: Family, tableau: Tableau, order: int, further: Further) -> ObjectiveSubject:
         """Methods of a family, with its wants on further weights."""
         return cls(tableau, order, further, family.embedded_order, family.dense_order)
 
@@ -143,7 +143,7 @@ class Subject(Frozen):
         return with_weights(self.tableau, self.further.embedded), self.embedded_order
 
 
-class Measure(Frozen):
+class SearchMeasure(Frozen):
     """A number that only a search minimises.
 
     Attributes:
@@ -154,14 +154,14 @@ class Measure(Frozen):
 
     key: str
     summary: str
-    squared: Callable[[Subject], fmpq]
+    squared: Callable[[ObjectiveSubject], fmpq]
 
 
-Single: TypeAlias = Objective | Level | Measure
+Single: TypeAlias = Objective | LevelObjective | SearchMeasure
 """The objective of one name."""
 
 
-class Sum(Frozen):
+class WeightedSum(Frozen):
     """A weighted sum of objectives.
 
     Attributes:
@@ -187,4 +187,4 @@ class Either(Frozen):
     """
 
     key: str
-    meant: Callable[[Tableau], Level]
+    meant: Callable[[Tableau], LevelObjective]

@@ -11,12 +11,12 @@ from flint import fmpq, fmpq_mat, fmpq_mpoly
 from garkcli.design.minimise.measures import MEASURES
 from garkcli.design.minimise.objective import (
     Either,
-    Level,
-    Measure,
+    LevelObjective,
+    LevelSigns,
     Objective,
-    Signs,
+    ObjectiveSubject,
+    SearchMeasure,
     Size,
-    Subject,
 )
 from garkcli.design.minimise.sector import Angle, angle_of
 from garkcli.design.minimise.squared_error import (
@@ -92,12 +92,12 @@ def refuse_one_colour(tableau: Tableau) -> None:
         raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
 
 
-def _coupling_error(subject: Subject, ring: Parameters | None) -> Quotient:
+def _coupling_error(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
     refuse_one_colour(subject.tableau)
     return squared_coupling_error(subject.tableau, subject.order + 1, ring)
 
 
-def _dense_error(subject: Subject, ring: Parameters | None) -> Quotient:
+def _dense_error(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
     dense, order = subject.further.dense, subject.dense_order
     if dense is None or order is None:
         message = "dense-error is that of dense output with an order: the file wants none"
@@ -106,7 +106,7 @@ def _dense_error(subject: Subject, ring: Parameters | None) -> Quotient:
     return squared_dense_error(subject.tableau, dense, order + 1, ring)
 
 
-def _squared_coefficients(subject: Subject, ring: Parameters | None) -> Quotient:
+def _squared_coefficients(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
     """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
 
     On point stages T is the identity; in a polynomial space it makes the sum rational even for
@@ -166,14 +166,14 @@ def _ssp(tableau: Tableau) -> Size:
     return coefficient.value
 
 
-def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
+def _ssp_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
     """det(I + rK) and det(I + rK) (I + rK)⁻¹ v are of degree one in each row of K."""
     tableau.demand_fields("the SSP coefficient")
     if not all(isinstance(x, PointSpace) for x in tableau.spaces):
         message = "-ssp: families by name have no rational entries"
         raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
     size = 2 + sum(space.stages for space in tableau.spaces)
-    return Signs([p for p in over_line(Line(tableau, ring), size, conditions_at) if p])
+    return LevelSigns([p for p in over_line(Line(tableau, ring), size, conditions_at) if p])
 
 
 def _real(tableau: Tableau) -> Size:
@@ -181,12 +181,12 @@ def _real(tableau: Tableau) -> Size:
     return first_end(real_set(stability_function(on_linear_problems(tableau))))
 
 
-def _real_signs(tableau: Tableau, ring: Parameters) -> Signs:
+def _real_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
     """Q² − P² at −y; it is negative at a pole."""
     P, Q = fraction_in_plane(tableau, ring)
     y, t = PLANE.gens()
     P, Q = P.compose(-y, t), Q.compose(-y, t)
-    return Signs([(Q - P) * (Q + P)])
+    return LevelSigns([(Q - P) * (Q + P)])
 
 
 def _imaginary(tableau: Tableau) -> Size:
@@ -194,10 +194,10 @@ def _imaginary(tableau: Tableau) -> Size:
     return first_end(imaginary_set(stability_function(on_linear_problems(tableau))))
 
 
-def _imaginary_signs(tableau: Tableau, ring: Parameters) -> Signs:
+def _imaginary_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
     """|Q|² − |P|² in the square of the imaginary part; it is negative at a pole."""
     P, Q = fraction_in_plane(tableau, ring)
-    return Signs([squared_modulus(Q) - squared_modulus(P)])
+    return LevelSigns([squared_modulus(Q) - squared_modulus(P)])
 
 
 def _sector(tableau: Tableau) -> Size:
@@ -216,13 +216,15 @@ def _oscillator(tableau: Tableau) -> Size:
     return first_end(oscillator_stability(tableau, oscillator_of(tableau)).stable)
 
 
-def _oscillator_signs(tableau: Tableau, ring: Parameters) -> Signs:
+def _oscillator_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
     """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
     problem = oscillator_of(tableau)
     fields = [problem.matrix(colour) for colour in tableau.colours]
     conditions, others = oscillator_curves(step_plane(Line(tableau, ring), fields))
     poles, _, _, upper, lower = others
-    return Signs([poles, *conditions, upper, lower], _is_bounded, is_closed=False, common=others)
+    return LevelSigns(
+        [poles, *conditions, upper, lower], _is_bounded, is_closed=False, common=others
+    )
 
 
 def _is_bounded(signs: Sequence[int]) -> bool:
@@ -236,7 +238,7 @@ def _is_bounded(signs: Sequence[int]) -> bool:
     return not is_double or upper == lower == 0
 
 
-OSCILLATOR_INTERVAL = Level(
+OSCILLATOR_INTERVAL = LevelObjective(
     "-oscillator-interval",
     "the z such that all powers of the step are bounded on the oscillator for hω ≤ z",
     _oscillator,
@@ -244,7 +246,7 @@ OSCILLATOR_INTERVAL = Level(
     is_square=True,
 )
 """E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, section I.5.2."""
-REAL_INTERVAL = Level(
+REAL_INTERVAL = LevelObjective(
     "-real-interval",
     "the x with |R| ≤ 1 on [−x, 0], the vector fields all equal",
     _real,
@@ -253,7 +255,7 @@ REAL_INTERVAL = Level(
 )
 """E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2."""
 
-OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
+OBJECTIVES: dict[str, Objective | LevelObjective | SearchMeasure | Either] = {
     objective.key: objective
     for objective in (
         # E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.3
@@ -281,14 +283,14 @@ OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
             lambda tableau: tableau.entries,
         ),
         # J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991
-        Level("-ssp", "the SSP coefficient", _ssp, _ssp_signs, claim="ssp-coefficient"),
+        LevelObjective("-ssp", "the SSP coefficient", _ssp, _ssp_signs, claim="ssp-coefficient"),
         Either(
             "-stability-interval",
             lambda tableau: REAL_INTERVAL if is_linear(tableau) else OSCILLATOR_INTERVAL,
         ),
         REAL_INTERVAL,
         # E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2
-        Level(
+        LevelObjective(
             "-imaginary-interval",
             "the y with |R| ≤ 1 on [−iy, iy], the vector fields all equal",
             _imaginary,

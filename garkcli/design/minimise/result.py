@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from garkcli.design.design import Design
 from garkcli.design.minimise.line import Toward
-from garkcli.design.minimise.objective import Level, Objective
+from garkcli.design.minimise.objective import LevelObjective, Objective
 from garkcli.design.steps import Decided, Found
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
@@ -43,7 +43,7 @@ class Candidate(Frozen):
     proof: Proof = "exact"
 
 
-class Limit(Frozen):
+class ObjectiveLimit(Frozen):
     """A limit of the objective that is not attained there.
 
     Attributes:
@@ -76,13 +76,13 @@ class Minimum(Shown, Frozen):
         parameter: the one parameter.
     """
 
-    objective: Objective | Level
+    objective: Objective | LevelObjective
     design: Design
     step: Decided
     extent: Extent
     value: RealRoot | None
     minimisers: tuple[Candidate, ...]
-    limits: tuple[Limit, ...]
+    limits: tuple[ObjectiveLimit, ...]
     candidates: int
     gradient: Polynomial | None = None
     parameter: str | None = None

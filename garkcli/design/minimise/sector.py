@@ -6,7 +6,7 @@ from math import acos, degrees
 
 from flint import arb, ctx, fmpq, fmpz_poly
 
-from garkcli.design.minimise.objective import ORIGIN, Level, Size
+from garkcli.design.minimise.objective import ORIGIN, LevelObjective, Size
 from garkcli.errors import MethodError, NotDecided
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, root_within
@@ -20,7 +20,7 @@ MOST_PARTS = 720
 """Bounds are multiples of π divided by at most so many parts, a quarter of a degree."""
 
 
-class Angle(Level):
+class Angle(LevelObjective):
     """A level y = 1 − cos α that users read as α in degrees."""
 
     def reaches(self, y: Size, bound: fmpq) -> bool:

@@ -12,11 +12,11 @@ from flint import fmpq, fmpq_mat, fmpq_mpoly
 from garkcli.deadline import check_time, checked, until
 from garkcli.design.critical import minors, slopes
 from garkcli.design.member import not_negative
-from garkcli.design.minimise.comparison import Comparison
+from garkcli.design.minimise.comparison import Minimisation
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
-from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
-from garkcli.design.parts import Chart, Part, at_root, charts, parts_within, values_on
+from garkcli.design.minimise.result import Candidate, Extent, ObjectiveLimit, Proof
+from garkcli.design.parts import Part, RationalChart, at_root, charts, parts_within, values_on
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import System, as_float, in_decimals, polynomial_functions
 from garkcli.design.solutions import Solution, value_at
@@ -216,7 +216,7 @@ def _bound(best: RealRoot) -> fmpq:
     return between(low, high)
 
 
-class Smallest(Comparison):
+class Smallest(Minimisation):
     """Critical points, ends and limits of N/D."""
 
     objective: Objective
@@ -300,7 +300,7 @@ class Smallest(Comparison):
             method = Found(part.whole(at_root(name, low.t)), None, (low.t.number,))
             self.candidates.append(Candidate(low.value, method, low.t.number))
         for toward in values.limits:
-            self.limits.append(Limit(toward.value, name, toward))
+            self.limits.append(ObjectiveLimit(toward.value, name, toward))
 
     def _over_interval(self, part: Part, name: str, interval: Interval) -> None:
         """Adds one method for an interval on which the objective is constant."""
@@ -359,7 +359,7 @@ class Smallest(Comparison):
                 self.add(solution, chart.index, proof=cast("Proof", proof))
 
     @staticmethod
-    def _about(chart: Chart, name: str) -> fmpq:
+    def _about(chart: RationalChart, name: str) -> fmpq:
         """The coordinate of a chart that is not free, rounded."""
         root = value_at(chart.one.values[name], chart.one.real[chart.index])
         return midpoint(root.ball(BITS))

@@ -26,7 +26,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import apply, dot
 from garkcli.exact.parametric import Parameters
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import SEVERAL, Kind
+from garkcli.ntrees.kind import SEVERAL, VertexKind
 from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.embedded import DenseOutput
 from garkcli.tableau.polynomial_space import PolynomialSpace, convolution
@@ -343,7 +343,7 @@ class _Sums(OrderByOrder[Tensor]):
                         yield _joined(algebra, chosen, forest)
 
 
-def _share(kind: Kind, order: int) -> fmpq:
+def _share(kind: VertexKind, order: int) -> fmpq:
     """The factor of the exact solution for the number of a forest, in a tree of an order; zero if
     the root counts more.
     """
@@ -351,7 +351,7 @@ def _share(kind: Kind, order: int) -> fmpq:
     return fmpq(1, kind.integrated(order)) if is_exact else fmpq(0)
 
 
-def _branches(kind: Kind, rest: int) -> tuple[int, int]:
+def _branches(kind: VertexKind, rest: int) -> tuple[int, int]:
     """The least and the largest number of branches of a root for a forest of an order."""
     if rest == 0:
         return 0, 0 if kind.allows(0) else -1

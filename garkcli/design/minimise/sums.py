@@ -7,7 +7,14 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.design.minimise.objective import Either, Level, Measure, Objective, Subject, Sum
+from garkcli.design.minimise.objective import (
+    Either,
+    LevelObjective,
+    Objective,
+    ObjectiveSubject,
+    SearchMeasure,
+    WeightedSum,
+)
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.squared_error import Quotient
 from garkcli.errors import ExpressionError, UsageProblem, did_you_mean
@@ -15,7 +22,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Chain, Expression, Literal, Name
 from garkcli.exact.parametric import Parameters
 
-Wanted: TypeAlias = Objective | Level | Measure | Either | Sum
+Wanted: TypeAlias = Objective | LevelObjective | SearchMeasure | Either | WeightedSum
 """Anything that can be minimised."""
 CURE = "write a name, or a sum such as '2*A + largest' or 'A - ssp/10'"
 _KEYS = {key.removeprefix("-"): key for key in OBJECTIVES}
@@ -45,7 +52,9 @@ def objective_of(text: str) -> Wanted:
     if "" in form or not form:
         message = "what to minimise: numbers alone are not made small"
         raise UsageProblem(message, CURE, code="option-value")
-    return Sum(text, tuple(_term(name.replace("_", "-"), weight) for name, weight in form.items()))
+    return WeightedSum(
+        text, tuple(_term(name.replace("_", "-"), weight) for name, weight in form.items())
+    )
 
 
 def refuse(text: str, is_search: bool = False) -> None:
@@ -63,7 +72,7 @@ def refuse(text: str, is_search: bool = False) -> None:
         exactly(objective)
 
 
-def _term(name: str, weight: fmpq) -> tuple[fmpq, Objective | Level | Measure]:
+def _term(name: str, weight: fmpq) -> tuple[fmpq, Objective | LevelObjective | SearchMeasure]:
     if name not in _KEYS:
         message = f"no objective {name!r}"
         raise UsageProblem(message, did_you_mean(name, list(_KEYS)), code="unknown-word")
@@ -73,7 +82,7 @@ def _term(name: str, weight: fmpq) -> tuple[fmpq, Objective | Level | Measure]:
         raise UsageProblem(
             message, "write real-interval or oscillator-interval", code="option-value"
         )
-    if isinstance(objective, Level) == (weight > 0):
+    if isinstance(objective, LevelObjective) == (weight > 0):
         size = "large, and has a minus sign" if weight > 0 else "small, and has no minus sign"
         raise UsageProblem(f"{name} is made {size}", CURE, code="option-value")
     return weight, objective
@@ -119,15 +128,19 @@ def _added(signs: str, forms: list[dict[str, fmpq]]) -> dict[str, fmpq]:
     return {name: a for name, a in total.items() if a}
 
 
-def exactly(objective: Objective | Level | Measure | Sum) -> Objective | Level:
+def exactly(
+    objective: Objective | LevelObjective | SearchMeasure | WeightedSum,
+) -> Objective | LevelObjective:
     """An objective for the exact engines.
 
     Raises:
         UsageProblem: it is no rational function of the coefficients.
     """
-    if isinstance(objective, Objective) or (isinstance(objective, Level) and objective.signs):
+    if isinstance(objective, Objective) or (
+        isinstance(objective, LevelObjective) and objective.signs
+    ):
         return objective
-    terms = objective.terms if isinstance(objective, Sum) else ((fmpq(1), objective),)
+    terms = objective.terms if isinstance(objective, WeightedSum) else ((fmpq(1), objective),)
     formulas = []
     for weight, one in terms:
         if not isinstance(one, Objective):
@@ -136,7 +149,7 @@ def exactly(objective: Objective | Level | Measure | Sum) -> Objective | Level:
             raise UsageProblem(message, f"add --search N{_instead(name)}", code="option-alone")
         formulas.append((weight, one.formula))
 
-    def formula(subject: Subject, ring: Parameters | None) -> Quotient:
+    def formula(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
         total = Quotient(fmpq(0), fmpq(1))
         for weight, one in formulas:
             part = one(subject, ring)

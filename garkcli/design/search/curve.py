@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.crew.work import Workers, in_order
-from garkcli.design.minimise.objective import Level, Single, Sum
+from garkcli.design.minimise.objective import LevelObjective, Single, WeightedSum
 from garkcli.design.search.goals import meant
 from garkcli.design.search.optimum import Optimum
 from garkcli.design.search.points import Fixed
@@ -25,7 +25,7 @@ from garkcli.frozen import Frozen, Mutable, field
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
-    from garkcli.design.search.run import Task
+    from garkcli.design.search.run import SearchTask
 
 PLACES = 17
 """Places of a curve, ends included."""
@@ -57,7 +57,7 @@ class Knot(Frozen):
     point: tuple[float, ...]
 
 
-class Curve(Mutable):
+class OptimaCurve(Mutable):
     """Optima along a curve, as far as known.
 
     Attributes:
@@ -84,7 +84,7 @@ class Curve(Mutable):
     ending: Ending | None = None
 
 
-class Place(Frozen):
+class CurvePlace(Frozen):
     """A task: the best method at a place of a curve; None if there is none.
 
     Attributes:
@@ -124,15 +124,15 @@ def _single(text: str, search: Search) -> Single:
         UsageProblem: it is a sum.
     """
     objective = meant(text, search.tableau)
-    if isinstance(objective, Sum):
+    if isinstance(objective, WeightedSum):
         message = f"--front is of two objectives, and {text} is a sum"
         raise UsageProblem(message, "--minimise takes sums", code="option-value")
     return objective
 
 
 def front(
-    search: Search, second: str, starts: int, seed: int, workers: Workers[Task, Timed]
-) -> Iterator[Curve]:
+    search: Search, second: str, starts: int, seed: int, workers: Workers[SearchTask, Timed]
+) -> Iterator[OptimaCurve]:
     """The front of two objectives; yields one curve object again and again as it improves.
 
     Args:
@@ -147,7 +147,9 @@ def front(
     """
     assert search.text is not None
     one, other = _single(search.text, search), _single(second, search)
-    run = _Run(search, Curve(_axis(one), _axis(other), True, search.order, seed), workers)
+    run = _CurveRun(
+        search, OptimaCurve(_axis(one), _axis(other), True, search.order, seed), workers
+    )
     programs = [search.program, search.program.aimed(other)]
     yield from run.seek(starts, seed, [None, second])
     if not all(run.seeds):
@@ -160,18 +162,18 @@ def front(
     ends = [programs[1].total.value(_array(run.seeds[k][0])) for k in (0, 1)]
     ends[1] += INSIDE * (ends[0] - ends[1])
     bounds = _between(ends[0], ends[1])
-    places = [Place((), cap=(second, _shown(other, bound))) for bound in bounds]
+    places = [CurvePlace((), cap=(second, _shown(other, bound))) for bound in bounds]
     every = [x for seeds in run.seeds for x in seeds]
     for optima in run.passes(places, [every] * len(places)):
         knots = [knot(x) for x in (*optima, run.seeds[0][0], run.seeds[1][0]) if x is not None]
-        signs = [-1 if isinstance(x, Level) else 1 for x in (one, other)]
+        signs = [-1 if isinstance(x, LevelObjective) else 1 for x in (one, other)]
         run.curve.knots = list(_best(knots, *signs))
         yield run.curve
 
 
 def along(
-    search: Search, name: str, starts: int, seed: int, workers: Workers[Task, Timed]
-) -> Iterator[Curve]:
+    search: Search, name: str, starts: int, seed: int, workers: Workers[SearchTask, Timed]
+) -> Iterator[OptimaCurve]:
     """The optimum for each value of an unknown in its range.
 
     Args:
@@ -189,10 +191,10 @@ def along(
     least, greatest = _range(search, name)
     values = [least + (greatest - least) * fmpq(k, PLACES - 1) for k in range(PLACES)]
     up = _axis(search.objective)
-    run = _Run(search, Curve(name, up, False, search.order, seed), workers)
+    run = _CurveRun(search, OptimaCurve(name, up, False, search.order, seed), workers)
     yield from run.seek(starts, seed, [None])
     place_of = search.family.ring.names.index(name)
-    places = [Place((), value=(name, str(value))) for value in values]
+    places = [CurvePlace((), value=(name, str(value))) for value in values]
     seeds = [_nearest(run.seeds[0], place_of, as_float(value)) for value in values]
     for optima in run.passes(places, seeds):
         run.curve.knots = [
@@ -220,12 +222,12 @@ def _range(search: Search, name: str) -> tuple[fmpq, fmpq]:
     return least, greatest
 
 
-def _axis(objective: Single | Sum) -> str:
-    return objective.key if isinstance(objective, Sum) else objective.key.removeprefix("-")
+def _axis(objective: Single | WeightedSum) -> str:
+    return objective.key if isinstance(objective, WeightedSum) else objective.key.removeprefix("-")
 
 
-def _shown(objective: Single | Sum, value: float) -> float:
-    return -value + 0.0 if isinstance(objective, Level) else value
+def _shown(objective: Single | WeightedSum, value: float) -> float:
+    return -value + 0.0 if isinstance(objective, LevelObjective) else value
 
 
 def _array(x: Optimum) -> Array:
@@ -256,21 +258,25 @@ def _best(knots: Sequence[Knot], across: int, up: int) -> Iterator[Knot]:
     yield from sorted(chosen, key=lambda x: x.across)
 
 
-class _Run:
+class _CurveRun:
     """The work on a curve."""
 
-    def __init__(self, search: Search, curve: Curve, workers: Workers[Task, Timed]) -> None:
+    def __init__(
+        self, search: Search, curve: OptimaCurve, workers: Workers[SearchTask, Timed]
+    ) -> None:
         self.search = search
         self.curve = curve
         self.workers = workers
         self.seeds: list[list[Optimum]] = []
 
-    def _done(self, tasks: Sequence[Task]) -> Iterator[object]:
+    def _done(self, tasks: Sequence[SearchTask]) -> Iterator[object]:
         for timed in in_order(self.workers, tasks):
             self.curve.seconds += timed.seconds
             yield timed.result
 
-    def seek(self, starts: int, seed: int, objectives: Sequence[str | None]) -> Iterator[Curve]:
+    def seek(
+        self, starts: int, seed: int, objectives: Sequence[str | None]
+    ) -> Iterator[OptimaCurve]:
         """Finds the best optima of each objective from random starts."""
         every = list(self.search.starts(seed, starts))
         size = max(1, min(self.search.batch, -(-starts // self.workers.size)))
@@ -285,13 +291,13 @@ class _Run:
                     solutions.append(point)
             yield self.curve
         for objective in objectives:
-            tasks = [Place((point,), objective) for point in solutions]
+            tasks = [CurvePlace((point,), objective) for point in solutions]
             optima = [x for x in self._done(tasks) if isinstance(x, Optimum)]
             self.seeds.append(_distinct(sorted(optima, key=lambda x: x.value)))
             yield self.curve
 
     def passes(
-        self, places: Sequence[Place], seeds: Sequence[Sequence[Optimum]]
+        self, places: Sequence[CurvePlace], seeds: Sequence[Sequence[Optimum]]
     ) -> Iterator[list[Optimum | None]]:
         """The optima at places, after each pass."""
         best: list[Optimum | None] = [None] * len(places)
@@ -299,7 +305,7 @@ class _Run:
         for _ in range(PASSES):
             which = [k for k, points in enumerate(tried) if points]
             tasks = [
-                Place(tuple(map(list, tried[k])), cap=places[k].cap, value=places[k].value)
+                CurvePlace(tuple(map(list, tried[k])), cap=places[k].cap, value=places[k].value)
                 for k in which
             ]
             changed = []

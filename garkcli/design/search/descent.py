@@ -54,7 +54,7 @@ class Look(Frozen):
     found: float
 
 
-class Task(ABC):
+class OptimiserTask(ABC):
     """A function to minimise on the solutions of equations, under inequalities.
 
     Attributes:
@@ -86,7 +86,7 @@ class Task(ABC):
         return 1 / max(abs(self.value(x)), TINY)
 
 
-def descended(task: Task, equations: Equations, x: Array) -> Array:
+def descended(task: OptimiserTask, equations: Equations, x: Array) -> Array:
     """The best solution found from x.
 
     Args:
@@ -115,7 +115,7 @@ class _EnoughError(Exception):
     """The value is small enough."""
 
 
-def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array, bool]:
+def _round(task: OptimiserTask, chart: Chart, start: Array, reach: float) -> tuple[Array, bool]:
     """The best point of one run, and whether the run left the domain of the chart."""
     from scipy.optimize import minimize
 
@@ -171,7 +171,7 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
     return best, False
 
 
-def _in_chart(task: Task, chart: Chart, z: Array, scale: float) -> tuple[Look, Array]:
+def _in_chart(task: OptimiserTask, chart: Chart, z: Array, scale: float) -> tuple[Look, Array]:
     """The task at coordinates, with its further variables; and the unknowns there."""
     d = chart.dimension
     x, tangent = chart.at(z[:d])

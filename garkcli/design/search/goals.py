@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 from flint import fmpq
 
 from garkcli.design.minimise.measures import at_infinity, coefficients_of, numbers_of
-from garkcli.design.minimise.objective import Either, Level, Objective, Single, Subject, Sum
+from garkcli.design.minimise.objective import (
+    Either,
+    LevelObjective,
+    Objective,
+    ObjectiveSubject,
+    Single,
+    WeightedSum,
+)
 from garkcli.design.minimise.objectives import (
     OBJECTIVES,
     oscillator_of,
@@ -54,7 +61,7 @@ FAR = 1.5
 """Points of a half line are (1/t - 1)^FAR with t between 0 and 1."""
 
 
-class Trees:
+class TreeConditions:
     """The order conditions at one point, remembered until the next point: an optimiser asks for
     values and gradients separately.
 
@@ -126,13 +133,13 @@ class Setting:
         trees: the conditions of the methods up to the next order.
     """
 
-    def __init__(self, subject: Subject, ring: Parameters, trees: Trees) -> None:
+    def __init__(self, subject: ObjectiveSubject, ring: Parameters, trees: TreeConditions) -> None:
         self.subject = subject
         self.tableau = subject.tableau
         self.order = subject.order
         self.ring = ring
         self.trees = trees
-        self._further: dict[tuple[bool, int], Trees] = {(False, subject.order + 1): trees}
+        self._further: dict[tuple[bool, int], TreeConditions] = {(False, subject.order + 1): trees}
 
     def errors(self, above: int, is_embedded: bool = False, is_coupling: bool = False) -> Errors:
         """e(u) of all trees of an order.
@@ -149,7 +156,7 @@ class Setting:
             tableau = embedded if is_embedded else tableau
         key = is_embedded, order + above
         if key not in self._further:
-            self._further[key] = Trees(Residuals(tableau, self.ring, order + above))
+            self._further[key] = TreeConditions(Residuals(tableau, self.ring, order + above))
         return errors_of(self._further[key], order + above, is_coupling)
 
     def functions(self, numbers: Iterable[object]) -> Functions:
@@ -193,19 +200,19 @@ def goal_of(objective: Single, setting: Setting) -> Goal:
 
 def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
     """The terms of a sum, or a single objective; weights of levels are negative."""
-    if isinstance(wanted, Sum):
+    if isinstance(wanted, WeightedSum):
         return list(wanted.terms)
     one = wanted.meant(tableau) if isinstance(wanted, Either) else wanted
-    return [(fmpq(-1 if isinstance(one, Level) else 1), one)]
+    return [(fmpq(-1 if isinstance(one, LevelObjective) else 1), one)]
 
 
-def levels_of(family: Family) -> list[tuple[Level, fmpq]]:
+def levels_of(family: Family) -> list[tuple[LevelObjective, fmpq]]:
     """The wanted levels of a family, with their bounds."""
     levels = [(OBJECTIVES[key], bound) for key, bound in family.levels]
-    return [(x, bound) for x, bound in levels if isinstance(x, Level)]
+    return [(x, bound) for x, bound in levels if isinstance(x, LevelObjective)]
 
 
-def meant(name: str, tableau: Tableau) -> Single | Sum:
+def meant(name: str, tableau: Tableau) -> Single | WeightedSum:
     objective = objective_of(name)
     return objective.meant(tableau) if isinstance(objective, Either) else objective
 
@@ -224,7 +231,7 @@ Errors: TypeAlias = "Callable[[Array], Gradient]"
 """e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u) of some trees, with derivatives."""
 
 
-def errors_of(trees: Trees, order: int, is_coupling: bool = False) -> Errors:
+def errors_of(trees: TreeConditions, order: int, is_coupling: bool = False) -> Errors:
     """The errors of the trees of an order.
 
     Args:

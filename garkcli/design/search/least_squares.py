@@ -70,7 +70,7 @@ def least_squares(
     succeeded = np.zeros(starts.shape[1], bool)
     alive = np.arange(starts.shape[1])
     with np.errstate(all="ignore"):
-        run = _Run(system, points)
+        run = _Starts(system, points)
         for _ in range(steps):
             check_time()
             done = run.largest < small
@@ -92,7 +92,7 @@ def least_squares(
     return Minima(points, succeeded)
 
 
-class _Run:
+class _Starts:
     """The starts that are still active."""
 
     def __init__(self, system: System, starts: Array) -> None:

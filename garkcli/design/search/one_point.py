@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
-from garkcli.design.search.rational import Polynomial, RationalFunction, as_float
+from garkcli.design.search.rational import RationalFunction, SparsePolynomial, as_float
 from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.tableau.polynomial_space import PolynomialSpace
 
@@ -29,11 +29,11 @@ class Functions:
 
     def __init__(self, functions: Sequence[RationalFunction], unknowns: int) -> None:
         self.shape = len(functions), unknowns
-        parts: list[Polynomial] = []
+        parts: list[SparsePolynomial] = []
         widths = {"p": 2, "q": 2, "dp": 3, "dq": 3}
         places: dict[str, list[tuple[int, ...]]] = {kind: [] for kind in widths}
 
-        def add(kind: str, polynomial: Polynomial | None, *place: int) -> None:
+        def add(kind: str, polynomial: SparsePolynomial | None, *place: int) -> None:
             if polynomial is not None and polynomial.terms:
                 places[kind].append((len(parts), *place))
                 parts.append(polynomial)

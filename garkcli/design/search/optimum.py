@@ -12,13 +12,19 @@ from flint import fmpq
 
 from garkcli.deadline import check_time
 from garkcli.design.member import not_negative
-from garkcli.design.minimise.objective import INSIDE, Measure, Single, Subject, Sum
+from garkcli.design.minimise.objective import (
+    INSIDE,
+    ObjectiveSubject,
+    SearchMeasure,
+    Single,
+    WeightedSum,
+)
 from garkcli.design.search.descent import descended
 from garkcli.design.search.goals import (
     NOTHING,
     AStable,
     Setting,
-    Trees,
+    TreeConditions,
     entries_of,
     goal_of,
     levels_of,
@@ -82,7 +88,7 @@ class Optimum(Frozen):
         return self.value < other.value - part * abs(other.value)
 
 
-class Program:
+class Optimisation:
     """Minimises an objective over the methods of a family with an order.
 
     Args:
@@ -94,7 +100,9 @@ class Program:
         UsageProblem: SciPy is not installed, or the objective is not applicable.
     """
 
-    def __init__(self, family: Family, conditions: Residuals, objective: Single | Sum) -> None:
+    def __init__(
+        self, family: Family, conditions: Residuals, objective: Single | WeightedSum
+    ) -> None:
         import numpy as np
 
         try:
@@ -108,10 +116,10 @@ class Program:
         self.conditions = conditions
         # the conditions of the next order are the error
         wide = Residuals(conditions.tableau, ring, order + 1, conditions.relations)
-        self._trees = Trees(wide)
+        self._trees = TreeConditions(wide)
         trees, last = len(wide.table), wide.table.ids(order + 1)
         self._own = np.r_[0 : last.start, trees : len(wide)]
-        subject = Subject.of(family, conditions.tableau, order, family.further)
+        subject = ObjectiveSubject.of(family, conditions.tableau, order, family.further)
         self._setting = Setting(subject, ring, self._trees)
         self._caps: tuple[Equations, ...] = tuple(
             capped(
@@ -134,17 +142,19 @@ class Program:
             if wanted.kind in ("a-stable", "l-stable")
         ]
 
-    def _aim(self, objective: Single | Sum) -> None:
+    def _aim(self, objective: Single | WeightedSum) -> None:
         terms = terms_of(objective, self.conditions.tableau)
         goals = [(as_float(w), goal_of(x, self._setting)) for w, x in terms]
         self.total = Total(goals, self.within)
-        is_count = isinstance(objective, Measure) and objective.key == "nonzero"
+        is_count = isinstance(objective, SearchMeasure) and objective.key == "nonzero"
         setting = self._setting
         self._entries = entries_of(setting.tableau, setting.ring) if is_count else []
         # measures are no squares
-        self._rounding = ROUNDING**0.5 if isinstance(objective, Measure) else ROUNDING
+        self._rounding = ROUNDING**0.5 if isinstance(objective, SearchMeasure) else ROUNDING
 
-    def aimed(self, objective: Single | Sum, cap: tuple[Single, float] | None = None) -> Program:
+    def aimed(
+        self, objective: Single | WeightedSum, cap: tuple[Single, float] | None = None
+    ) -> Optimisation:
         """The minimisation of another objective.
 
         Args:

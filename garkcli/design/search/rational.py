@@ -41,13 +41,13 @@ def in_decimals(ball: arb, count: int) -> int:
     return int((midpoint(ball) * 10**count + fmpq(1, 2)).floor())
 
 
-class Polynomial(Frozen):
+class SparsePolynomial(Frozen):
     """Terms: a coefficient, and the unknowns in its monomial, repeated by their exponents."""
 
     terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
 
     @classmethod
-    def of(cls, polynomial: fmpq_mpoly) -> Polynomial:
+    def of(cls, polynomial: fmpq_mpoly) -> SparsePolynomial:
         terms = []
         for exponents, a in sorted(polynomial.to_dict().items()):
             factors: list[int] = []
@@ -89,13 +89,15 @@ class RationalFunction:
     def __init__(self, number: object, ring: Parameters) -> None:
         p, q = fraction(number, ring)
         self.is_zero = not p
-        self.numerator = Polynomial.of(p)
-        self.denominator = None if q.is_one() else Polynomial.of(q)
-        self.derivatives: list[tuple[int, tuple[Polynomial, Polynomial]]] = []
+        self.numerator = SparsePolynomial.of(p)
+        self.denominator = None if q.is_one() else SparsePolynomial.of(q)
+        self.derivatives: list[tuple[int, tuple[SparsePolynomial, SparsePolynomial]]] = []
         for unknown in range(len(ring.names)):
             of_p, of_q = p.derivative(unknown), q.derivative(unknown)
             if of_p or of_q:
-                self.derivatives.append((unknown, (Polynomial.of(of_p), Polynomial.of(of_q))))
+                self.derivatives.append(
+                    (unknown, (SparsePolynomial.of(of_p), SparsePolynomial.of(of_q)))
+                )
 
     def at(self, points: Array, constant: Constant) -> Slope:
         value = self.numerator.at(points, constant)

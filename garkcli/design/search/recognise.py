@@ -20,7 +20,7 @@ MAX_DEGREE = 8
 """Largest degree tried."""
 
 
-class Recognised(Frozen):
+class RecognisedNumbers(Frozen):
     """Numbers of one field.
 
     Attributes:
@@ -34,7 +34,7 @@ class Recognised(Frozen):
     root: RealRoot
 
 
-def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
+def recognised(numbers: Mapping[str, arb], bits: int) -> RecognisedNumbers | None:
     """Short exact numbers with the given digits; None if there are none.
 
     Args:
@@ -50,7 +50,7 @@ def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
         else:
             values[name] = value
     if not irrational:
-        return Recognised(values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0)))
+        return RecognisedNumbers(values, fmpq_poly([0, 1]), RealRoot.rational(fmpq(0)))
     minimal = _generator(irrational, bits)
     if minimal is None:
         return None
@@ -65,7 +65,7 @@ def recognised(numbers: Mapping[str, arb], bits: int) -> Recognised | None:
         if coordinates is None:
             return None
         values[name] = field.from_coordinates(coordinates)
-    return Recognised(values, modulus, root)
+    return RecognisedNumbers(values, modulus, root)
 
 
 def rational(number: arb, bits: int) -> fmpq | None:

@@ -17,7 +17,7 @@ from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.deadline import within
 from garkcli.design.choices import DIGITS, values_text
 from garkcli.design.member import Whose
-from garkcli.design.minimise.objective import Level, Single, Sum
+from garkcli.design.minimise.objective import LevelObjective, Single, WeightedSum
 from garkcli.design.search.optimum import Optimum
 from garkcli.design.search.points import small_bits
 from garkcli.design.search.rational import in_decimals
@@ -39,7 +39,7 @@ TOLERANCE = "1e-30"
 """The tolerance of a file with so many decimals."""
 
 
-class Method(Frozen):
+class FoundMethod(Frozen):
     """A method that was found.
 
     Attributes:
@@ -106,7 +106,7 @@ SAME = 1e-6
 """Solutions that differ by at most this in each unknown are one solution."""
 
 
-class Result(Mutable):
+class SearchResult(Mutable):
     """The state of a search.
 
     Attributes:
@@ -128,13 +128,13 @@ class Result(Mutable):
     successes: int = 0
     degenerate: int = 0
     unstable: int = 0
-    methods: list[Method] = field(default_factory=list)
+    methods: list[FoundMethod] = field(default_factory=list)
     seconds: float = 0.0
     ending: Ending | None = None
     order: int = 0
     whose: Whose = "method"
     seed: int = 0
-    objective: Single | Sum | None = None
+    objective: Single | WeightedSum | None = None
 
     @property
     def is_interrupted(self) -> bool:
@@ -143,7 +143,7 @@ class Result(Mutable):
 
     def __repr__(self) -> str:
         methods = counted(len(self.methods), "method")
-        return f"<Result {methods} of {counted(self.starts, 'start')}>"
+        return f"<SearchResult {methods} of {counted(self.starts, 'start')}>"
 
 
 class Timed(Frozen):
@@ -162,7 +162,7 @@ class Batch(Frozen):
         return search.solve(self.starts)
 
 
-class Solution(Frozen):
+class SolutionTask(Frozen):
     """A task: the method of a solution in floats; None if there is none, False if its wanted
     stability is not proved.
 
@@ -194,7 +194,7 @@ class Descent(Frozen):
 
 
 class Best(Frozen):
-    """A task: the method of an optimum in floats; None or False as for ``Solution``.
+    """A task: the method of an optimum in floats; None or False as for ``SolutionTask``.
 
     Attributes:
         start: the number of the start that led to it.
@@ -221,16 +221,16 @@ def _method(search: Search, find: Find | None) -> object:
     residual = "0" if find.found is not None else RESIDUAL
     objective = None if search.objective is None else search.value(find)
     embedded = search.embedded_order(find)
-    return Method(find.start, find.proof, find.order, values, residual, objective, embedded)
+    return FoundMethod(find.start, find.proof, find.order, values, residual, objective, embedded)
 
 
-class Task(Protocol):
+class SearchTask(Protocol):
     """A piece of a search."""
 
     def result(self, search: Search) -> object: ...
 
 
-def do(search: Search, task: Task) -> Timed:
+def do(search: Search, task: SearchTask) -> Timed:
     """Runs a task and measures its time."""
     before = process_time()
     return Timed(task.result(search), process_time() - before)
@@ -250,7 +250,7 @@ def search_methods(
     seconds: float | None = None,
     objective: str | None = None,
     first: Start | None = None,
-) -> Result:
+) -> SearchResult:
     """Search a family for methods of an order, from random starts.
 
     Args:
@@ -268,7 +268,7 @@ def search_methods(
     Raises:
         ZeroWeight: a weight is zero for every value, so there is no conjugate.
     """
-    result = Result(order=order, whose=whose, seed=seed)
+    result = SearchResult(order=order, whose=whose, seed=seed)
     try:
         with within(seconds):
             search = Search(family, order, whose, objective)
@@ -284,9 +284,9 @@ def results(
     starts: int,
     seed: int = 0,
     most: int = MOST,
-    workers: Workers[Task, Timed] | None = None,
+    workers: Workers[SearchTask, Timed] | None = None,
     first: Start | None = None,
-) -> Iterator[Result]:
+) -> Iterator[SearchResult]:
     """Searches from random starts; yields one result object again and again as it grows.
 
     Args:
@@ -317,32 +317,34 @@ def results(
 class _Run:
     """The state in the middle of a search."""
 
-    def __init__(self, search: Search, workers: Workers[Task, Timed], most: int, seed: int) -> None:
+    def __init__(
+        self, search: Search, workers: Workers[SearchTask, Timed], most: int, seed: int
+    ) -> None:
         self.search = search
         self.workers = workers
         self.most = most
-        self.result = Result(
+        self.result = SearchResult(
             order=search.order, whose=search.whose, seed=seed, objective=search.objective
         )
         self._seen: list[Start] = []
         self._texts: set[tuple[str, ...]] = set()
         self._waiting: list[Descent] = []
         self._optima: list[Best] = []
-        self._known: dict[int, Method | None] = {}
+        self._known: dict[int, FoundMethod | None] = {}
 
-    def take(self, group: Sequence[Start], size: int) -> Iterator[Result]:
+    def take(self, group: Sequence[Start], size: int) -> Iterator[SearchResult]:
         """Takes the solutions of some starts, ``size`` starts a task, and proves the new ones."""
         parts = range(0, len(group), size)
         batches = [Batch(list(group[k : k + size])) for k in parts]
         first = self.result.starts + 1
-        new: list[Solution] = []
+        new: list[SolutionTask] = []
         for place, timed in zip(parts, self._done(batches), strict=True):
             self.result.starts = min(first + place + size, first + len(group)) - 1
             assert isinstance(timed.result, list)
             for k, point in timed.result:
                 self.result.successes += 1
                 if self._is_new(point):
-                    new.append(Solution(first + place + k, point))
+                    new.append(SolutionTask(first + place + k, point))
             yield self.result
         if self.search.objective is not None:
             yield from self._descend(new)
@@ -354,7 +356,7 @@ class _Run:
                 self._keep(timed.result)
             yield self.result
 
-    def _descend(self, new: Sequence[Solution]) -> Iterator[Result]:
+    def _descend(self, new: Sequence[SolutionTask]) -> Iterator[SearchResult]:
         """Finds the best methods near some solutions, and proves those that are now the best of
         all.
 
@@ -366,12 +368,12 @@ class _Run:
             some, self._waiting = self._waiting[:TOGETHER], self._waiting[TOGETHER:]
             yield self._descended(some)
 
-    def rest(self) -> Iterator[Result]:
+    def rest(self) -> Iterator[SearchResult]:
         """Finds the best methods near the last solutions."""
         if self._waiting:
             yield self._descended(self._waiting)
 
-    def _descended(self, tasks: Sequence[Descent]) -> Result:
+    def _descended(self, tasks: Sequence[Descent]) -> SearchResult:
         for task, timed in zip(tasks, self._done(tasks), strict=True):
             optimum = timed.result
             if not isinstance(optimum, Optimum):
@@ -387,11 +389,11 @@ class _Run:
         while unproved := [x for x in self._chosen() if x.start not in self._known]:
             for best, timed in zip(unproved, self._done(unproved), strict=True):
                 made = timed.result
-                self._known[best.start] = made if isinstance(made, Method) else None
+                self._known[best.start] = made if isinstance(made, FoundMethod) else None
                 self.result.unstable += made is False
                 self.result.degenerate += made is None
         methods = [x for best in self._chosen() if (x := self._known[best.start]) is not None]
-        is_level = isinstance(self.search.objective, Level)
+        is_level = isinstance(self.search.objective, LevelObjective)
         self.result.methods = sorted(
             methods, key=lambda x: float(x.objective or 0), reverse=is_level
         )
@@ -412,7 +414,7 @@ class _Run:
                 break
         return chosen
 
-    def _done(self, tasks: Sequence[Task]) -> Iterator[Timed]:
+    def _done(self, tasks: Sequence[SearchTask]) -> Iterator[Timed]:
         """The results of tasks, in their order."""
         for timed in in_order(self.workers, tasks):
             self.result.seconds += timed.seconds
@@ -432,7 +434,7 @@ class _Run:
         if found is False:
             self.result.unstable += 1
             return
-        if not isinstance(found, Method):
+        if not isinstance(found, FoundMethod):
             self.result.degenerate += 1
             return
         texts = tuple(found.values.values())

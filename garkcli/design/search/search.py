@@ -21,10 +21,16 @@ from garkcli.design.member import (
     not_negative,
     value_of,
 )
-from garkcli.design.minimise.objective import Level, Measure, Single, Subject, Sum
+from garkcli.design.minimise.objective import (
+    LevelObjective,
+    ObjectiveSubject,
+    SearchMeasure,
+    Single,
+    WeightedSum,
+)
 from garkcli.design.search.goals import levels_of, meant, terms_of
 from garkcli.design.search.least_squares import least_squares
-from garkcli.design.search.optimum import Optimum, Program
+from garkcli.design.search.optimum import Optimisation, Optimum
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import (
     RationalFunction,
@@ -33,7 +39,7 @@ from garkcli.design.search.rational import (
     over_box,
     polynomial_functions,
 )
-from garkcli.design.search.recognise import Recognised, recognised
+from garkcli.design.search.recognise import RecognisedNumbers, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution, value_at
@@ -221,14 +227,14 @@ class Search:
         return all(value >= -1e-9 for value in roots)
 
     @cached_property
-    def program(self) -> Program:
+    def program(self) -> Optimisation:
         """The minimisation.
 
         Raises:
             UsageProblem: SciPy is not installed, or the objective is not applicable.
         """
         assert self.objective is not None
-        return Program(self.family, self.conditions, self.objective)
+        return Optimisation(self.family, self.conditions, self.objective)
 
     def best(self, start: int, optimum: Optimum) -> Find | None:
         """An optimum with short numbers, and its proof; None if it is no method.
@@ -274,7 +280,7 @@ class Search:
             (w, self._size(one, find, k))
             for k, (w, one) in enumerate(terms_of(self.objective, self.tableau))
         ]
-        if not isinstance(self.objective, Sum):
+        if not isinstance(self.objective, WeightedSum):
             [(_, size)] = terms
             if isinstance(size, RealRoot):
                 return root_decimal(size, SHORT)
@@ -291,7 +297,7 @@ class Search:
         import numpy as np
 
         names, ring = self.family.ring.names, self.family.ring
-        if isinstance(one, Level) and find.found is not None:
+        if isinstance(one, LevelObjective) and find.found is not None:
             solution = find.found.solution
             with suppress(NotDecided):
                 method = method_at(self.tableau, ring, solution, solution.real[0])
@@ -303,17 +309,17 @@ class Search:
             values = dict(find.found.solution.values)
             digits = _digits_of(find.found.solution)
         is_rational = all(isinstance(values.get(name), fmpq) for name in names)
-        if isinstance(one, Level) and not is_rational:
+        if isinstance(one, LevelObjective) and not is_rational:
             return self.program.level(place, np.array([float(digits[x].mid()) for x in names]))
         if not is_rational:
             with ctx.workprec(BITS):
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
         tableau = member(self.tableau, ring, values)
-        if isinstance(one, Level):
+        if isinstance(one, LevelObjective):
             return one.measured(one.value(tableau))
         further = further_member(self.family.further, ring, values)
-        subject = Subject.of(self.family, tableau, self.order, further)
-        if isinstance(one, Measure):
+        subject = ObjectiveSubject.of(self.family, tableau, self.order, further)
+        if isinstance(one, SearchMeasure):
             return square_root(RealRoot.rational(one.squared(subject)))
         quotient = one.formula(subject, None)
         return RealRoot.rational(quotient.numerator / quotient.denominator)
@@ -411,7 +417,7 @@ class Search:
         names = unknowns_of(self.family.ring)
         return [nodes + names, nodes + names[::-1]]
 
-    def _certified(self, start: int, guess: Recognised) -> Find | None:
+    def _certified(self, start: int, guess: RecognisedNumbers) -> Find | None:
         """The method with these numbers, if the certificate confirms the order."""
         field = next((x.field for x in guess.values.values() if not isinstance(x, fmpq)), None)
         solution = Solution(guess.modulus, field, dict(guess.values), 1, (guess.root,))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from garkcli import numpy_on_use as np
-from garkcli.design.search.descent import Look, Task
+from garkcli.design.search.descent import Look, OptimiserTask
 from garkcli.design.search.goals import Bound, Goal, Reach, Smooth, kept
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def missed(signs: Array) -> float:
     return max(0.0, -float(np.min(signs, initial=0.0)))
 
 
-class Least(Task):
+class Least(OptimiserTask):
     """Minimises a sum of goals; each bound and each level has its own variable.
 
     Args:
@@ -202,7 +202,7 @@ class Least(Task):
         return Look(value, gradient, signs, of_signs, total_of_unknowns if is_met else np.inf)
 
 
-class Missing(Task):
+class Missing(OptimiserTask):
     """Minimises the distance from all wants: the least y with which all inequalities hold, for low
     levels too.
 

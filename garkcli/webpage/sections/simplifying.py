@@ -7,7 +7,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from garkcli.check.every_facts import Fact
+from garkcli.check.every_facts import FamilyFact
 from garkcli.check.findings import BOUND, SHARP_BOUND
 from garkcli.order.simplifying import Simplifying
 from garkcli.webpage.mathml import typeset
@@ -24,7 +24,7 @@ def content(method: Reported) -> Content | None:
     if whole is None:
         return None
     found, told = whole.simplifying, whole  # the bounds as far as the order bears them out
-    if isinstance(found, Fact):
+    if isinstance(found, FamilyFact):
         found = told = found.value
     if not isinstance(found, Simplifying):
         return None
