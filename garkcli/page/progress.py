@@ -228,13 +228,13 @@ def _live() -> Live:
     from rich.console import Console
     from rich.live import Live
 
-    class Visible(Console):
+    class WithCursor(Console):
         """A terminal whose cursor stays: a command may be stopped while the tasks are drawn."""
 
         def show_cursor(self, show: bool = True) -> bool:
             return show
 
-    console = Visible(stderr=True, highlight=False, markup=False)
+    console = WithCursor(stderr=True, highlight=False, markup=False)
     return Live(
         console=console,
         auto_refresh=False,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from garkcli.design.search.chart import Chart, OutsideError
-from garkcli.design.search.descent import Look, OptimiserTask, descended
+from garkcli.design.search.descent import OptimiserTask, TaskValues, descended
 
 
 def sphere(x: Any) -> tuple[Any, Any]:
@@ -49,7 +49,7 @@ class Highest(OptimiserTask):
     def guess(self, x: Any) -> Any:
         return np.array([1 + float(x[2])] * self.levels)
 
-    def at(self, z: Any) -> Look:
+    def at(self, z: Any) -> TaskValues:
         one = np.eye(len(z))
         signs, slopes = [z[0] - 0.5], [one[0]]
         value = -float(z[-1]) - (not self.levels)
@@ -57,7 +57,7 @@ class Highest(OptimiserTask):
             signs.append(1 + z[2] - z[3])
             slopes.append(one[2] - one[3])
         found = value if min(signs) >= -1e-9 else np.inf
-        return Look(value, -one[-1], np.array(signs), np.array(slopes), found)
+        return TaskValues(value, -one[-1], np.array(signs), np.array(slopes), found)
 
 
 @pytest.mark.parametrize("has_level", [False, True])

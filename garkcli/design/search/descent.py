@@ -36,7 +36,7 @@ STRETCH = 1e-8
 """Second derivatives below this share of the largest count as this."""
 
 
-class Look(Frozen):
+class TaskValues(Frozen):
     """The functions of a task at a point.
 
     Attributes:
@@ -66,7 +66,7 @@ class OptimiserTask(ABC):
     enough = -inf
 
     @abstractmethod
-    def at(self, z: Array) -> Look:
+    def at(self, z: Array) -> TaskValues:
         """The task at a point: the unknowns, then the further variables."""
 
     @abstractmethod
@@ -131,9 +131,9 @@ def _round(task: OptimiserTask, chart: Chart, start: Array, reach: float) -> tup
         chart.scale(basis / stretch)
         size = reach * stretch
     best, least = start, np.inf
-    known: dict[bytes, Look] = {}
+    known: dict[bytes, TaskValues] = {}
 
-    def at(z: Array) -> Look:
+    def at(z: Array) -> TaskValues:
         nonlocal best, least
         key = z.tobytes()
         if key not in known:
@@ -171,7 +171,9 @@ def _round(task: OptimiserTask, chart: Chart, start: Array, reach: float) -> tup
     return best, False
 
 
-def _in_chart(task: OptimiserTask, chart: Chart, z: Array, scale: float) -> tuple[Look, Array]:
+def _in_chart(
+    task: OptimiserTask, chart: Chart, z: Array, scale: float
+) -> tuple[TaskValues, Array]:
     """The task at coordinates, with its further variables; and the unknowns there."""
     d = chart.dimension
     x, tangent = chart.at(z[:d])
@@ -179,7 +181,7 @@ def _in_chart(task: OptimiserTask, chart: Chart, z: Array, scale: float) -> tupl
     whole = np.zeros((len(z), len(x) + further))
     whole[:d, : len(x)], whole[d:, len(x) :] = tangent.transpose(), np.eye(further)
     look = task.at(np.append(x, z[d:]))
-    return Look(
+    return TaskValues(
         scale * look.value,
         scale * whole @ look.gradient,
         look.signs,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from garkcli import numpy_on_use as np
-from garkcli.design.search.descent import Look, OptimiserTask
+from garkcli.design.search.descent import OptimiserTask, TaskValues
 from garkcli.design.search.goals import Bound, Goal, Reach, Smooth, kept
 
 if TYPE_CHECKING:
@@ -165,7 +165,7 @@ class Least(OptimiserTask):
         is_alone = self.levels and not self._total.smooth and not self._total.bounds
         return 1.0 if is_alone else super().scale(x)
 
-    def at(self, z: Array) -> Look:
+    def at(self, z: Array) -> TaskValues:
         total, n = self._total, len(z) - self.levels
         x, gradient = z[:n], np.zeros(len(z))
         inequalities = [total.within(x)]
@@ -199,7 +199,7 @@ class Least(OptimiserTask):
             values for values, _ in (inequalities[0], *inequalities[1 + 2 * len(self._units) :])
         ]
         is_met = missed(np.concatenate(sure)) <= FEASIBLE
-        return Look(value, gradient, signs, of_signs, total_of_unknowns if is_met else np.inf)
+        return TaskValues(value, gradient, signs, of_signs, total_of_unknowns if is_met else np.inf)
 
 
 class Missing(OptimiserTask):
@@ -235,11 +235,11 @@ class Missing(OptimiserTask):
         """No scale: y should become 0."""
         return 1.0
 
-    def at(self, z: Array) -> Look:
+    def at(self, z: Array) -> TaskValues:
         values, slopes = self._signs(z[:-1])
         gradient = np.append(np.zeros(len(z) - 1), 1.0)
         slopes = np.concatenate([slopes, np.ones((len(slopes), 1))], 1)
-        return Look(float(z[-1]), gradient, values + z[-1], slopes, missed(values))
+        return TaskValues(float(z[-1]), gradient, values + z[-1], slopes, missed(values))
 
 
 def padded(slopes: Array, size: int) -> Array:
