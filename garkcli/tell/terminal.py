@@ -78,16 +78,19 @@ class Folding(Text):
 
 
 def _places(text: str, width: int, hanging: int) -> list[int]:
-    """Returns the places where lines after the first begin."""
+    """Returns the places where lines after the first begin; a word that no line holds is broken
+    where it is.
+    """
     places = [0]
-    room = width
+    room, later = width, max(width - hanging, 1)
     for start, end in pairwise([*joints(text), len(text)]):
-        if start > places[-1] and cell_len(text[places[-1] : end].rstrip()) > room:
+        is_full = cell_len(text[places[-1] : end].rstrip()) > room
+        if is_full and start > places[-1] and cell_len(text[start:end].rstrip()) <= later:
             places.append(start)
-            room = max(width - hanging, 1)
+            room = later
         while cell_len(text[places[-1] : end].rstrip()) > room:
             places.append(places[-1] + room)
-            room = max(width - hanging, 1)
+            room = later
     return places[1:]
 
 

@@ -98,6 +98,17 @@ def test_a_terminal_has_the_words_of_a_pipe_in_its_width(
     assert drawn.isascii() or encoding == "utf-8"
 
 
+def test_a_word_that_no_line_holds_is_broken_where_it_is() -> None:
+    """A long path begins beside what is before it; a word that fits a line is not broken."""
+    d = Terminal(width=20)
+    assert d.message("ok  " + "x" * 30, hanging=4) == ["ok  " + "x" * 16, "    " + "x" * 14]
+    assert d.message("ok  " + "x" * 10 + " " + "y" * 10, 4) == [
+        "ok  " + "x" * 10,
+        "    " + "y" * 10,
+    ]
+    assert d.message("b{l}A{l,m}A{m,n} = 1/24", 2) == ["b{l}A{l,m}A{m,n}", "  = 1/24"]
+
+
 def test_heads_of_tables_are_ruled_off() -> None:
     """Below the heads there is a line, in the signs that the terminal has."""
     for encoding, sign in (("utf-8", "─"), ("ascii", "-")):

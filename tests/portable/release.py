@@ -56,6 +56,9 @@ TRIALS = (
     (["show", "kutta-38"], "reference"),
 )
 """Commands that need every dependency, and a part of what they print."""
+OF_SOURCES = ((["audit", "solver.py"], "1 table, none wrong"),)
+"""Commands that need the extra for sources, which the action has."""
+SOLVER = "A = [[0, 0], [1 / 2, 0]]\nb = [0, 1]\nc = [0, 1 / 2]\norder = 2\n"
 
 
 class Package(NamedTuple):
@@ -195,18 +198,20 @@ def trials(python: str, version: str, wheel: Path, source: Path) -> Iterator[str
     done([*pip, "--require-hashes", "--only-binary", ":all:", "--requirement", str(LOCK)])
     done([*pip, "--no-deps", str(wheel)])
     done([str(place), "-m", "pip", "check"])
-    _try(place)
-    yield f"{version} wheel, by hashes: {len(TRIALS)} commands"
+    tried = (*TRIALS, *OF_SOURCES)
+    _try(place, tried)
+    yield f"{version} wheel, by hashes: {len(tried)} commands"
 
 
-def _try(python: Path) -> None:
-    """Runs the trials in an empty folder.
+def _try(python: Path, tried: Sequence[tuple[list[str], str]] = TRIALS) -> None:
+    """Runs commands in a folder that has one source.
 
     Raises:
         NotHad: one fails, or prints something else.
     """
     with tempfile.TemporaryDirectory() as folder:
-        for arguments, part in TRIALS:
+        (Path(folder) / "solver.py").write_text(SOLVER, encoding="utf-8")
+        for arguments, part in tried:
             command = [str(python), "-I", "-m", "garkcli", *arguments]
             run = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
             if run.returncode or part not in run.stdout:
