@@ -157,7 +157,7 @@ def _tree(tree: Tree, tableau: Tableau, output: Output) -> None:
 
 def _tableau(method: GarkMethod, output: Output) -> None:
     """Writes a tableau as gark tableau does, or its text as SVG."""
-    from garkcli.cli.tableaux import write_tableau
+    from garkcli.cli.tableaux import coupling_of_slow_stages, write_tableau
 
     if output.format == "text":
         write_tableau(method, output)
@@ -165,5 +165,6 @@ def _tableau(method: GarkMethod, output: Output) -> None:
     from garkcli.plots.svg import of_lines
     from garkcli.report.tableau import REPORT, of_method
 
-    text = "".join(REPORT.pieces(of_method(method), width=output.width))
+    shown = of_method(method, coupling=coupling_of_slow_stages(method))
+    text = "".join(REPORT.pieces(shown, width=output.width))
     output.write(of_lines(text.splitlines()))

@@ -127,13 +127,14 @@ MOST_ROWS = 2000
 SECTIONS = {
     "faults": "What is wrong with the file",
     "tableau": "Tableau",
-    "orders": "Orders",
+    "picture": "Stability picture",
     "claims": "Claims",
-    "simplifying": "Simplifying assumptions",
-    "properties": "Properties",
+    "orders": "Orders",
     "stability": "Stability",
+    "properties": "Properties",
+    "simplifying": "Simplifying assumptions",
+    "pictures": "Further pictures",
     "reference": "Reference",
-    "pictures": "Pictures",
     "conditions": "Order conditions",  # the longest, and across on paper: pages of its own
 }
 """The sections and their headings, in order. Each is a file in ``sections``; its ``content`` is

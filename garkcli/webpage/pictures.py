@@ -139,13 +139,20 @@ def _of_stability(method: GarkMethod) -> Tableau | None:
     return on_test_equation(method.tableau, method.tolerance)
 
 
-def pictures(method: GarkMethod) -> list[Picture]:
-    """Returns all pictures of a method. Expected ones that cannot be drawn have no SVG, but a note
-    with the reason.
+OF_STABILITY = "region", "pair", "oscillator"
+OF_STEPS = "convergence", "energy"
+
+
+def pictures(
+    method: GarkMethod, names: Sequence[str] = (*OF_STABILITY, *OF_STEPS)
+) -> list[Picture]:
+    """Returns pictures of a method. Expected ones that cannot be drawn have no SVG, but a note with
+    the reason.
     """
     drawn = []
-    for name, (title, draw) in PICTURES.items():
-        if name != "region" and not _is_gark(method):
+    for name in names:
+        title, draw = PICTURES[name]
+        if not _is_drawn_of(name, method):
             continue
         try:
             drawn.append(_picture(name, *draw(method)))
@@ -155,6 +162,13 @@ def pictures(method: GarkMethod) -> list[Picture]:
             # of a problem that the method is not for
             drawn.append(Picture(name, title, "", "", f"Not drawn: {error}."))
     return [picture for picture in drawn if picture.svg or picture.note]
+
+
+def _is_drawn_of(name: str, method: GarkMethod) -> bool:
+    """Returns whether a page has such a picture of methods of this kind."""
+    if _is_gark(method) or name == "region":
+        return True
+    return name == "oscillator" and is_nystrom(method.tableau)
 
 
 def compared_pictures(methods: Sequence[GarkMethod]) -> list[Picture]:
@@ -287,11 +301,8 @@ def panel_named(name: str, method: GarkMethod) -> Panel:
 
     Raises NotDrawn if there is none, GarkError if the problem does not fit the method.
     """
-    if not _is_gark(method):
-        if name == "energy":
-            raise NotDrawn("This picture is of GARK methods alone.")
-        if name == "oscillator" and not is_nystrom(method.tableau):
-            raise NotDrawn("This picture is of GARK and Nyström methods alone.")
+    if name in PICTURES and name != "convergence" and not _is_drawn_of(name, method):
+        raise NotDrawn("This picture is not of such methods.")
     draw = partial(_region, is_order_star=True) if name == "star" else PICTURES[name][1]
     panel, note = draw(method)
     return replace(panel, note=note)

@@ -83,6 +83,15 @@ class Reported(Frozen):
         return stages if self.outcome.infinitesimal is None else stages[SLOW:]
 
     @property
+    def tells_pair(self) -> bool:
+        """Whether its conjugate and pair are shown: it has several colours, or the file claims
+        something about them.
+        """
+        if self.tableau is not None and self.tableau.size > 1:
+            return True
+        return any(x.claim.startswith(("conjugate", "pair")) for x in self.outcome.claims)
+
+    @property
     def has_names(self) -> bool:
         """Whether the colours of its trees have names."""
         return self.outcome.rosenbrock is not None or self.outcome.nystrom is not None

@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 from markupsafe import Markup
 
-from garkcli.check.outcome import Outcome
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.report.check import hints, named_colours
@@ -31,6 +30,7 @@ ORDERS = (
 """The rows of ``gark check`` with orders: exact ones, within a tolerance, for all parameters, of
 dense output.
 """
+OF_PAIR = ("conjugate_order", "pair_order")
 NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
 """Rows that are shown below others."""
 
@@ -42,22 +42,25 @@ def content(method: Reported) -> Content | None:
         return None
     told = [] if outcome.analysis is None else hints(outcome)
     return {
-        "orders": list(_orders(outcome)),
+        "orders": list(_orders(method)),
         "hints": [Markup(Typeset().reason(x)) for x in told],
         "left_behind": " and ".join(outcome.left_behind),
     }
 
 
-def _orders(outcome: Outcome) -> Iterator[Content]:
-    """Yields all orders as in ``gark check``, with the condition at which each ends, unless it was
+def _orders(method: Reported) -> Iterator[Content]:
+    """Yields the orders as in ``gark check``, with the condition at which each ends, unless it was
     shown already.
     """
+    outcome = method.outcome
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, {*ORDERS, *NOTES.values()})
     met: set[tuple[str, str]] = set()
     for key, fact in facts.items():
         is_with_time = key in WITH_TIME
         if key not in ORDERS or not fact.is_something:
+            continue
+        if key in OF_PAIR and not method.tells_pair:
             continue
         if is_with_time and fact.level > Level.USUAL and not outcome.of_other_kind:
             continue

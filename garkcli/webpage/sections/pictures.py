@@ -1,4 +1,4 @@
-"""The pictures: stability, errors against step sizes, energy."""
+"""Pictures of steps: errors against step sizes, energy."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from markupsafe import Markup
 
 from garkcli.webpage.mathml import Typeset
-from garkcli.webpage.pictures import Picture, compared_pictures, pictures
+from garkcli.webpage.pictures import OF_STEPS, Picture, compared_pictures, pictures
 from garkcli.webpage.reported import Content, Reported
 
 
@@ -15,10 +15,15 @@ def content(method: Reported) -> Content | None:
     """Returns the variables of the template; None without pictures."""
     if method.has_pictures and method.free is not None:
         return {"free": method.free, "file": method.outcome.file}
+    return drawn(method, OF_STEPS)
+
+
+def drawn(method: Reported, names: Sequence[str]) -> Content | None:
+    """Returns the variables of the template for some pictures; None without any."""
     if method.method is None or not method.has_pictures:
         return None
-    drawn = [_shown(picture) for picture in pictures(method.method)]
-    return {"pictures": drawn} if drawn else None
+    found = [_shown(picture) for picture in pictures(method.method, names)]
+    return {"pictures": found} if found else None
 
 
 def of_several(methods: Sequence[Reported]) -> list[Content]:

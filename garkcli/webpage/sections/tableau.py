@@ -60,7 +60,7 @@ def content(method: Reported) -> Content | None:
             "Its symplectic conjugate": analysis.conjugate,
             "Their symplectic pair": analysis.pair,
         }
-        for title, other in others.items():
+        for title, other in others.items() if method.tells_pair else ():
             if other is None or is_pair_of_itself(tableau, other):
                 continue
             same = {"title": title, "is_same": True}
@@ -69,6 +69,7 @@ def content(method: Reported) -> Content | None:
             shown.append(table)
     obstacle = of_fields.obstacle
     told = Markup(Typeset().reason(obstacle)) if obstacle else ""
+    told = told if method.tells_pair else ""
     return {"tables": shown, "dense": dense, "obstacle": told, "letters": _definitions()}
 
 
@@ -100,9 +101,9 @@ def _of_family(method: Reported) -> Iterator[Content]:
     assert every is not None
     family = every.family
     made = {"The method": every.tableau}
-    if every.conjugate_order is not None:
+    if method.tells_pair and every.conjugate_order is not None:
         made["Its symplectic conjugate"] = conjugate(every.tableau)
-    if every.pair_order is not None and not every.tableau.is_partitioned:
+    if method.tells_pair and every.pair_order is not None and not every.tableau.is_partitioned:
         made["Their symplectic pair"] = pair(every.tableau)
     for title, tableau in made.items():
         printed = family.printed(tableau)
