@@ -87,7 +87,7 @@ ANSWERS = {
     "methodfile.file_keys": "FileKind.method=told",
     "problems.files.keys": "FileKind.problem=told",
     "sweep.file": "FileKind.sweep=told",
-    "ntrees.notation": "Tree.text=format_tree",
+    "ntrees.notation": "Tree.text=shortest",
     "ntrees.drawing": "Tree.svg=draw_svg",
     "report.notebook": "GarkMethod.html=method_html GarkMethod.latex=method_latex "
     "Witness.html=witness_html Order.html=order_html RoundedOrder.html=order_html "

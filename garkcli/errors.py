@@ -72,6 +72,13 @@ class ExpressionError(GarkError):
     Attributes:
         start: the offset of the fault in the text, from 0.
         end: the offset behind it.
+
+    >>> from garkcli.exact.expression import parse
+    >>> try:
+    ...     parse("1/2 +")
+    ... except ExpressionError as error:
+    ...     print(error.start, error.message)
+    5 the text ends where a number is expected
     """
 
     def __init__(
@@ -93,7 +100,14 @@ class UndefinedValue(ExpressionError):
 
 
 class MethodError(GarkError):
-    """Numbers that do not make the method asked for."""
+    """Numbers that do not make the method asked for.
+
+    >>> from garkcli import format_tree
+    >>> format_tree(3)
+    Traceback (most recent call last):
+        ...
+    garkcli.errors.MethodError: a tree is expected, not int; give its text, such as '[[],[]]'
+    """
 
 
 class ShapeMismatch(MethodError):
@@ -125,6 +139,13 @@ class ZeroWeight(MethodError):
 
     Attributes:
         reason: the message as a value, which outputs word.
+
+    >>> from garkcli import load
+    >>> try:
+    ...     load("explicit-midpoint").conjugate
+    ... except ZeroWeight as error:
+    ...     print(error.reason)
+    the symplectic conjugate divides by the weights b, b_1 = 0
     """
 
     code = "zero-weight"
@@ -145,7 +166,15 @@ class UnknownFamily(MethodError):
 
 
 class TreeError(GarkError, ValueError):
-    """A text is no tree, or there are no trees of that order or of those colours."""
+    """A text is no tree, or there are no trees of that order or of those colours.
+
+    >>> from garkcli import parse_tree
+    >>> try:
+    ...     parse_tree("[[]")
+    ... except TreeError as error:
+    ...     print(error)
+    ',' or ']' is missing at character 4; branches are separated by commas and closed by ']'
+    """
 
     code = "no-such-tree"
 
@@ -177,7 +206,14 @@ class NotDecided(GarkError):
 
 
 class UsageProblem(GarkError):
-    """The options of a command do not fit the method or each other."""
+    """The options of a command do not fit the method or each other.
+
+    >>> from garkcli import hamiltonian
+    >>> hamiltonian("keppler")
+    Traceback (most recent call last):
+        ...
+    garkcli.errors.UsageProblem: no problem 'keppler'; did you mean 'kepler'?
+    """
 
 
 Severity: TypeAlias = Literal["error", "warning", "note"]
@@ -326,6 +362,13 @@ class MethodFileError(GarkError):
         source: the file as it was named.
         faults: all of them, in file order.
         text: of the file.
+
+    >>> from garkcli import loads
+    >>> try:
+    ...     loads("{A: [[1/2]], b: [1, 0]}")
+    ... except MethodFileError as error:
+    ...     print(error.source, [fault.message for fault in error.faults])
+    <text> ['b has 2 entries, A is 1 by 1']
     """
 
     def __init__(self, source: str, faults: Sequence[Remark], text: str = "") -> None:
@@ -352,7 +395,15 @@ class MethodFileError(GarkError):
 
 
 class HasFreeParameters(MethodFileError):
-    """A family of methods where one method is expected; nothing else is wrong with the file."""
+    """A family of methods where one method is expected; nothing else is wrong with the file.
+
+    >>> from garkcli import loads
+    >>> try:
+    ...     loads("{parameters: {t: free}, A: [[t]], b: [1]}")
+    ... except HasFreeParameters as error:
+    ...     print(error.faults[0].message)
+    parameters: t is free: the file describes a family of methods
+    """
 
     reading: Any = None
     """The parsed file, from which its family is made; None after pickling."""

@@ -28,7 +28,7 @@ def answered(value: object, question: str, **options: Any) -> Any:
 
     >>> from garkcli.ntrees.tree import Tree
     >>> answered(Tree(0, [Tree(0)]), "text")
-    '[[]_1]_1'
+    '[[]]'
     """
     (answering,) = _handed_down
     for kind in type(value).__mro__:

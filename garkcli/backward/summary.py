@@ -59,6 +59,11 @@ class BackwardAnalysis(Shown, Frozen):
         effective: the order up to a change of coordinates.
         hamiltonian: the terms of the modified Hamiltonian; None if there is none.
         tolerance: the rounding of the coefficients. With one the three orders are lower bounds.
+
+    >>> from garkcli import backward_analysis
+    >>> found = backward_analysis("implicit-midpoint", 4)
+    >>> found.order.order, found.is_symplectic, found.effective.order
+    (2, True, 2)
     """
 
     equation: ModifiedEquation

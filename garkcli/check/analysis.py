@@ -75,6 +75,11 @@ class Analysis(Shown, Frozen):
         dense: the facts about its dense output, or None.
         predictor: the orders of its predictor, or None.
         further: its further weights.
+
+    >>> from garkcli import analyse
+    >>> found = analyse("heun")
+    >>> found.order, found.conjugate_order, found.symplectic
+    (<Order 2>, <Order 2>, False)
     """
 
     tableau: Tableau
@@ -200,6 +205,11 @@ class MethodProof(Shown, Frozen):
         pair: that of the symplectic pair, or None if a weight is zero; for a partitioned method
             only the weights of the positions count.
         obstacle: why there is no conjugate; empty if there is one.
+
+    >>> from garkcli import prove_method
+    >>> proof = prove_method("heun")
+    >>> proof.method.order, proof.pair.order
+    (<Order 2>, <Order 2>)
     """
 
     name: str

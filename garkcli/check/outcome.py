@@ -55,6 +55,11 @@ class Outcome(Shown, Frozen):
         infinitesimal: the analysis of a multirate method with exact fast solutions.
         left_behind: further weights of the underlying methods that it lacks, as text.
         rules: the rules of blocks between diagonal methods.
+
+    >>> from garkcli import check_file
+    >>> outcome = check_file("rk4")
+    >>> outcome.ok, [(x.claim, x.holds) for x in outcome.claims]
+    (True, [('order', True), ('symplectic', True)])
     """
 
     file: str

@@ -88,6 +88,11 @@ class Comparison(Shown, Frozen):
         met: the conditions that one meets and the other does not; None if the methods are the
             same, or have different numbers of colours.
         properties: those that differ, or that are decided of one method alone.
+
+    >>> from garkcli import compare
+    >>> found = compare("rk4", "kutta-38")
+    >>> found.relation, [gap.kind for gap in found.gaps]
+    ('different', ['A', 'b', 'c'])
     """
 
     one: GarkMethod

@@ -132,6 +132,11 @@ class Convergence(Shown, Frozen):
         is_at_rest: whether there are no errors because the solution ends where it starts.
         method: the method, if more than its tableau is known.
         jacobian: the matrix that a Rosenbrock method used for the Jacobian.
+
+    >>> from garkcli import converge
+    >>> found = converge("heun")
+    >>> round(found.observed_order, 1), found.predicted_order
+    (2.0, 2)
     """
 
     problem: Oscillator | Problem

@@ -69,6 +69,11 @@ class Converted(Frozen):
         method: the method, read from the written text.
         left_out: the claims of the file that do not hold for it, or are not defined.
         loses_further: whether embedded weights, dense output or a predictor are lost.
+
+    >>> from garkcli import convert, load
+    >>> heun, made = load("heun"), convert("heun", to="shu-osher")
+    >>> made.method.tableau == heun.tableau, made.loses_further
+    (True, False)
     """
 
     method: MethodFile

@@ -172,6 +172,11 @@ class LongRun(Shown, Frozen):
             or None.
         stability: the stability of the step map of the oscillator, or None.
         method: the method, if more than its tableau is known.
+
+    >>> from garkcli import hamiltonian, long_run
+    >>> run = long_run("rk4", hamiltonian("pendulum"), t_end=200, step="1/2")
+    >>> run.steps, run.energy.verdict
+    (400, 'drifts')
     """
 
     problem: Oscillator | Problem

@@ -178,6 +178,15 @@ def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
     return f"[{inside}]_{_name(tree, colours)}" if colours else f"[{inside}]"
 
 
+def shortest(tree: Tree) -> str:
+    """Bracket notation as ``gark`` prints it for one colour: without colours if all are the first.
+
+    >>> shortest(Tree(0, [Tree(0)])), shortest(Tree(0, [Tree(1)]))
+    ('[[]]', '[[]_2]_1')
+    """
+    return format_tree(tree, colours=bool(tree.colours - {0}))
+
+
 def format_latex(tree: Tree, colours: bool | Sequence[str] = True) -> str:
     r"""The paper's notation: τ^{[l]} for a single vertex of colour l, else [u_1, …, u_m]^{[l]}.
 

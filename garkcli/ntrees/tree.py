@@ -106,7 +106,7 @@ class Tree(Shown):
         return hash(self._key)
 
     def __str__(self) -> str:
-        """The bracket text, with colours from 1."""
+        """The bracket text, with colours from 1 unless all are the first."""
         text: str = answered(self, "text")
         return text
 

@@ -42,6 +42,13 @@ class Witness(Shown, Frozen):
         required: 1/γ(u), or 0 if the exact solution has no such tree.
         is_joint: whether a method within the rounding meets the condition, and none all of those
             up to its order.
+
+    >>> from garkcli import find_order
+    >>> witness = find_order("heun").witness
+    >>> witness
+    <Witness [[[]]]: 0 instead of 1/6>
+    >>> witness.residual
+    -1/6
     """
 
     tree: Tree
@@ -72,6 +79,11 @@ class Order(Shown, Frozen):
     Attributes:
         order: the order, or a lower bound if the search stopped at its limit.
         witness: a tree of the next order whose condition fails; None if the search stopped.
+
+    >>> from garkcli import find_order
+    >>> order = find_order("rk4")
+    >>> order.order, str(order.witness.tree)
+    (4, '[[[[[]]]]]')
     """
 
     order: int

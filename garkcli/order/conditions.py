@@ -33,6 +33,13 @@ class Condition(Shown, Frozen):
             ones.
         is_met: whether the rounded method is taken to meet it; False for exact ones.
         twins: further root colours that give the same condition, as they share stages and weights.
+
+    >>> from garkcli import conditions
+    >>> (condition,) = conditions("heun", ["[[[]]]"])
+    >>> condition
+    <Condition [[[]]]: 0 instead of 1/6>
+    >>> condition.holds, condition.residual
+    (False, -1/6)
     """
 
     tree: Tree

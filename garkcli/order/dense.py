@@ -50,6 +50,10 @@ class DenseOrder(Shown, Frozen):
             undecided.
         undecided: why the next order is undecided; empty otherwise.
         tolerance: the rounding of the coefficients; None for exact ones.
+
+    >>> from garkcli import analyse
+    >>> analyse("dormand-prince-5").dense.order
+    <DenseOrder 4>
     """
 
     order: int

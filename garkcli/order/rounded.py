@@ -242,6 +242,13 @@ class RoundedOrder(Shown, FrozenBut):
         undecided: why the next order is undecided; empty if it is decided, or the search stopped.
         exact: the order up to which the printed digits meet all conditions exactly.
         rounded: the method.
+
+    >>> from garkcli import find_order
+    >>> order = find_order("ark-324")
+    >>> order
+    <RoundedOrder 3 within 1e-25>
+    >>> order.order, order.exact
+    (3, 0)
     """
 
     besides = frozenset({"rounded"})

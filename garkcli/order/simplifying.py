@@ -186,6 +186,11 @@ class Simplifying(FrozenBut):
         C: η^{l,m}; None if the block does not exist.
         D: ζ^{l,m}; None if the block does not exist.
         limit: the limit of each search: numbers that reached it may be larger.
+
+    >>> from garkcli import simplifying
+    >>> found = simplifying("gauss-2")
+    >>> found.B, found.C, found.D, found.bound
+    ((4,), ((2,),), ((2,),), 4)
     """
 
     besides = frozenset({"limit"})

@@ -43,6 +43,11 @@ class Hamiltonian(Frozen):
         is_generic: whether it sees every tree, so that no order above that of the method is
             observed.
         long_run: a step size and a time for long runs, if known.
+
+    >>> from garkcli import hamiltonian
+    >>> kepler = hamiltonian("kepler")
+    >>> kepler.variables, kepler.terms
+    (('x', 'y'), (px**2/2 + py**2/2 - 1/sqrt(x**2 + y**2),))
     """
 
     name: str

@@ -82,6 +82,11 @@ class Verdict(Frozen):
         reason: the entry, pole or polynomial that decides; or why there is no value.
         is_undecided: whether it is defined but undecided.
         is_at_least: whether an integer value may be larger.
+
+    >>> from garkcli import find_property
+    >>> verdict = find_property("rk4", "a-stable")
+    >>> verdict.value, str(verdict.reason)
+    (False, 'R(z) is not bounded: its numerator has the larger degree')
     """
 
     value: Value | None

@@ -155,7 +155,7 @@ def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex"
 def _listed(texts: Sequence[str], d: Plain, noun: str) -> str:
     """Polynomials or equations; usually the first of many."""
     shown: list[str] = []
-    room = ROOM if d.is_brief else len(texts) * LONG
+    room = ROOM // 2 if d.is_brief else len(texts) * LONG
     for text in texts:
         room -= len(text)
         if shown and room < 0:

@@ -159,6 +159,11 @@ class LinearStability(Frozen):
         is_linear_alone: whether R describes the method on linear problems only, as for a Rosenbrock
             method; then there is no SSP coefficient.
         points: R at given points.
+
+    >>> from garkcli import find_stability
+    >>> whole, *alone = find_stability("ars-222").linear
+    >>> [(x.name, x.words) for x in alone]
+    [('1', 'not A-stable'), ('2', 'A-stable, L-stable')]
     """
 
     name: str
@@ -206,6 +211,12 @@ class Stability(Shown, Frozen):
         is_linear_alone: whether it is about linear problems only.
         embedded: R̂ for all colours together, with the embedded weights; None without them, or if
             ``linear`` is empty.
+
+    >>> from garkcli import find_stability
+    >>> find_stability("radau-iia-2")
+    <Stability A-stable, L-stable>
+    >>> find_stability("rk4").linear[0].real[0].end
+    <RealRoot 2.78529356341, a root of x^3 - 4*x^2 + 12*x - 24>
     """
 
     tableau: Tableau

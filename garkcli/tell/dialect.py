@@ -230,12 +230,16 @@ class Plain(Mutable):
     def minimal(self, root: RealRoot) -> str:
         from garkcli.exact.polynomial import Polynomial
 
+        is_wide = max(len(str(a)) for a in root.polynomial.coeffs()) > LONG
+        if is_wide and self.breadth != "page":
+            return f"a polynomial of degree {root.polynomial.degree()}, in --format json"
         return self.polynomial(Polynomial.from_flint(root.polynomial), "x")
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
         """A polynomial; a long one is described, one with long coefficients has decimals."""
         text = polynomial_text(p, variable)
-        if self.is_brief and has_long_coefficients(p):
+        is_wide = max(map(len, text.split()), default=0) > LONG
+        if is_wide or (self.is_brief and has_long_coefficients(p)):
             text = f"about {polynomial_decimals(p, variable)}"
         if len(text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
             return f"a polynomial of degree {p.degree}, in --format json"
@@ -255,13 +259,14 @@ class Plain(Mutable):
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:
         names = [f"z{k + 1}" for k in range(p.variables)]
-        write = multivariate_text
-        if self.is_brief and any(is_long(a) for x in (p, q) for _, a in x.terms):
-            write = multivariate_decimals
-        text = self.over(write(p, names), write(q, names))
-        if len(text) > 2 * LONG_POLYNOMIAL:
+        text = self.over(multivariate_text(p, names), multivariate_text(q, names))
+        has_long = any(is_long(a) for x in (p, q) for _, a in x.terms)
+        if len(text) <= 2 * LONG_POLYNOMIAL and not (has_long and self.is_brief):
+            return self.expression(text)
+        text = self.over(multivariate_decimals(p, names), multivariate_decimals(q, names))
+        if not has_long or len(text) > 2 * LONG_POLYNOMIAL:
             return f"{len(p.terms)} terms over {len(q.terms)}, in --format json and latex"
-        return self.expression(text) if write is multivariate_text else f"about {text}"
+        return f"about {text}"
 
     def place(self, place: Place) -> str:
         """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``."""

@@ -124,7 +124,7 @@ def test_an_order_is_shown_in_a_line() -> None:
     assert repr(found) == "<Order 4>"
     assert found.witness is not None
     tree = str(found.witness.tree)
-    assert tree == "[[[[[]_1]_1]_1]_1]_1"
+    assert tree == "[[[[[]]]]]"
     assert repr(found.witness) == f"<Witness {tree}: 0 instead of 1/120>"
     many = find_order(diagonal_method("gauss", 4))
     assert many.witness is not None

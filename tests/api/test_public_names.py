@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import os
+from collections.abc import Callable
 from importlib import import_module
 from inspect import signature
 from pathlib import Path
@@ -11,6 +13,7 @@ import pytest
 
 import garkcli
 from garkcli.upward import Shown, answered
+from tests.cli.harness import gark
 
 STUB = Path(garkcli.__file__).with_suffix(".pyi")
 CATALOGUE = "catalogue"
@@ -67,3 +70,44 @@ def test_what_nobody_answers_is_nothing() -> None:
     """A value of which there is no picture has none."""
     assert answered(Shown(), "svg") is None
     assert Shown()._repr_html_() is None
+
+
+RESULTS: list[Callable[[], object]] = [
+    lambda: garkcli.find_order("rk4"),
+    lambda: garkcli.find_order("rk4").witness,
+    lambda: garkcli.find_order("ark-324"),
+    lambda: garkcli.analyse("heun"),
+    lambda: garkcli.check_file("rk4"),
+    lambda: garkcli.compare("rk4", "heun"),
+    lambda: garkcli.convert("heun"),
+    lambda: garkcli.find_property("rk4", "a-stable"),
+    lambda: garkcli.find_stability("heun"),
+    lambda: garkcli.find_stability("heun").linear[0],
+    lambda: garkcli.hamiltonian("kepler"),
+    lambda: garkcli.prove_method("heun"),
+    lambda: garkcli.simplifying("rk4"),
+    lambda: next(garkcli.conditions("rk4", ["[[]]"])),
+]
+"""Results of functions, one of each class."""
+
+
+def test_help_has_an_example() -> None:
+    """``help`` of every public name, and of what functions return, shows how it is used."""
+    public = [getattr(garkcli, name) for name in garkcli.__all__]
+    public += [type(result()) for result in RESULTS]
+    assert [x for x in public if ">>>" not in (inspect.getdoc(x) or "")] == []
+
+
+def test_trees_are_written_as_the_commands_write_them() -> None:
+    """Without colours for one colour, with them for several; both are read again."""
+    witness = garkcli.find_order("rk4").witness
+    assert witness is not None
+    shown = gark("check", "rk4").out
+    assert f"fails at {witness.tree} by" in shown
+    assert str(witness.tree) == "[[[[[]]]]]"
+    of_two = garkcli.parse_tree("[[]_2]_1")
+    assert str(of_two) == "[[]_2]_1"
+    assert garkcli.parse_tree(str(witness.tree)) == witness.tree
+    lines = [line.split() for line in gark("trees", "3").out.splitlines()]
+    written = [cells[0] for cells in lines if cells and cells[0].startswith("[")]
+    assert [str(u) for u in garkcli.trees(3)] == written

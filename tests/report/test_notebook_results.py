@@ -156,7 +156,7 @@ def test_a_witness_is_its_tree_and_its_condition() -> None:
     limited = garkcli.find_order("rk4", limit=3)._repr_html_()
     assert limited == "<p>order at least 3; the search stopped here</p>"
     holding, failing = (next(garkcli.conditions(x, "[[[]]]")) for x in ("rk4", "heun"))
-    assert "[[[]_1]_1]_1: 1/6 = 1/6" in holding._repr_html_()
+    assert "[[[]]]: 1/6 = 1/6" in holding._repr_html_()
     assert "0 instead of 1/6" in failing._repr_html_()
 
 
