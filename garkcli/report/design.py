@@ -63,6 +63,8 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
 """Signs of polynomials in usual reports; with details there are all."""
+OF_POLYNOMIALS = 200
+"""The same of those that are zero for a family."""
 MOST = 4
 """Best methods in usual reports."""
 LONG = 2000
@@ -155,7 +157,7 @@ def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex"
 def _listed(texts: Sequence[str], d: Plain, noun: str) -> str:
     """Polynomials or equations; usually the first of many."""
     shown: list[str] = []
-    room = ROOM // 2 if d.is_brief else len(texts) * LONG
+    room = OF_POLYNOMIALS if d.is_brief else len(texts) * LONG
     for text in texts:
         room -= len(text)
         if shown and room < 0:

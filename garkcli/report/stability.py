@@ -600,12 +600,14 @@ def _cut(end: RealRoot | fmpq, power: int) -> str:
     """The root of an end in few decimals, cut off: up to there the method is stable."""
     value = end if isinstance(end, fmpq) else end.exact
     scale = 10 ** (PLACES * power)
-    if value is None:
+    whole = None if value is None else (value * scale).floor()
+    bits = 64
+    while whole is None:  # the end is irrational
         assert isinstance(end, RealRoot)
-        whole = int((end.ball(128) * scale).floor().unique_fmpz())
-    else:
-        whole = int((value * scale).floor())
-    return plain_decimal(fmpq(isqrt(whole) if power == 2 else whole, 10**PLACES))
+        bits *= 2
+        with ctx.workprec(bits):
+            whole = (end.ball(bits) * scale).floor().unique_fmpz()
+    return plain_decimal(fmpq(isqrt(int(whole)) if power == 2 else whole, 10**PLACES))
 
 
 def _end_of(found: Extent | Ray) -> RealRoot | fmpq | None:

@@ -625,9 +625,7 @@ OF_DECIMALS = [
 
 
 @pytest.mark.parametrize("command", OF_DECIMALS)
-def test_every_command_says_that_coefficients_look_rounded(
-    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_every_command_says_that_coefficients_look_rounded(command: str, tmp_path: Path) -> None:
     """A method in decimals without tolerance is pointed out by every command that reads it, once; with
     the line, or quietly, there is nothing to say.
     """
@@ -638,11 +636,10 @@ def test_every_command_says_that_coefficients_look_rounded(
     place, exact = tmp_path / "sdirk.gark.yaml", tmp_path / "within.gark.yaml"
     place.write_text(text, encoding="utf-8")
     exact.write_text(f"{text}tolerance: 1e-15\n", encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
     name, *options = command.split()
     hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-15  order 2 holds"
-    assert gark(name, str(place), *options).err.count(hint) == 1
-    assert "look rounded" not in gark(name, str(exact), *options).err
+    assert gark(name, str(place), *options, cwd=tmp_path).err.count(hint) == 1
+    assert "look rounded" not in gark(name, str(exact), *options, cwd=tmp_path).err
 
 
 def test_a_line_of_several_checks_says_it_too(tmp_path: Path) -> None:

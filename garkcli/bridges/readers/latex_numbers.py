@@ -17,10 +17,10 @@ _IGNORED = re.compile(
 _ROOT_OF = re.compile(r"\\operatorname\{root\}\(([-+0-9x^{}/]{1,4000}),x\\approx(-?[0-9.]{1,60})\)")
 """The root of a polynomial nearest to a decimal, in the notation of gark."""
 _LETTER = r"\\(?:gamma|xi|eta|zeta)(?![A-Za-z])"
-_DEFINED = re.compile(
-    rf"((?:[-+0-9^{{}} ]|{_LETTER}){{1,4000}})= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})"
-)
-"""A polynomial in a letter that is zero, and a decimal near the letter."""
+_DEFINED = re.compile(rf"= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})")
+"""The text after a polynomial in a letter that is zero: a decimal near the letter."""
+MAX_POLYNOMIAL = 400
+"""Longest text of such a polynomial."""
 _ONE = r"(?:\{([^{}]*)\}|([0-9]))"
 _COMMANDS = (
     (re.compile(rf"\\(?:[tdcs]|nice)?frac{_ONE}{_ONE}"), r"((\1\2)/(\3\4))"),
@@ -35,13 +35,18 @@ _PLAIN = re.compile(r"(?:sqrt|root_of\([-+*/^().0-9x]*,|root|[-+*/^().,0-9])*")
 def without_letters(text: str) -> str:
     r"""The text with the roots that it defines in place of their letters.
 
-    >>> text = r"\xi ^{3}-2 = 0, \quad \xi \approx 1.26; \frac{1}{\xi }"
+    >>> text = r"\[ \xi ^{3}-2 = 0, \quad \xi \approx 1.26 \]; \frac{1}{\xi }"
     >>> print(without_letters(text).split("; ")[1])
     \frac{1}{\operatorname{root}(x^{3}-2,x\approx1.26)}
     """
-    for polynomial, letter, near in _DEFINED.findall(text):
-        of_x = polynomial.replace(letter, "x").replace(" ", "")
-        root = rf"\operatorname{{root}}({of_x},x\approx{near})"
+    roots: dict[str, str] = {}
+    for found in _DEFINED.finditer(text):
+        letter, near = found.groups()
+        before = text[max(found.start() - MAX_POLYNOMIAL, 0) : found.start()]
+        polynomial = before.rpartition(r"\[")[2].replace(letter, "x").replace(" ", "")
+        if re.fullmatch(r"[-+0-9x^{}]+", polynomial):
+            roots[letter] = rf"\operatorname{{root}}({polynomial},x\approx{near})"
+    for letter, root in roots.items():
         text = re.sub(rf"\{letter}(?![A-Za-z]) ?", root.replace("\\", r"\\"), text)
     return text
 
