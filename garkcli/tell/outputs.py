@@ -100,12 +100,14 @@ def one(section: Section[T], whole: T, d: Plain, level: Level = Level.USUAL) -> 
     """A result: the answer first."""
     headline = "; ".join(phrases(section, whole, d, Level.HEADLINE))
     subject = section.title(whole, d) if section.title else ""
+    head: list[str] = []
     if subject or headline:
-        yield from d.headline(": ".join(filter(None, [subject, headline])))
+        head = d.headline(": ".join(filter(None, [subject, headline])))
+    yield from head
     lines = body(section, whole, d, level, 1)
     if d.letters is not None:
-        lines = iter(whole_text := [*lines])
-        yield from d.definitions(d.letters, "\n".join(whole_text))
+        lines = iter(told := [*lines])
+        yield from d.definitions(d.letters, "\n".join([*head, *told]))
     yield from lines
 
 

@@ -134,4 +134,4 @@ def test_within_a_tolerance_the_largest_residual_is_shown() -> None:
     assert outcome.analysis is not None
     witness = outcome.analysis.order.witness
     assert witness is not None
-    assert (str(witness.tree), witness.residual) == ("[[]_1,[]_1]_1", fmpq(1, 6))
+    assert (str(witness.tree), witness.residual) == ("[[],[]]", fmpq(1, 6))

@@ -26,7 +26,7 @@ from garkcli.exact.parametric import Parameters
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.writer import write_method
-from garkcli.ntrees.notation import parse_tree
+from garkcli.ntrees.notation import format_tree, parse_tree
 from garkcli.order import constants
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
@@ -318,9 +318,9 @@ def test_conditions_of_the_book() -> None:
         "[[[[]_1]_2]_2]_2": apply(beta, apply(beta, e)),
     }
     found = [x for n in range(1, 5) for x in all_conditions(tableau, n)]
-    assert {str(x.tree) for x in found} == expected.keys()
+    assert {format_tree(x.tree) for x in found} == expected.keys()
     for x in found:
-        assert x.value == dot(b, expected[str(x.tree)])
+        assert x.value == dot(b, expected[format_tree(x.tree)])
         assert x.required == fmpq(1, x.tree.density)
 
 
