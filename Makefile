@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue figures docs paper browser links man walk release-check floors format clean known
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue figures docs paper browser page tried links man walk release-check floors format clean known
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 16
@@ -105,6 +105,13 @@ links: $(READY) ## the links of the documentation to other sites, asked for; nee
 browser: docs ## reports and the site in headless Chromium, see docs/contributing/browser.md
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[browser]"
 	$(BIN)/python -m pytest tests/browser --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
+
+page: $(READY) ## gark as a static page in build/page, which runs in the browser; needs npm, see docs/try-it.md
+	$(BIN)/python tryit/build.py
+
+tried: page ## that page in headless Chromium, on a desktop and on a phone
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[browser]"
+	$(BIN)/python -m pytest tests/tried --override-ini addopts="-q --import-mode=importlib" --override-ini norecursedirs=".*"
 
 man: $(READY) ## make the manual page anew
 	$(BIN)/python docs/man/page.py

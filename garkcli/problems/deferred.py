@@ -14,6 +14,7 @@ from typing import Any, TypeAlias, TypeVar, overload
 
 import msgspec.json
 
+from garkcli.errors import UsageProblem
 from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
 
 T = TypeVar("T")
@@ -45,7 +46,12 @@ class Deferred(Sequence[Expr]):
 
     @cached_property
     def made(self) -> Exprs:
-        return tuple(self._make())
+        try:
+            return tuple(self._make())
+        except ImportError:
+            message = "this needs sympy, which is not installed here"
+            cure = "the problems of gark converge for up to three terms do without it"
+            raise UsageProblem(message, cure, code="missing-package") from None
 
     def derived(self, what: str, make: Callable[[], Vector], count: int | None = None) -> Deferred:
         """Expressions derived from these, such as derivatives."""
