@@ -226,6 +226,13 @@ COMMANDS = {
         ),
         ("gark schema", "gark schema --report stability"),
     ),
+    "lsp": Command(
+        EXCHANGE,
+        "editing",
+        "orders and remarks in an editor, while a method file is typed",
+        (),
+        ("gark lsp --once mine.yaml", "gark lsp --once rk4"),
+    ),
 }
 """The commands in the order of the help."""
 FORMER = {

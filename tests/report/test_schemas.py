@@ -177,10 +177,10 @@ def test_the_schema_is_one(command: str) -> None:
 
 def test_every_command_with_a_report_has_a_schema() -> None:
     """All commands but ``gark schema``, whose output is a schema itself, ``gark new``, and ``gark
-    report`` and ``gark plot``, which show what others report; and every name of a report that the
+    report``, ``gark plot`` and ``gark lsp``, which show what others report; and every name of a report that the
     program writes is the constant of a schema.
     """
-    assert NAMES - {"schema", "new", "report", "plot"} <= set(REPORTS)
+    assert NAMES - {"schema", "new", "report", "plot", "lsp"} <= set(REPORTS)
     assert RUNS.keys() == REPORTS.keys()
     names = set()
     for path in Path(ROOT, "garkcli").rglob("*.py"):

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, Route, expect
@@ -104,8 +105,11 @@ def test_the_first_look(seen: Seen) -> None:
     assert seen.asked == []
 
 
-def test_what_is_typed_is_answered_as_by_the_command(seen: Seen) -> None:
+def test_what_is_typed_is_answered_as_by_the_command(
+    seen: Seen, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The answer to a new file is what gark says elsewhere, letter by letter."""
+    monkeypatch.chdir(tmp_path)
     page = seen.page
     for text in (PAIR, "A: [[0, 1]\nb: [1]\n", HOSTILE):
         page.locator("#text").fill(text)

@@ -1,0 +1,1 @@
+"""Method files in editors, by the Language Server Protocol."""

@@ -1,0 +1,167 @@
+"""Judges a method file for an editor: remarks at their places, a lens with the orders, and changes
+that mend something.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from garkcli.check.check_file import check_method
+from garkcli.check.findings import findings
+from garkcli.check.outcome import Outcome
+from garkcli.deadline import within
+from garkcli.errors import HasFreeParameters, MethodFileError, NotDecided, Remark
+from garkcli.exact.display import to_text
+from garkcli.frozen import Frozen
+from garkcli.glossary.key import METHOD_FILE
+from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, composed, position
+from garkcli.methodfile.load import loads
+from garkcli.order.repair import Repair
+from garkcli.report.checked import REPORT
+from garkcli.tell.outputs import label, words
+
+SECONDS = 5.0
+"""Seconds for a file; then the rest stays undecided."""
+ORDERS = ("order", "embedded_order", "conjugate_order", "pair_order")
+"""The rows of ``gark check`` in the lens."""
+COLUMNS = 200
+LATE = "not decided in time; gark check takes longer"
+"""The lens of a file that takes too long."""
+_TOKEN = re.compile(r"[^\s,\[\]{}:]+")
+_MEANT = re.compile(r"did you mean '([^']+)'\?")
+_KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
+
+
+class Span(Frozen):
+    """A part of a line; line and columns count from 0."""
+
+    line: int
+    start: int
+    end: int
+
+
+class Fix(Frozen):
+    """A change of a part of the file."""
+
+    title: str
+    span: Span
+    text: str
+
+
+class Shown(Frozen):
+    """A remark at its place, with the changes that mend it."""
+
+    remark: Remark
+    span: Span
+    fixes: tuple[Fix, ...] = ()
+
+
+class Judgement(Frozen):
+    """The remarks on a file, and the texts of the lens above a line of it, from 0."""
+
+    remarks: tuple[Shown, ...] = ()
+    lens: tuple[str, ...] = ()
+    line: int = 0
+
+
+def is_method(name: str, text: str) -> bool:
+    r"""Whether a file of this name is meant as a method file.
+
+    >>> is_method("a.gark.yaml", ""), is_method("a.yaml", "b: 1\nA: 2"), is_method("a.yaml", "")
+    (True, True, False)
+    """
+    if name.endswith((".gark.yaml", ".gark.yml")):
+        return True
+    keys = {*_KEY.findall(text)}
+    return bool(keys & {"gark", "expect"}) or {"A", "b"} <= keys or {"methods", "transfer"} <= keys
+
+
+def judged(text: str, source: str) -> Judgement:
+    """Returns the remarks on a method file and its orders; within SECONDS.
+
+    A file with unknowns or free parameters has a lens that names them, and no remarks.
+    """
+    line = _line_of_tableau(text)
+    try:
+        with within(SECONDS):
+            outcome = check_method(loads(text, source))
+    except HasFreeParameters:
+        return Judgement((), ("numbers are free: gark check and gark design have more",), line)
+    except MethodFileError as error:
+        outcome = Outcome(source, source, faults=error.faults, text=text)
+    except NotDecided:
+        return Judgement((), (LATE,), line)
+    lines = text.splitlines()
+    shown = tuple(
+        Shown(x.remark, span_of(lines, x.remark), tuple(_fixes(outcome, x.remark, lines)))
+        for x in findings(outcome)
+    )
+    return Judgement(shown, _orders(outcome), line)
+
+
+def _line_of_tableau(text: str) -> int:
+    """Returns the line of the first key that makes a method."""
+    for found in _KEY.finditer(text):
+        if found[1] in METHOD_FILE.keys and found[1] != "gark":
+            return text.count("\n", 0, found.start())
+    return 0
+
+
+def _orders(outcome: Outcome) -> tuple[str, ...]:
+    if not outcome.is_read:
+        return ()
+    dialect = REPORT.dialect(outcome, "text", width=COLUMNS)
+    facts = REPORT.form(outcome).named(outcome, ORDERS)
+    return tuple(
+        f"{label(x, dialect)} {words(x, dialect)}" for x in facts.values() if x.is_something
+    )
+
+
+def span_of(lines: list[str], remark: Remark) -> Span:
+    """Returns the word at the place of a remark."""
+    line, start = max(remark.line, 1) - 1, max(remark.column, 1) - 1
+    text = lines[line] if line < len(lines) else ""
+    found = _TOKEN.match(text, start)
+    return Span(line, start, found.end() if found else min(start + 1, len(text)))
+
+
+def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
+    """Yields the word that was meant, or the entry that makes a claim hold."""
+    meant = _MEANT.search(remark.help)
+    if meant is not None:
+        span = span_of(lines, remark)
+        yield Fix(f"Write {meant[1]}", span, meant[1])
+    blame = outcome.blame
+    if remark.code != "claim" or blame is None or not remark.message.startswith(f"{blame.of}:"):
+        return
+    for repair in blame.repairs:
+        place = _place(outcome.text, repair)
+        if place is not None:
+            new = to_text(repair.new)
+            yield Fix(f"Write {new} in place of {to_text(repair.old)}", place, new)
+
+
+def _place(text: str, repair: Repair) -> Span | None:
+    """Returns where an entry is written in a file with A and b; None if it is not."""
+    root = composed(text)
+    if not isinstance(root, MappingNode) or repair.l or repair.m:
+        return None
+    entries = {key.value: value for key, value in root.value if isinstance(key, ScalarNode)}
+    if repair.i is not None and repair.m is not None:
+        return _scalar(_item(_item(entries.get("A"), repair.i), repair.j))
+    return _scalar(_item(entries.get("embedded" if repair.is_embedded else "b"), repair.j))
+
+
+def _item(node: Node | None, index: int) -> Node | None:
+    if isinstance(node, SequenceNode) and index < len(node.value):
+        item: Node = node.value[index]
+        return item
+    return None
+
+
+def _scalar(node: Node | None) -> Span | None:
+    if not isinstance(node, ScalarNode):
+        return None
+    line, column = position(node.start_mark)
+    return Span(line - 1, column - 1, position(node.end_mark)[1] - 1)
