@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from html import escape
 from pathlib import Path
 
 from garkcli import catalogue, load
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
 from garkcli.deadline import within
-from garkcli.errors import GarkError
+from garkcli.errors import GarkError, Remark
 from garkcli.families.registry import BY_STAGES
 from garkcli.methodfile.transfers import RULES
 from garkcli.ntrees.notation import format_tree
@@ -54,8 +55,12 @@ def checked(text: str, width: int) -> str:
 
 def _outcome(text: str) -> Outcome:
     Path(NAME).write_text(text, encoding="utf-8")
-    with within(SECONDS):
-        return check_file(NAME)
+    try:
+        with within(SECONDS):
+            return check_file(NAME)
+    except GarkError as error:  # it takes too long
+        fault = Remark(error.message, error.help, code=error.code)
+        return Outcome(NAME, NAME, faults=(fault,), text=text)
 
 
 def _tree(outcome: Outcome) -> str:
@@ -97,5 +102,8 @@ def reported(text: str, _: int) -> str:
     from garkcli.webpage.page import report_page
 
     Path(NAME).write_text(text, encoding="utf-8")
-    with within(SECONDS):
-        return report_page(NAME, order=HIGHEST)
+    try:
+        with within(SECONDS):
+            return report_page(NAME, order=HIGHEST)
+    except GarkError as error:  # it takes too long
+        return f"<p>{escape(str(error))}</p>"

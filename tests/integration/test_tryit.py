@@ -65,6 +65,16 @@ def test_pictures_and_reports(answers: ModuleType) -> None:
     assert page.count('class="tree"') > 37
 
 
+def test_what_takes_too_long_is_said(answers: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In words, in each answer; no program fails."""
+    monkeypatch.setattr(answers, "SECONDS", 0.0)
+    found = json.loads(answers.checked("methods: [gauss-9]\n", 80))
+    assert found["sign"] == "fault"
+    assert "not decided in the time" in found["said"]
+    assert answers.drawn("methods: [gauss-9]\n", 0) == ""
+    assert "not decided in the time" in answers.reported("methods: [gauss-9]\n", 0)
+
+
 def test_choices_are_all_there_is(answers: ModuleType) -> None:
     """Each name of the catalogue has a file, each family of the form makes a method with each
     rule.
