@@ -19,7 +19,7 @@ CACHE = ROOT / ".portable"
 """Environments and records of runs; ignored by git, and safe to delete."""
 FLOOR = re.compile(r"^([\w.-]+)>=([\w.]+)( *;.*)?$")
 """A declared minimum version; behind a semicolon, where it is needed."""
-EXTRAS = ("audit", "cluster", "parquet", "plot")
+EXTRAS = ("audit", "cluster", "lsp", "parquet", "plot")
 """What users may have beside the program."""
 MSOLVE = "design"
 """One more; it needs a newer numpy than the program does."""
