@@ -31,7 +31,7 @@ def choices() -> str:
     return json.dumps({"families": [*BY_STAGES], "rules": [*RULES], "methods": names})
 
 
-def named(name: str, _: int) -> str:
+def named(name: str) -> str:
     """The file of a method of the catalogue, as JSON: its text, or why there is none."""
     try:
         return json.dumps({"text": load(name).text})
@@ -76,7 +76,7 @@ def _tree(outcome: Outcome) -> str:
     return str(dots([analysis.tableau.size]) + tree_picture(witness.tree, title, has_colours))
 
 
-def drawn(text: str, _: int) -> str:
+def drawn(text: str) -> str:
     """The stability region, as HTML; empty without one."""
     from markupsafe import Markup
 
@@ -97,7 +97,7 @@ def drawn(text: str, _: int) -> str:
     return str(Markup(svg(panel)) + caption)
 
 
-def reported(text: str, _: int) -> str:
+def reported(text: str) -> str:
     """The page of ``gark report``."""
     from garkcli.webpage.page import report_page
 

@@ -35,7 +35,8 @@ function next() {
   at("stop").disabled = false;
   document.body.dataset.busy = question;
   deadline = setTimeout(() => end(`No answer after ${LIMIT / 1000} seconds`), LIMIT);
-  worker.postMessage({ number, question, text: text.value, width: columns() });
+  const given = question === "checked" ? [text.value, columns()] : [text.value];
+  worker.postMessage({ number, question, given });
 }
 
 /* how many letters fit into a line of the answer */
@@ -201,7 +202,7 @@ at("catalogue").addEventListener("submit", (event) => {
   }
   busy = true;
   left = [];
-  worker.postMessage({ number, question: "named", text: at("name").value || "rk4", width: 0 });
+  worker.postMessage({ number, question: "named", given: [at("name").value || "rk4"] });
 });
 at("share").addEventListener("click", async () => {
   history.replaceState(null, "", `#file=${await packed(text.value)}`);

@@ -19,10 +19,10 @@ ready.then(
   (error) => postMessage({ kind: "broken", value: String(error) }),
 );
 
-onmessage = async ({ data: { number, question, text, width } }) => {
+onmessage = async ({ data: { number, question, given } }) => {
   const answers = await ready;
   try {
-    postMessage({ kind: "answer", number, question, value: answers[question](text, width) });
+    postMessage({ kind: "answer", number, question, value: answers[question](...given) });
   } catch (error) {
     const lines = String(error.message || error).trim().split("\n");
     postMessage({ kind: "fault", number, question, value: lines[lines.length - 1] });

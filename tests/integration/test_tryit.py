@@ -53,13 +53,13 @@ def test_signs_tell_files_apart(answers: ModuleType) -> None:
         "A: [[0]]\nb: [1": "fault",
     }
     assert {x: json.loads(answers.checked(x, 80))["sign"] for x in signs} == signs
-    assert answers.drawn("A: [[0]]\nb: [1", 0) == ""
+    assert answers.drawn("A: [[0]]\nb: [1") == ""
 
 
 def test_pictures_and_reports(answers: ModuleType) -> None:
     """The region is drawn, and the report lists the conditions to order six."""
-    assert answers.drawn(WRONG, 0).startswith('<svg class="plot"')
-    page = answers.reported(WRONG, 0)
+    assert answers.drawn(WRONG).startswith('<svg class="plot"')
+    page = answers.reported(WRONG)
     Path(answers.NAME).write_text(WRONG, encoding="utf-8")
     assert page == report_page(answers.NAME, order=6)
     assert page.count('class="tree"') > 37
@@ -71,8 +71,8 @@ def test_what_takes_too_long_is_said(answers: ModuleType, monkeypatch: pytest.Mo
     found = json.loads(answers.checked("methods: [gauss-9]\n", 80))
     assert found["sign"] == "fault"
     assert "not decided in the time" in found["said"]
-    assert answers.drawn("methods: [gauss-9]\n", 0) == ""
-    assert "not decided in the time" in answers.reported("methods: [gauss-9]\n", 0)
+    assert answers.drawn("methods: [gauss-9]\n") == ""
+    assert "not decided in the time" in answers.reported("methods: [gauss-9]\n")
 
 
 def test_choices_are_all_there_is(answers: ModuleType) -> None:
@@ -83,8 +83,8 @@ def test_choices_are_all_there_is(answers: ModuleType) -> None:
     assert "gauss" in found["families"]
     assert "kutta-3" in found["methods"]
     assert "collocation" in found["rules"]
-    assert json.loads(answers.named("rk4", 0))["text"] == load("rk4").text
-    assert json.loads(answers.named("no such", 0))["text"].startswith("# ")
+    assert json.loads(answers.named("rk4"))["text"] == load("rk4").text
+    assert json.loads(answers.named("no such"))["text"].startswith("# ")
     text = "methods: [{family: gauss, stages: 2}, {family: lobatto-iiia, stages: 3}]\ntransfer: "
     for rule in found["rules"]:
         assert json.loads(answers.checked(text + rule, 80))["sign"] == "holds", rule
