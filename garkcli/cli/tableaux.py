@@ -440,11 +440,19 @@ def diff(given: Diff, output: Output) -> int:
     first, second = _loaded((given.first, given.second), given.settings)
     found = compare(first, second)
     names = called(given.first), called(given.second)
-    output.tell(REPORT, ComparedPair(found, names, (given.first, given.second)))
+    typed = _as_typed(given.first, names[0]), _as_typed(given.second, names[1])
+    output.tell(REPORT, ComparedPair(found, names, typed))
     if given.strict and found.relation in {"same", "within-rounding"}:
         return 1
     is_same = found.is_same_step and not given.strict
     return EXIT_CODES["same" if is_same else found.relation]
+
+
+def _as_typed(argument: str, name: str) -> str:
+    """Returns the name of a method as it was typed: RK4 is rk4, an alias stays."""
+    from garkcli.methodfile.shelves import key_of
+
+    return name if key_of(argument) == name else argument
 
 
 def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodFile]:

@@ -64,7 +64,7 @@ Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
 """Signs of polynomials in usual reports; with details there are all."""
 OF_POLYNOMIALS = 200
-"""The same of those that are zero for a family."""
+"""Signs of the polynomials that are zero, in usual reports."""
 MOST = 4
 """Best methods in usual reports."""
 LONG = 2000
