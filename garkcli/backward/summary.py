@@ -22,7 +22,6 @@ from garkcli.frozen import Frozen, replace
 from garkcli.order.deciding import order_of
 from garkcli.order.meant import AnyTableau, meant
 from garkcli.order.simplifying import is_symplectic
-from garkcli.tableau.box import changed
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -133,7 +132,7 @@ def _of_rounded(
     found = order_of(rounded, max_order)
     order = Reached(found.order, found.is_lower_bound)
     proved = is_symplectic(rounded)
-    near = changed(rounded.near, lambda x: midpoint(x) if isinstance(x, arb) else x)
+    near = rounded.near.changed(lambda x: midpoint(x) if isinstance(x, arb) else x)
     equation, zero = modified_equation(near, max_order), rounded.grain
     unit = fmpq(10) ** -(len(str((1 / rounded.tolerance).floor())) + EXTRA)
 

@@ -62,12 +62,6 @@ class OneField:
         image: Number = with_radicals(number, self._images[id(number.field)])
         return image
 
-    def vector(self, row: Sequence[Number]) -> Vector:
-        return tuple(map(self.number, row))
-
-    def matrix(self, rows: Sequence[Sequence[Number]]) -> Matrix:
-        return tuple(map(self.vector, rows))
-
 
 Place: TypeAlias = tuple[int, int] | None
 """A stage (space, index) of the old method; None for an added one, with zeros."""
@@ -129,11 +123,7 @@ def all_rows(sheet: Sheet) -> Iterator[Vector]:
 
 def _mapped(sheet: Sheet, field: OneField) -> Sheet:
     """The sheet with its numbers in a larger field."""
-    old = sheet.tableau
-    spaces = tuple(PointSpace(field.vector(space.nodes)) for space in old.spaces)
-    colours = tuple(replace(x, b=field.vector(x.b), c=field.vector(x.c)) for x in old.colours)
-    blocks = {key: field.matrix(block) for key, block in old.blocks.items()}
-    return Sheet(Tableau(spaces, colours, blocks), sheet.further.changed(field.number))
+    return Sheet(sheet.tableau.changed(field.number), sheet.further.changed(field.number))
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:

@@ -15,18 +15,15 @@ from garkcli.design.solutions import Solution, value_at
 from garkcli.errors import MethodError, NotDecided, VanishingDenominator
 from garkcli.exact.cells import Interval, has, where_not_negative
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, Parametric, fraction, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
-from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.family import OSCILLATING, Family, RequiredStability
 from garkcli.tableau.forms import pair
-from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
 
 Whose: TypeAlias = Literal["method", "conjugate", "pair"]
@@ -49,13 +46,7 @@ def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> 
     Raises:
         VanishingDenominator: a denominator is zero at the values.
     """
-    at = _At([values[name] for name in ring.names])
-    spaces = tuple(at.space(space) for space in tableau.spaces)
-    colours = tuple(
-        replace(colour, b=at.vector(colour.b), c=at.vector(colour.c)) for colour in tableau.colours
-    )
-    blocks = {key: at.matrix(block) for key, block in tableau.blocks.items()}
-    return Tableau(spaces, colours, blocks)
+    return tableau.changed(_At([values[name] for name in ring.names]).number)
 
 
 def further_member(further: Further, ring: Parameters, values: Mapping[str, Number]) -> Further:
@@ -76,17 +67,6 @@ class _At:
         functions = [x for x in cast("list[object]", values) if isinstance(x, Parametric)]
         self._ring = functions[0].ring if functions else None
         self._monomials = None if self._ring is None else _monomials(values, self._ring)
-
-    def space(self, space: StageSpace) -> StageSpace:
-        if isinstance(space, PointSpace):
-            return replace(space, points=self.vector(space.points))
-        return space
-
-    def matrix(self, rows: Matrix) -> Matrix:
-        return tuple(self.vector(row) for row in rows)
-
-    def vector(self, row: Vector) -> Vector:
-        return tuple(self.number(x) for x in row)
 
     def number(self, x: object) -> Number:
         if not isinstance(x, Parametric):

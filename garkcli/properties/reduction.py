@@ -150,19 +150,8 @@ def _with_entries(space: int, row: Vector, tolerance: fmpq) -> set[Vertex]:
 
 
 def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
-    """The tableau with some stages only."""
-    spaces = []
-    for space, stages in zip(tableau.spaces, kept, strict=True):
-        spaces.append(PointSpace(_chosen(space.nodes, stages)))
-    colours = []
-    for colour in tableau.colours:
-        stages = kept[colour.space]
-        colours.append(replace(colour, b=_chosen(colour.b, stages), c=_chosen(colour.c, stages)))
-    blocks = {}
-    for (k, m), block in tableau.blocks.items():
-        columns = kept[tableau.colours[m].space]
-        blocks[k, m] = tuple(_chosen(block[i], columns) for i in kept[k])
-    return Tableau(tuple(spaces), tuple(colours), blocks)
+    """The tableau with the kept stages of each space."""
+    return _joined(tableau, [[[stage] for stage in stages] for stages in kept])
 
 
 def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
@@ -173,7 +162,11 @@ def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
     """The tableau with one stage for each class of equal ones, with the sum of their weights;
     numbers within ``tolerance`` are equal.
     """
-    classes = equal_stages(tableau, tolerance)
+    return _joined(tableau, equal_stages(tableau, tolerance))
+
+
+def _joined(tableau: Tableau, classes: Sequence[Sequence[Sequence[int]]]) -> Tableau:
+    """The tableau with the first stage of each class, with the sum of the weights of its stages."""
     firsts = [[members[0] for members in of_space] for of_space in classes]
     spaces = []
     for space, stages in zip(tableau.spaces, firsts, strict=True):

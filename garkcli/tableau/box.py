@@ -73,7 +73,7 @@ class FormTableau:
     @property
     def in_balls(self) -> Tableau:
         """The tableau with each entry as a ball around all its values."""
-        return changed(self.made, lambda x: x.ball if isinstance(x, Affine) else constant(x))
+        return self.made.changed(lambda x: x.ball if isinstance(x, Affine) else constant(x))
 
     def block(self, l: int, m: int) -> FormMatrix:
         return self.A[self.made.colours[l].space, m]
@@ -85,18 +85,6 @@ class FormTableau:
 def rational_or_ball(number: Any) -> Any:
     """A number; a ball at the current precision if it is irrational."""
     return constant(number) if isinstance(number, Algebraic) else number
-
-
-def changed(tableau: Tableau, change: Callable[[Any], Any]) -> Tableau:
-    """A tableau of point stages with ``change`` applied to every number."""
-
-    def row(numbers: Any) -> Any:
-        return tuple(map(change, numbers))
-
-    spaces = tuple(PointSpace(row(space.nodes)) for space in tableau.spaces)
-    colours = tuple(replace(x, b=row(x.b), c=row(x.c)) for x in tableau.colours)
-    blocks = {key: tuple(map(row, block)) for key, block in tableau.blocks.items()}
-    return Tableau(spaces, colours, blocks)
 
 
 def to_points(tableau: Tableau) -> Tableau:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import chain
 from typing import Any, Literal, TypeAlias
@@ -11,7 +11,7 @@ from garkcli.errors import MethodError, ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.kind import FIELDS, LINEAR, PLAIN, VertexKind
 from garkcli.ntrees.tree import Tree
 from garkcli.tableau.stages import OF_OTHERS, Flow, Jets, PointSpace, StageSpace
@@ -213,6 +213,20 @@ class Tableau(Frozen):
     def has_parameters(self) -> bool:
         """Whether a coefficient is a rational function of free parameters."""
         return any(isinstance(x, Parametric) for x in chain.from_iterable(self.rows))
+
+    def changed(self, change: Callable[[Any], Any]) -> Tableau:
+        """The tableau with ``change`` applied to every number; other than point stages stay."""
+
+        def row(numbers: Vector) -> Vector:
+            return tuple(map(change, numbers))
+
+        spaces = [
+            replace(space, points=row(space.points)) if isinstance(space, PointSpace) else space
+            for space in self.spaces
+        ]
+        colours = tuple(replace(x, b=row(x.b), c=row(x.c)) for x in self.colours)
+        blocks = {key: tuple(map(row, block)) for key, block in self.blocks.items()}
+        return Tableau(tuple(spaces), colours, blocks)
 
     @property
     def rows(self) -> Iterator[Vector]:
