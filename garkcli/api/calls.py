@@ -57,11 +57,7 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
 
 
 def refuse_unknown(keys: Iterable[str]) -> None:
-    """Raises UsageProblem for an unknown claim.
-
-    Raises:
-        UsageProblem: one is none.
-    """
+    """Raises UsageProblem for an unknown claim."""
     for key in keys:
         if key not in CLAIMS:
             raise UsageProblem(f"no claim {key!r}", did_you_mean(key, CLAIMS), code="unknown-word")

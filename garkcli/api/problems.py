@@ -68,11 +68,7 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
 
 
 def demand_name(given: object) -> None:
-    """Raises MethodError unless the argument is the name of a problem or a path.
-
-    Raises:
-        MethodError: that is the case.
-    """
+    """Raises MethodError unless the argument is the name of a problem or a path."""
     if not isinstance(given, (str, os.PathLike)):
         message = f"a problem is expected, not {type(given).__name__}"
         cure = "give the name of a built-in one, or what load_problem returns"
