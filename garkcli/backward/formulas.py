@@ -16,6 +16,7 @@ from garkcli.ntrees.kind import LINEAR
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import elementary_weight
 from garkcli.order.simplifying import is_symplectic
+from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.fields import visible_tableau
@@ -24,8 +25,6 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from flint import fmpq
-
     from garkcli.exact.nodes import Expression
     from garkcli.ntrees.free import Structure
     from garkcli.stepping.integrator import Binding
@@ -309,21 +308,15 @@ def in_sympy(number: Number) -> Any:
     import sympy
 
     if not isinstance(number, Algebraic):
-        return _rational(number)
+        return rational(number)
     total = sympy.Integer(0)
     for coefficient, word in number.terms():
-        term = _rational(coefficient)
+        term = rational(coefficient)
         for index in word:
             radical, _ = number.field.radicals[index]
             term *= _radical(radical)
         total += term
     return total
-
-
-def _rational(number: fmpq) -> Any:
-    import sympy
-
-    return sympy.Rational(int(number.p), int(number.q))
 
 
 def _radical(radical: Expression) -> Any:

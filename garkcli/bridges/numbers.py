@@ -138,14 +138,14 @@ DECIMALS = Style()
 """The floats of languages that divide no integers as they read them."""
 
 
-def c_style(macro: str, digits: int = 36) -> Style:
+def c_style(macro: str) -> Style:
     """Numbers inside a macro that gives them the suffix of their type.
 
     A quotient of two integers of the type is right in every precision; 36 digits are enough for
     binary128.
     """
     return Style(
-        digits=digits,
+        digits=36,
         longest=100,
         fraction=f"{macro}({{p}}.0) / {macro}({{q}}.0)",
         decimal=f"{macro}({{x}})",

@@ -20,7 +20,7 @@ from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided, TooManyTerms
 from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
 from garkcli.exact.field import Number, NumberField
-from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction
+from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen, replace
@@ -71,7 +71,7 @@ def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
     chosen: dict[int, fmpq_mpoly] = {}
     for name, node in nodes.items():
         others = [x for key, x in nodes.items() if key != name]
-        for i in _places(node):
+        for i in unknowns_of(node):
             is_alone = not any(x.degrees()[i] for x in others)
             if is_alone and name not in names:
                 names[i] = name
@@ -98,7 +98,7 @@ def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
             x = cast("Mixed", node)
             if not isinstance(x, Parametric) or not x.denominator.is_one():
                 continue
-            if x.numerator.total_degree() == 1 and len(_places(x.numerator)) > 1:
+            if x.numerator.total_degree() == 1 and len(unknowns_of(x.numerator)) > 1:
                 name = f"c{i}" if tableau.size == 1 else f"c{l}_{i}"
                 yield name, x.numerator
 
@@ -106,11 +106,6 @@ def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
 def _evaluated(tableau: Tableau) -> list[Colour]:
     """The colours evaluated at their nodes; the Jacobian of a Rosenbrock method is not."""
     return [colour for colour in tableau.colours if colour.kind != ONE_BRANCH]
-
-
-def _places(p: fmpq_mpoly) -> list[int]:
-    """The unknowns in a polynomial."""
-    return [i for i, degree in enumerate(p.degrees()) if degree]
 
 
 Values: TypeAlias = dict[str, Mixed]
@@ -583,11 +578,15 @@ class _Splitting(Frozen):
                 is_new = any(x not in nonzero for x in factors([A]))
                 degree = int(p.total_degree())
                 name = self.ring.names[index]
-                is_kept = name in self.kept and len(_places(p)) > 1
+                is_kept = name in self.kept and len(unknowns_of(p)) > 1
                 ease = (len(A), degree, -index)
                 if self.is_large:
                     # branches with few unknowns first: each of them is another system
-                    ease = (len(_places(A)), len(_places(p)), len(A)) if is_new else (0, 0, len(A))
+                    ease = (
+                        (len(unknowns_of(A)), len(unknowns_of(p)), len(A))
+                        if is_new
+                        else (0, 0, len(A))
+                    )
                 cost = (is_kept, is_new, *ease)
                 candidates.append(_Linear(p, name, A, p - A * v, cost))
         return min([x for x in candidates if x.name in left], key=lambda x: x.cost, default=None)

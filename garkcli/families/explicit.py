@@ -9,6 +9,7 @@ Runge–Kutta methods with low-storage implementations*, SIAM J. Sci. Comput. 30
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from math import isqrt
 
 from flint import fmpq
@@ -42,12 +43,7 @@ STAGES = {name: len(b.split()) for name, (_, b) in _ROWS.items()}
 
 
 def _row(text: str) -> Vector:
-    return tuple(_rational(entry) for entry in text.split())
-
-
-def _rational(text: str) -> fmpq:
-    p, _, q = text.partition("/")
-    return fmpq(int(p), int(q or 1))
+    return tuple(fmpq(*Fraction(entry).as_integer_ratio()) for entry in text.split())
 
 
 def named(name: str) -> Method:

@@ -11,6 +11,7 @@ from garkcli.problems.deferred import Deferred
 from garkcli.problems.draw import Draw
 from garkcli.problems.expr import Expr, Exprs, Vector, dot, rational
 from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.mechanical import half_square
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import symbols
 
@@ -52,7 +53,7 @@ def separable(terms: int, seed: int) -> Hamiltonian:
 
 def nystrom(terms: int, seed: int) -> Hamiltonian:
     """½|p|² + Σ_l U^{l}(q): velocities are linear, so they do not branch."""
-    return _separated("generic-nystrom", seed, _half_square, terms, Draw(seed))
+    return _separated("generic-nystrom", seed, half_square, terms, Draw(seed))
 
 
 def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
@@ -109,10 +110,6 @@ def _sums(forms: list[_Form], y: Vector, degree: int) -> Exprs:
 
 
 _Term = Callable[[Exprs, Exprs], Expr]  # of positions and momenta
-
-
-def _half_square(_: Exprs, p: Exprs) -> Expr:
-    return sum(x**2 for x in p) / 2
 
 
 def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:

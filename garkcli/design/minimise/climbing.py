@@ -8,6 +8,7 @@ with an exact value. Other points may be better.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from fractions import Fraction
 from functools import cache
 from itertools import product
 from typing import Any, TypeAlias
@@ -58,7 +59,7 @@ def climbed(rank: Rank, coordinates: int) -> Point | None:
         check_time()
         return rank(point)
 
-    values = [_rational(x) for x in GRID[coordinates]]
+    values = [fmpq(*Fraction(x).as_integer_ratio()) for x in GRID[coordinates]]
     starts = [x for x in checked(product(values, repeat=coordinates)) if known(x)]
     starts.sort(key=known, reverse=True)
     best = max((_climbed(known, x) for x in starts[:BEST]), key=known, default=None)
@@ -112,8 +113,3 @@ def _neighbours(point: Point, step: fmpq) -> Iterator[Point]:
     for signs in checked(product((-1, 0, 1), repeat=size)):
         if size - signs.count(0) in {1, 2}:
             yield tuple(x + k * step for x, k in zip(point, signs, strict=True))
-
-
-def _rational(text: str) -> fmpq:
-    p, _, q = text.partition("/")
-    return fmpq(int(p), int(q or 1))
