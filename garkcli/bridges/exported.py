@@ -47,7 +47,7 @@ def exported_table(text: str, source: str, format: str) -> FoundTable | None:
     kind = next((x for x in _KEYS if x == document.get("kind")), None)
     if kind is None:
         return None
-    form = _FORMS.get(kind, _alone)(kind, document)
+    form = _FORMS.get(kind, _by_kind)(kind, document)
     name, nodes = document.get("name"), document.get("c", [])
     return FoundTable(
         source,
@@ -81,7 +81,7 @@ def _is_array(value: object, depth: int = 0) -> TypeGuard[list[Any]]:
     return is_row or all((x is None and depth) or _is_array(x, depth + 1) for x in value)
 
 
-def _alone(kind: Kind, document: Mapping[str, Any]) -> Arrays:
+def _by_kind(kind: Kind, document: Mapping[str, Any]) -> Arrays:
     return {kind: _arrays(kind, document)}
 
 
@@ -150,7 +150,7 @@ def _tolerance(document: Mapping[str, Any]) -> Arrays:
 
 
 def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> TableSubject:
-    """The method of such a document with its orders, file and findings.
+    """The method of an exported document with its orders, file and findings.
 
     Raises:
         MethodFileError: its numbers give no method.

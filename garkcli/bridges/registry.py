@@ -118,7 +118,7 @@ class Bridge(Frozen):
             message = f"{self.file.why} by the name of its file, and {file} is none"
             raise CannotExport(message, self.file.cure)
         ending = _ENDINGS.get(self.suffix, self.suffix)
-        values = self._given(payload)
+        values = self._values_for(payload)
         of_program = program_values(payload, file, ending)
         of_sides = {"sides": sides(payload, values["fields"], self.words)}
         name = f"{self.name}_test{ending}"
@@ -131,13 +131,13 @@ class Bridge(Frozen):
         Raises:
             CannotExport: the target cannot hold the method.
         """
-        values = self._given(payload)
+        values = self._values_for(payload)
         if self.write is not None:
             return self.write(payload)
         form = "-own" if payload.own else "-row" if payload.kind == "row" else ""
         return text_of(f"{self.name}{form}{self.suffix}", payload, self.style, values)
 
-    def _given(self, payload: Payload) -> Values:
+    def _values_for(self, payload: Payload) -> Values:
         """The values for the templates of the target.
 
         Raises:

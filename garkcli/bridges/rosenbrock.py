@@ -198,7 +198,7 @@ def _are_many(method: AnyTableau) -> TypeGuard[RoundedTableau]:
 
 
 def row_findings(subject: RowSubject) -> Iterator[Remark]:
-    """The findings about such a method."""
+    """The findings about a Rosenbrock method."""
     yield from subject.careless
     table, order = subject.table, subject.order
     declared = table.order

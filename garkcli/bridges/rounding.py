@@ -56,7 +56,7 @@ def rounded(x: Cell, digits: int) -> Decimal:
     Raises:
         TooWide: a given enclosure does not decide it.
     """
-    return _told(x, digits, lambda end: significant(end, digits))
+    return _agreed(x, digits, lambda end: significant(end, digits))
 
 
 def nearest_float(x: Cell) -> float:
@@ -67,10 +67,10 @@ def nearest_float(x: Cell) -> float:
         OverflowError: the number is too large.
     """
     # the quotient of two integers of Python is rounded once
-    return _told(x, 17, lambda end: int(end.p) / int(end.q))
+    return _agreed(x, 17, lambda end: int(end.p) / int(end.q))
 
 
-def _told(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
+def _agreed(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
     """The common value of ``nearest`` at both ends of a sufficiently fine enclosure."""
     if isinstance(x, fmpq):
         return nearest(x)

@@ -226,7 +226,7 @@ class Composition(Frozen):
 
 
 def composition(payload: Payload) -> Composition | None:
-    """A method for q' = f(p), p' = g(q) as such a sequence; None if it is none."""
+    """The kicks and drifts of a method for q' = f(p), p' = g(q); None if it does not have them."""
     at_forces, at_velocities = payload.A[1][0], payload.A[0][1]
     sees_itself = payload.A[0][0] or payload.A[1][1]
     if at_forces is None or at_velocities is None or sees_itself:

@@ -93,7 +93,7 @@ def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
     template = _environment().get_template(f"{file}.jinja")
     language = LANGUAGES[PurePath(file).suffix]
     left_out = values.get("left_out", ())
-    return template.render(_given(payload, language, style, left_out), **values)
+    return template.render(_values_for(payload, language, style, left_out), **values)
 
 
 def program_values(payload: Payload, file: str, ending: str) -> Values:
@@ -123,7 +123,7 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
     }
 
 
-def _given(
+def _values_for(
     payload: Payload, language: Language, style: Style, left_out: Sequence[str]
 ) -> dict[str, object]:
     """The values for every template: the method, its names, and functions that lay out its

@@ -68,7 +68,7 @@ class Cleared(Frozen):
         E, b = without_denominators(weights, ring)
         return cls(tableau, blocks, b, D, E, ring.constant(fmpq(1)))
 
-    def alone(self, l: int) -> Cleared:
+    def of_colour(self, l: int) -> Cleared:
         """The tableau of one colour by itself."""
         colour = self.tableau.colours[l]
         space = self.tableau.spaces[colour.space]

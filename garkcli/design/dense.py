@@ -34,7 +34,7 @@ def _dense(asked: Asked, key: str) -> DenseOutput:
     """The dense output of the method.
 
     Raises:
-        MethodError: it has none, or the want is on some colours alone.
+        MethodError: the method has none, or the want is about some colours only.
     """
     dense = asked.further.dense
     if dense is None or len(asked.colours) < asked.tableau.size:

@@ -329,7 +329,7 @@ class _Finding(Frozen):
             polynomials, nonzero = _described(ideal) if solved is None else (solved, [])
             step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
             if isinstance(step, Solutions) and isinstance(ideal, Ideal):
-                step = replace(step, found=self._found(ideal))
+                step = replace(step, found=self._solutions_of(ideal))
         except NotDecided as error:
             return Undecided(step.order, ideal, error.is_late)
         if is_last and isinstance(step, Many):
@@ -371,7 +371,7 @@ class _Finding(Frozen):
         if real.is_everything and ideal.is_proved:
             return replace(known, is_real=False)
         if real.dimension == 0:
-            finite = self._found(real)
+            finite = self._solutions_of(real)
             is_open = any(x.open for x in finite)
             is_real = True if any(x.accepted for x in finite) else None if is_open else False
             return replace(known, found=finite, is_real=is_real)
@@ -467,7 +467,7 @@ class _Finding(Frozen):
         roots = ((x, root) for x in solutions(point) for root in x.real)
         return any(self._is_method(x, root) for x, root in roots)
 
-    def _found(self, ideal: Ideal) -> tuple[Found, ...]:
+    def _solutions_of(self, ideal: Ideal) -> tuple[Found, ...]:
         """The solutions of an ideal of dimension 0, each with its order by the certificate.
 
         Raises:

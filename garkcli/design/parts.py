@@ -149,7 +149,7 @@ class Part(Frozen):
         values = cast("Mapping[str, Number]", self.values)
         return cast("Mixed", value_of(polynomial, ring, values))
 
-    def whole(self, solution: Solution) -> Solution:
+    def extended(self, solution: Solution) -> Solution:
         """A solution in the coordinates, extended to all unknowns."""
         values: dict[str, Number] = {}
         for name, x in self.values.items():
@@ -239,7 +239,7 @@ class RationalChart(Frozen):
         values = {**self.one.values, **dict(zip(self.names, free, strict=True))}
         if not all(value_of(p, part.ring, values) for p in part.nonzero):
             return None
-        return part.whole(replace(self.one, values=values))
+        return part.extended(replace(self.one, values=values))
 
 
 def charts(part: Part) -> list[RationalChart]:

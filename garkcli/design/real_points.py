@@ -107,7 +107,9 @@ def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) 
 def has_point(family: Family, part: Part, is_method: IsMethod) -> bool:
     """Whether a method is found on a part, with short rational numbers for some coordinates."""
     there = replace(family, ring=part.ring)
-    search = _MethodSearch(there, part, part.ideal, lambda x, root: is_method(part.whole(x), root))
+    search = _MethodSearch(
+        there, part, part.ideal, lambda x, root: is_method(part.extended(x), root)
+    )
     return search.has_method(part.ideal) if part.dimension <= 0 else search.has_sample()
 
 

@@ -109,7 +109,7 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
     for wanted in dict.fromkeys(family.stable):
         line = _PartLine(family.tested(wanted), whose, part, wanted)
         found, undecided = line.values()
-        shown, attained_by_line = line.told(found, undecided)
+        shown, attained_by_line = line.in_unknown(found, undecided)
         kinds.append(shown)
         attained.append(attained_by_line)
         values = {**part.values, line.name: part.ring.parameter(line.name)}
@@ -123,7 +123,7 @@ def _stable_points(family: Family, whose: Whose, part: Part) -> StablePart:
     family_of_one = replace(
         family, ring=Parameters([name]), parameters=(name,), ranges={name: (None, None)}
     )
-    methods = [(x, root) for x in map(part.whole, points_of(part)) for root in x.real]
+    methods = [(x, root) for x in map(part.extended, points_of(part)) for root in x.real]
     kinds = []
     for wanted in dict.fromkeys(family.stable):
         single_want = replace(family, stable=(wanted,))
@@ -204,7 +204,7 @@ class _PartLine:
         if self.root is None:
             kind: Any = self.wanted.kind
             stable_values_found = stable_values(
-                members.alone, kind, self.whose, colour=self.wanted.colour, members=members
+                members.in_coordinate, kind, self.whose, colour=self.wanted.colour, members=members
             )
             return stable_values_found.found, stable_values_found.undecided
         stable, undecided = [], []
@@ -217,14 +217,14 @@ class _PartLine:
                 stable.append(point_of(t))
         return tuple(stable), tuple(undecided)
 
-    def told(
+    def in_unknown(
         self, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
     ) -> tuple[StableValues, tuple[Interval, ...]]:
         """The stable values of an unknown a x + b on a diagonal, and all its values in the part."""
         is_same = not found or found == (Interval(None, None),)
         name, a, b = self._shown(is_same)
         kind: Any = self.wanted.kind
-        family = replace(self.members.alone, parameters=(name,))
+        family = replace(self.members.in_coordinate, parameters=(name,))
 
         def moved(x: RealRoot) -> RealRoot:
             return value_at(at_root(self.name, x).values[self.name] * a + b, x)
@@ -308,7 +308,7 @@ class PartMembers(Members):
         return None
 
     @property
-    def alone(self) -> Family:
+    def in_coordinate(self) -> Family:
         """The family of the one coordinate."""
         ring = Parameters([self.name])
         for others in points(len(self.part.ring.names) - 1):
@@ -369,7 +369,7 @@ def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solut
     coordinates being short rational numbers; all of them if they are finitely many.
     """
     if not part.dimension:
-        for solution_of_all in map(part.whole, points_of(part)):
+        for solution_of_all in map(part.extended, points_of(part)):
             for root in solution_of_all.real:
                 is_method = is_admissible(family, solution_of_all, root)
                 if is_method and is_as_stable(family, whose, solution_of_all, root):

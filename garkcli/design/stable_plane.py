@@ -183,7 +183,7 @@ def stable_set(
         wanted: the kind of stability.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
         two_springs: the springs for P- or I-stability; None for one oscillator.
-        colour: A- or L-stability of this colour alone, counted from 0.
+        colour: A- or L-stability of this colour only, counted from 0.
 
     Raises:
         UsageProblem: the stability is not applicable, there are other parameters, or roots among

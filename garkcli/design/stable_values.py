@@ -128,7 +128,7 @@ def stable_values(
             all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
         two_springs: the springs for P- or I-stability; None for the oscillator.
-        colour: A- or L-stability of this colour alone, counted from 0.
+        colour: A- or L-stability of this colour only, counted from 0.
         members: its methods; None for those of the family.
 
     Raises:

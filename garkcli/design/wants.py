@@ -80,7 +80,7 @@ def as_embedded(asked: Asked, key: str) -> Tableau:
     """The method with b̂ in place of b.
 
     Raises:
-        MethodError: it has none, or the want is on some colours alone.
+        MethodError: it has no b̂, or the want is about some colours only.
     """
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:

@@ -371,7 +371,7 @@ class _ValueSearch:
             check_time()
             try:
                 filled = self.rounding.filled(parameters, self.digits, width)
-                rounded = self._meant(filled)
+                rounded = self._derived(filled)
             except (MethodFileError, MethodError, ZeroWeight):
                 return None
             if rounded.search.order_of(rounded.name, order)[0] < order:
@@ -381,7 +381,7 @@ class _ValueSearch:
                 return recovered
         return None
 
-    def _meant(self, filled: Any) -> RoundedTableau:
+    def _derived(self, filled: Any) -> RoundedTableau:
         """The tableau of the method, its conjugate or its pair.
 
         Raises:
@@ -442,7 +442,7 @@ class _ValueSearch:
         parameters = dict(zip(self.family.parameters, values, strict=False))
         try:
             weights = GenericWeights(self.rounding.generic(), self.whose)
-            rounded = self._meant(self.rounding.filled(parameters, self.digits, self.tolerance))
+            rounded = self._derived(self.rounding.filled(parameters, self.digits, self.tolerance))
             unexplained = (x for x in trees if weights.are_known(x) and not rounded.explains(x))
             return next(unexplained, None)
         except (MethodFileError, MethodError, ZeroWeight):

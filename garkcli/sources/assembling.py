@@ -115,7 +115,7 @@ def table_of(meant: Meant) -> FoundTable:
     if signature is NAMED and not is_sure:
         _refuse_uses(roles)
     try:
-        table = _told(roles, _built(meant, roles, empty))
+        table = _with_data(roles, _built(meant, roles, empty))
         if not is_sure and not 0 < (order or 1) <= 2 * table.stages:
             # no method has this order, so it is of something else
             table = replace(table, order=None)
@@ -164,7 +164,7 @@ def _has_weights(roles: Roles) -> bool:
     return len(items_of(b)) > 1 and abs(near(b) - 1) < _SAME
 
 
-def _told(roles: Roles, table: FoundTable) -> FoundTable:
+def _with_data(roles: Roles, table: FoundTable) -> FoundTable:
     """The table with further data: the parts that colours drive, the rounding."""
     words = {role: x.text for role, x in roles.items() if isinstance(x, Word)}
     return replace(
@@ -294,7 +294,7 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         stages = whole(roles.get("stages")) or 0
     registers = _of_registers(meant, roles)
     if registers is None:
-        own_weights = _given(roles, "b", stages if meant.maker else 0)
+        own_weights = _row_if_any(roles, "b", stages if meant.maker else 0)
         if own_weights is None and meant.signature.has_default_weights:
             own_weights = _square(roles, "A", stages)[-1]
         b = _row(roles, "b") if own_weights is None else own_weights
@@ -380,7 +380,7 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, ConvertedScheme] | N
     form = meant.signature.form
     A, b, c = map(roles.get, "Abc")
     if "gamma1" in roles:
-        rows = [_given(roles, x) or () for x in ("gamma1", "gamma2", "gamma3", "delta", "A")]
+        rows = [_row_if_any(roles, x) or () for x in ("gamma1", "gamma2", "gamma3", "delta", "A")]
         rows[2] = rows[2] or (ZERO,) * len(rows[-1])
         return "3S*", converted("3S*", *rows)
     if b is None and is_matrix(c) and is_matrix(A):
@@ -465,7 +465,7 @@ def _row(roles: Roles, role: str, stages: int = 0) -> Row:
     return weights(plain(roles.get(role)), stages)
 
 
-def _given(roles: Roles, role: str, stages: int = 0) -> Row | None:
+def _row_if_any(roles: Roles, role: str, stages: int = 0) -> Row | None:
     value = roles.get(role)
     return None if value is None or isinstance(value, Null) else _row(roles, role, stages)
 
@@ -561,10 +561,10 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     is_bare = all(is_zero(row[i]) for i, row in enumerate(A2)) and not all(map(is_zero, A2[-1]))
     if is_bare and meant.maker not in SIGNATURES:
         raise Unreadable("the implicit part has no diagonal")
-    b2 = _given(of, "b2", stages) or A2[-1]
-    b1 = _given(of, "b1", stages) or (b2 if meant.signature.has_default_weights else A1[-1])
+    b2 = _row_if_any(of, "b2", stages) or A2[-1]
+    b1 = _row_if_any(of, "b1", stages) or (b2 if meant.signature.has_default_weights else A1[-1])
     low1, low2 = (_given_low(of, part, b) for part, b in (("1", b1), ("2", b2)))
-    c1, c2 = (_given(of, x, stages) for x in ("c1", "c2"))
+    c1, c2 = (_row_if_any(of, x, stages) for x in ("c1", "c2"))
     if all(is_zero(x) for row in (*A1, b1) for x in row):
         # no explicit part: this is how implicit methods are registered
         return replace(empty, A=((A2,),), b=(b2,), c=(c2,), embedded=low2 and (low2,))
@@ -587,7 +587,7 @@ def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
     error = roles.get(f"error{part}")
     if isinstance(error, Array) and error.items:
         return changed("-", b, weights(plain(error), len(b)))
-    return _given(roles, f"embedded{part}", len(b))
+    return _row_if_any(roles, f"embedded{part}", len(b))
 
 
 _SAME = 1e-9

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from garkcli.recognise.given import Given
     from garkcli.recognise.readings import Reading
 
-_Told: TypeAlias = Mapping[str, frozenset[int]]
+_NumbersByRole: TypeAlias = Mapping[str, frozenset[int]]
 MOST_OF = 0.75
 """Share of the numbers of a matrix in a reading that contradicts it."""
 _BESIDE = frozenset(
@@ -62,11 +62,11 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
 
     source = _Source(finder)
     written = set(map(id, finder.harvest.numbers))
-    numbers_of_tables = [_told(finder.told.get(id(x), {}), written) for x in tables]
+    numbers_of_tables = [_written_numbers(finder.told.get(id(x), {}), written) for x in tables]
     read_off = [x for x, table in zip(numbers_of_tables, tables, strict=True) if table.is_read]
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
-    made_of: list[_Told] = []
+    made_of: list[_NumbersByRole] = []
     rivals: dict[int, list[FoundTable]] = {}
     linked: dict[int, float] = {}
     settled: set[int] = set()
@@ -280,7 +280,7 @@ def _kind(names: str) -> str:
     return next(kinds, "")
 
 
-def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
+def _written_numbers(roles: Mapping[str, Value], written: Collection[int]) -> _NumbersByRole:
     """The written numbers of a table, by their roles."""
     arrays = {role: Array([x]).flat() for role, x in roles.items() if isinstance(x, Array)}
     return {
@@ -291,14 +291,14 @@ def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
     }
 
 
-def _is_about(numbers: frozenset[int], told: _Told) -> bool:
+def _is_about(numbers: frozenset[int], told: _NumbersByRole) -> bool:
     """Whether a reading and a table share most of their numbers; a few may belong to others."""
     all_told = frozenset().union(*told.values())
     common, is_short = 2 * len(numbers & all_told), len(all_told) < FEWEST_NUMBERS
     return common > len(numbers) or (common > len(all_told) and not is_short)
 
 
-def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:
+def _explains(reading: Reading, numbers: frozenset[int], told: _NumbersByRole) -> bool:
     """Whether a reading has all nodes and weights of a table, and most of its matrix; embedded
     weights only if its form has them. A few numbers may belong to other tables, too.
     """

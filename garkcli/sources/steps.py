@@ -371,7 +371,7 @@ class Follower(Evaluator):
         space.update(dict.fromkeys(names_of(target), Unknown(reason, line)))
 
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
-        target = self._whole(target)
+        target = self._array_behind(target)
         if isinstance(target, ir.Name):
             # names are in the order of their last assignments
             space.pop(target.name, None)
@@ -397,7 +397,7 @@ class Follower(Evaluator):
         return named_value if has_numbers else Form({(name,): ONE})
 
     def _entry(self, expr: ir.Index, space: Space) -> Value:
-        whole = self._whole(expr)
+        whole = self._array_behind(expr)
         if whole is expr and len(expr.at) > 1 and self.base == 1 and self.has_whole_quotients:
             # f(t, y) in Fortran
             of = self.value(expr.of, space)
@@ -408,7 +408,7 @@ class Follower(Evaluator):
         entry = self.value(whole, space)
         return self.unknown("an entry") if isinstance(entry, Array) else entry
 
-    def _whole(self, expr: ir.Expr) -> ir.Expr:
+    def _array_behind(self, expr: ir.Expr) -> ir.Expr:
         """The array behind an entry that a loop over components takes, or a thread its own one."""
         names = {*self._components, *self._counters}
         if isinstance(expr, ir.Index):
@@ -435,7 +435,7 @@ class Follower(Evaluator):
     def _called(self, call: ir.Call, space: Space) -> Value:
         if call.named:
             return self.unknown("a call with names")
-        whole = self._whole(ir.Index(call.callee, call.args))
+        whole = self._array_behind(ir.Index(call.callee, call.args))
         if isinstance(whole, ir.Name) and (self._components or self._counters):
             # k1(i), entries of classes in C++
             return self.value(whole, space)

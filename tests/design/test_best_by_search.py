@@ -28,7 +28,7 @@ from garkcli.design.minimise.objective import (
 )
 from garkcli.design.minimise.sector import rest_of_cosine
 from garkcli.design.minimise.sums import objective_of
-from garkcli.design.search.goals import meant
+from garkcli.design.search.goals import objective_on
 from garkcli.design.search.optimum import Optimisation
 from garkcli.design.search.search import Search
 from garkcli.design.search.tasks import HIGHEST, Least, Missing
@@ -146,7 +146,7 @@ def test_smooth_objectives_are_the_exact_ones(text: str, objective: str) -> None
     if objective == "coefficients" and text == ROSENBROCK:
         return
     search, made = program(text, objective)
-    exact = meant(objective, search.tableau)
+    exact = objective_on(objective, search.tableau)
     [(_, goal)] = made.total.smooth
     assert isinstance(exact, Objective)
     for point in points(search, 3):
@@ -197,7 +197,7 @@ def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
     little above; their derivatives are those of differences.
     """
     search, made = program(text, objective)
-    exact = meant(objective, search.tableau)
+    exact = objective_on(objective, search.tableau)
     [(_, goal)] = made.total.levels
     assert isinstance(exact, LevelObjective)
     names = search.family.ring.names
@@ -509,7 +509,7 @@ def test_processes_do_not_change_what_is_found(tmp_path: Path) -> None:
 def test_levels_may_be_wanted(key: str, bound: str) -> None:
     """The best method has the level, exactly; the least error without it has not."""
     text = "unknown: {stages: 4, shape: explicit}\ndesign: {order: 3"
-    level = meant(f"-{key}", loads_family(f"{text}}}").tableau)
+    level = objective_on(f"-{key}", loads_family(f"{text}}}").tableau)
     assert isinstance(level, LevelObjective)
 
     def size(wanted: str, objective: str) -> float:

@@ -29,7 +29,7 @@ _HEAD = ("order", "claimed_order", "embedded_order", "tolerance")
 _OBJECT = re.compile(r'"(?:[^"\\]|\\.)*"|\{')
 
 
-def _found(text: str) -> Iterator[tuple[int, Values]]:
+def _tables_in(text: str) -> Iterator[tuple[int, Values]]:
     """The tables of a JSON document."""
     try:
         document = json.loads(text, parse_float=ir.Literal, parse_int=ir.Literal)
@@ -107,7 +107,7 @@ def _value(content: object, depth: int = 0) -> ir.Expr:
     return ir.Opaque("what is no number")
 
 
-_OBJECTS = reader("json", "JSON: gark's export, or any object with A and b", (".json",), _found)
+_OBJECTS = reader("json", "JSON: gark's export, or any object with A and b", (".json",), _tables_in)
 
 
 def _find(text: str, source: str) -> list[FoundTable]:

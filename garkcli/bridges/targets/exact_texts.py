@@ -79,7 +79,7 @@ def _multirate(payload: Payload) -> Any:
     """The keys of a method file for a multirate infinitesimal method, with their texts."""
     if payload.kind != "mri":
         return None
-    return _told(payload, keys_of(coupling_of(payload)))
+    return _nested_texts(payload, keys_of(coupling_of(payload)))
 
 
 def _predictor(payload: Payload) -> Any:
@@ -88,9 +88,9 @@ def _predictor(payload: Payload) -> Any:
     return matrices and {"old": _texts(payload, matrices.old), "new": _texts(payload, matrices.new)}
 
 
-def _told(payload: Payload, value: Any) -> Any:
+def _nested_texts(payload: Payload, value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {key: _told(payload, x) for key, x in value.items()}
+        return {key: _nested_texts(payload, x) for key, x in value.items()}
     return value if isinstance(value, str) else _texts(payload, value)
 
 

@@ -148,7 +148,7 @@ class Minimisation(Mutable):
         """Adds the candidates of one part."""
         if part.dimension == 0:
             for point in points_of(part):
-                solution = part.whole(point)
+                solution = part.extended(point)
                 for index, root in enumerate(solution.real):
                     if self.takes(solution, root, part):
                         self.add(solution, index)

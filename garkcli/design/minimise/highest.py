@@ -318,7 +318,7 @@ class Highest(Minimisation):
         if not levels.is_decided:
             self.extent = "found"
         for high in levels.attained:
-            method = Found(part.whole(at_root(name, high.t)), None, (high.t.number,))
+            method = Found(part.extended(at_root(name, high.t)), None, (high.t.number,))
             # levels are monotone between critical numbers, so a greatest one there is constant
             is_constant = high.is_sample and not levels.limits
             self.candidates.append(Candidate(levels.greatest, method, high.t.number, is_constant))

@@ -297,7 +297,7 @@ class Smallest(Minimisation):
                 self._over_interval(part, name, interval)
             return
         for low in values.attained:
-            method = Found(part.whole(at_root(name, low.t)), None, (low.t.number,))
+            method = Found(part.extended(at_root(name, low.t)), None, (low.t.number,))
             self.candidates.append(Candidate(low.value, method, low.t.number))
         for toward in values.limits:
             self.limits.append(ObjectiveLimit(toward.value, name, toward))
@@ -309,7 +309,7 @@ class Smallest(Minimisation):
             root = interval.start
         else:
             root = RealRoot.rational(between(interval.start, interval.end))
-        self.add(part.whole(at_root(name, root)), root.number, is_constant=not interval.is_point)
+        self.add(part.extended(at_root(name, root)), root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
         """Adds the critical points of a part of larger dimension, and those on its edges."""

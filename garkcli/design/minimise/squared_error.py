@@ -183,7 +183,7 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
     numerator = total.numerator
     for l in range(tableau.size):
         if tableau.block(l, l) is not None or order == 1:
-            of_colour = _Sums(cleared.alone(l)).total(order)
+            of_colour = _Sums(cleared.of_colour(l)).total(order)
             numerator = numerator - of_colour.numerator
     return Quotient(numerator, total.denominator)
 

@@ -14,7 +14,7 @@ from flint import fmpq
 
 from garkcli.crew.work import Workers, in_order
 from garkcli.design.minimise.objective import LevelObjective, Single, WeightedSum
-from garkcli.design.search.goals import meant
+from garkcli.design.search.goals import objective_on
 from garkcli.design.search.optimum import Optimum
 from garkcli.design.search.points import Fixed
 from garkcli.design.search.rational import RationalFunction, as_float
@@ -103,7 +103,7 @@ class CurvePlace(Frozen):
         wanted = self.objective or search.text
         assert wanted is not None
         cap = None if self.cap is None else (_single(self.cap[0], search), self.cap[1])
-        program = search.program.aimed(meant(wanted, search.tableau), cap)
+        program = search.program.aimed(objective_on(wanted, search.tableau), cap)
         fixed = []
         if self.value is not None:
             name, text = self.value
@@ -123,7 +123,7 @@ def _single(text: str, search: Search) -> Single:
     Raises:
         UsageProblem: it is a sum.
     """
-    objective = meant(text, search.tableau)
+    objective = objective_on(text, search.tableau)
     if isinstance(objective, WeightedSum):
         message = f"--front is of two objectives, and {text} is a sum"
         raise UsageProblem(message, "--minimise takes sums", code="option-value")

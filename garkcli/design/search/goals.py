@@ -195,7 +195,7 @@ def goal_of(objective: Single, setting: Setting) -> Goal:
     quotient = objective.formula(setting.subject, setting.ring)
     number = setting.ring.quotient(quotient.numerator, quotient.denominator)
     function = RationalFunction(number, setting.ring)
-    return Smooth(_alone(function, len(setting.ring.names)))
+    return Smooth(_gradient_of(function, len(setting.ring.names)))
 
 
 def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
@@ -212,12 +212,14 @@ def levels_of(family: Family) -> list[tuple[LevelObjective, fmpq]]:
     return [(x, bound) for x, bound in levels if isinstance(x, LevelObjective)]
 
 
-def meant(name: str, tableau: Tableau) -> Single | WeightedSum:
+def objective_on(name: str, tableau: Tableau) -> Single | WeightedSum:
     objective = objective_of(name)
     return objective.meant(tableau) if isinstance(objective, Either) else objective
 
 
-def _alone(function: RationalFunction, unknowns: int) -> Callable[[Array], tuple[float, Array]]:
+def _gradient_of(
+    function: RationalFunction, unknowns: int
+) -> Callable[[Array], tuple[float, Array]]:
     functions = Functions([function], unknowns)
 
     def at(x: Array) -> tuple[float, Array]:

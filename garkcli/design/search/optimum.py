@@ -276,7 +276,7 @@ class Optimisation:
         )
 
     def evaluated(self, x: Array, fixed: Sequence[Fixed] = ()) -> Optimum | None:
-        """A point corrected to a method, with its objective; None if it is none of the methods."""
+        """A point corrected to a method, with its objective; None if there is no method there."""
         import numpy as np
 
         system = Fixings(self.conditions, fixed)

@@ -71,10 +71,10 @@ def _exact(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
         return values_text(values, root)
     except MethodError:
         # none of them generates the field of all, so each is a root of its own polynomial
-        return {name: _alone(value, root) for name, value in values.items()}
+        return {name: _root_text(value, root) for name, value in values.items()}
 
 
-def _alone(value: Number, root: RealRoot) -> str:
+def _root_text(value: Number, root: RealRoot) -> str:
     number = value_at(value, root)
     simple = root_text(number)
     if simple is not None:

@@ -28,7 +28,7 @@ from garkcli.design.minimise.objective import (
     Single,
     WeightedSum,
 )
-from garkcli.design.search.goals import levels_of, meant, terms_of
+from garkcli.design.search.goals import levels_of, objective_on, terms_of
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.optimum import Optimisation, Optimum
 from garkcli.design.search.points import Fixings, is_proved, polished
@@ -169,7 +169,7 @@ class Search:
         self.whose = whose
         self.tableau = TABLEAUS[whose](family.tableau)
         self.text = objective
-        self.objective = None if objective is None else meant(objective, self.tableau)
+        self.objective = None if objective is None else objective_on(objective, self.tableau)
 
     @cached_property
     def conditions(self) -> Residuals:

@@ -198,7 +198,7 @@ class JuliaLowering(Lowering):
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
         if self._is_arithmetic(node, inside):
-            return self._whole(self._leaves(node))
+            return self._combined(self._leaves(node))
         return super().expression(node, inside)
 
     def _is_arithmetic(self, node: Node, inside: list[Node]) -> bool:
@@ -234,7 +234,7 @@ class JuliaLowering(Lowering):
         text = self.text(node) if node.type == "operator" else ""
         return text[1:] if text[:1] == "." and len(text) > 1 else text
 
-    def _whole(self, leaves: Iterable[Node]) -> ir.Expr:
+    def _combined(self, leaves: Iterable[Node]) -> ir.Expr:
         """The expression of leaves; long ones count as deep."""
         waiting = deque(leaves)
         longer = len(waiting) // 4
@@ -277,11 +277,11 @@ class JuliaLowering(Lowering):
                 sign, after = self._sign(leaf), self._data[leaf.end_byte : leaf.end_byte + 1]
                 is_first = not sign or (sign in {"+", "-"} and not after.isspace())
                 if gap.isspace() and is_first:
-                    rows[-1].append(self._whole(entry))
+                    rows[-1].append(self._combined(entry))
                     entry = []
                     rows += [[]] if b"\n" in gap else []
             entry.append(leaf)
-        rows[-1].append(self._whole(entry))
+        rows[-1].append(self._combined(entry))
         return rows
 
     # operands

@@ -44,7 +44,7 @@ class MatlabLowering(Lowering):
                 given = [x.named_children for x in inside if x.type == "function_arguments"]
                 parameters = tuple(self.text(x) for each in given for x in each)
                 name, body = self.text(part(node, "name")), self.block(inside[-1:])
-                gives = self._given(node) if len(parameters) == 1 else ""
+                gives = self._return_value(node) if len(parameters) == 1 else ""
                 if gives:
                     # get.A(this) of a class returns the property A
                     body += (ir.Return(ir.Name(gives), line),)
@@ -63,7 +63,7 @@ class MatlabLowering(Lowering):
             case "function_call" | "field_expression":
                 yield ir.Do(self.expr(node), line)
 
-    def _given(self, node: Node) -> str:
+    def _return_value(self, node: Node) -> str:
         """The only return value of a method of a class; empty for other functions."""
         is_method = node.parent is not None and node.parent.type == "methods"
         output = next((x for x in node.named_children if x.type == "function_output"), None)
