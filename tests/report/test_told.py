@@ -132,8 +132,9 @@ def test_a_rounded_order_in_a_table_is_one_within_its_tolerance(format: str, bet
 def test_a_rounded_order_in_a_line_is_one_within_its_tolerance() -> None:
     """The same where each of several files has a line, and where one has a report."""
     rounded, exact, *_ = gark("check", ROUNDED, "rk4").out.splitlines()
-    assert rounded == f"ok   {ROUNDED}: order 4 within 1e-14, pair 4 within 1e-14  (7 claims)"
-    assert exact == "ok   rk4: order 4, pair 4  (2 claims)"
+    orders = "order 4 within 1e-14, symplectic pair 4 within 1e-14"
+    assert rounded == f"ok   {ROUNDED}: {orders}  (7 claims)"
+    assert exact == "ok   rk4: order 4  (2 claims)"
     answer = gark("check", ROUNDED).out
     assert answer.startswith(f"{ROUNDED}: order 4 within 1e-14; order 5 fails at\n")
     assert "proved" not in answer
