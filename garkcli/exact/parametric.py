@@ -66,6 +66,13 @@ class Parameters:
         return re.sub(_NAME, lambda name: self.shown.get(name[0], (name[0], ""))[0], text)
 
     def latex(self, polynomial: fmpq_mpoly) -> str:
+        r"""The terms in LaTeX.
+
+        >>> ring = Parameters(["a", "b"])
+        >>> a, b = ring.context.gens()
+        >>> print(ring.latex(a**2 / 2 - 2 * b / 3 + fmpq(1, 4)))
+        \frac{a^{2}}{2}-\frac{2b}{3}+\frac{1}{4}
+        """
         text = ""
         for exponents, a in polynomial.to_dict().items():
             powers = ""

@@ -414,7 +414,9 @@ def test_a_search_alone_minimises_sizes(tmp_path: Path) -> None:
     result = gark("design", str(file), "--minimise", "error + largest")
     assert result.code == 2
     assert "largest is minimised by a search alone" in result.err
-    assert "--search N" in result.err
+    assert "--search N\n" in result.err
+    result = gark("design", str(file), "--minimise", "A")
+    assert "--search N; error is its square" in result.err
 
 
 def test_the_least_largest_coefficient() -> None:

@@ -356,6 +356,18 @@ design: {order: 2, a-stable: true}
     assert (run.code, "A-stable for exactly g = 2\n" in run.out) == (0, True)
 
 
+def test_stable_sets_are_of_families_that_have_the_order() -> None:
+    """Two numbers have order 3, each with its own answer; all have order 2, and a set of them is
+    stable.
+    """
+    text = (
+        "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\ndesign: {a-stable: true}"
+    )
+    assert stable_sets(find_parameters(loads_family(text), 3)) == ()
+    (found,) = stable_sets(find_parameters(loads_family(text), 2))
+    assert [x.start for x in found.found] == [RealRoot.rational(fmpq(1, 4))]
+
+
 @pytest.mark.parametrize("first", ["d", "e"])
 def test_an_unknown_on_the_diagonal_that_is_no_coordinate(first: str) -> None:
     """Order 2 of b = (1/2, 1/2) asks for d + e = 1, and |R(∞)| = |1 − 1/(2de)| ≤ 1 for d = e = 1/2:

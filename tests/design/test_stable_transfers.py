@@ -295,6 +295,19 @@ def test_what_is_not_decided() -> None:
         stable_zeros(PairConditions(family), ideal, 4)
 
 
+def test_only_p_stable_transfers_are_decided() -> None:
+    """Those of Gauss and Lobatto are decided where P-stability is wanted, and not where
+    I-stability is wanted too.
+    """
+    family = p_stable("gauss-2, lobatto-iiia-3")
+    ideal = last(replace(family, stable=()), 4).ideal
+    assert ideal is not None
+    assert stable_zeros(PairConditions(family), ideal, 4) is not None
+    both = replace(family, stable=(*family.stable, RequiredStability("i-stable")))
+    with pytest.raises(NotDecided):
+        stable_zeros(PairConditions(both), ideal, 4)
+
+
 def test_the_report(tmp_path: Path) -> None:
     """In words and as JSON; exit code 1 where none is stable."""
     path = tmp_path / "pair.yaml"

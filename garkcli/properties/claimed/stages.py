@@ -256,15 +256,9 @@ def weak_stage_order(subject: Subject) -> Verdict:
 def nodes_in_unit_interval(subject: Subject) -> Verdict:
     """All nodes c_i^{l} lie in [0, 1]: nothing is evaluated outside of the step."""
     for l, colour in enumerate(subject.tableau.colours):
-        space = subject.tableau.space(l)
-        nodes = colour.c
-        if not isinstance(space, PointSpace):
-            if tuple(nodes) == tuple(space.nodes):
-                continue  # those of every family do
-            if subject.points is None:
-                return Verdict.undecided("the nodes have no simple radicals")
-            nodes = subject.points.colours[l].c
-        for i, c in enumerate(nodes):
+        if not isinstance(subject.tableau.space(l), PointSpace):
+            continue  # those of every family do
+        for i, c in enumerate(colour.c):
             beyond = -c if sign(c) < 0 else c - ONE
             if sign(beyond - subject.tolerance) > 0:
                 return Verdict(False, entry_is(place("c", subject.tableau, [l], i), c))
