@@ -135,3 +135,20 @@ def test_within_a_tolerance_the_largest_residual_is_shown() -> None:
     witness = outcome.analysis.order.witness
     assert witness is not None
     assert (str(witness.tree), witness.residual) == ("[[],[]]", fmpq(1, 6))
+
+
+@pytest.mark.parametrize(("nodes", "is_named"), [("", False), ("c: [0, 1/2]\n", True)])
+def test_one_order_more_is_told_where_the_node_agrees(nodes: str, is_named: bool) -> None:
+    """a₂₁ = 1/2 in place of 1/3 gives order 2 for 1: the node 1/2 says that it was meant."""
+    outcome = checked("A: [[0, 0], [1/3, 0]]\nb: [0, 1]\n" + nodes)
+    found = () if outcome.blame is None else outcome.blame.repairs
+    assert found == ((Repair(0, 0, 1, 0, fmpq(1, 3), fmpq(1, 2)),) if is_named else ())
+
+
+def test_a_block_of_stages_behind_an_algebra_is_named() -> None:
+    """Nodes of Gauss without radicals have no rows; row 2 of the other method has the wrong sum."""
+    outcome = checked(
+        "methods: [{family: gauss, stages: 7}, {A: [[0, 0], [1/3, 0]], c: [0, 1/2], b: [1/2, 1/2]}]\n"
+        "transfer: interpolation\n"
+    )
+    assert "row 2 of A{2,2} has the sum 1/3, its node is 1/2" in " ".join(told(outcome).split())

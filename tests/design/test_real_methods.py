@@ -269,3 +269,28 @@ def test_sets_without_as_many_generators_as_their_codimension() -> None:
     found = smooth_points(Ideal(ring).with_zeros([x * x + y * y - 2, z, w]))
     assert found is not None
     assert sum(len(point.real) for point in found.points) == 2
+
+
+@pytest.mark.parametrize(
+    ("curve", "beyond", "has_methods"),
+    [
+        ("x**2 - 2", None, True),
+        ("y**2 - 1000001", True, True),
+        ("x*y - 3", None, True),
+        ("(x**2 - 2)*(x**2 + y**2 + 1)", None, True),
+        ("x**2 + y**2 + 1", False, False),
+    ],
+)
+def test_methods_where_no_sample_is(
+    curve: str, beyond: bool | None, has_methods: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Weights are positive for 1000 < y < 1001 alone, far from every sample: points between critical
+    values of y or x decide. Beyond the limit of degrees a curve without a sample is undecided.
+    """
+    family = loads_family(
+        "parameters: {x: free, y: free}\nA: [[0, 0], [0, 0]]\n"
+        f'b: [y - 1000, "1001 - y + {curve}"]\ndesign: {{positive-weights: true}}'
+    )
+    assert find_parameters(family, 1).last.has_methods is has_methods
+    monkeypatch.setattr("garkcli.design.real_points.MOST_DEGREE", 1)
+    assert find_parameters(family, 1).last.has_methods is beyond

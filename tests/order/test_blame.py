@@ -10,7 +10,7 @@ from flint import fmpq
 from garkcli import Tableau, conjugate, find_order, load, loads
 from garkcli.check.check_file import check_file
 from garkcli.frozen import replace
-from garkcli.order.blame import MissedOrder, blame_of
+from garkcli.order.blame import MissedOrder, blame_of, count_entries
 from garkcli.order.repair import Repair
 from garkcli.order.tolerance import within
 from tests.whole import in_whole
@@ -53,6 +53,17 @@ def test_single_wrong_entry(key: tuple[int, int], i: int, j: int) -> None:
     assert blame.culprit == key
     assert Repair(*key, i, j, true + fmpq(1, 7), true) in blame.repairs
     assert blame.only_coupling == (key[0] != key[1])
+
+
+@pytest.mark.parametrize(
+    ("name", "within_shape", "all_entries"),
+    [("rk4", 6 + 4, 16 + 4), ("sdirk-2", 3 + 2, 4 + 2), ("gauss-2", 4 + 2, 4 + 2)],
+)
+def test_entries_of_the_shape(name: str, within_shape: int, all_entries: int) -> None:
+    """Below the diagonal of an explicit method, up to it of a diagonally implicit one."""
+    tableau = load(name).tableau
+    assert count_entries(tableau, MissedOrder(5, 5, keeps_shape=True)) == within_shape
+    assert count_entries(tableau, MissedOrder(5, 5)) == all_entries
 
 
 def test_single_wrong_weight() -> None:
