@@ -29,7 +29,7 @@ from garkcli.design.minimise.objective import (
 from garkcli.design.minimise.sector import rest_of_cosine
 from garkcli.design.minimise.sums import objective_of
 from garkcli.design.search.goals import objective_on
-from garkcli.design.search.optimum import Optimisation
+from garkcli.design.search.optimum import Optimisation, Optimum
 from garkcli.design.search.search import Search
 from garkcli.design.search.tasks import HIGHEST, Least, Missing
 from garkcli.design.stable_values import stable_values
@@ -655,3 +655,14 @@ def test_the_distance_from_wants_is_its_own_variable() -> None:
     x = floats(points(search, 1)[0])
     assert task.at(np.append(x, 0.25)).value == 0.25
     assert task.at(np.append(x, 0.5)).gradient[-1] == 1.0
+
+
+def test_less_by_a_share() -> None:
+    """0.9 is less than 1 by more than 5 %, 0.96 is not; of levels, which have a minus, too."""
+    one, level = Optimum(1.0, ()), Optimum(-1.0, ())
+    assert Optimum(0.9, ()).is_less(one, 0.05)
+    assert not Optimum(0.96, ()).is_less(one, 0.05)
+    assert Optimum(0.96, ()).is_less(one)
+    assert not one.is_less(one)
+    assert Optimum(-1.1, ()).is_less(level, 0.05)
+    assert not Optimum(-1.04, ()).is_less(level, 0.05)
