@@ -52,7 +52,7 @@ def find_order(
     >>> find_order("rk4")
     <Order 4>
     >>> find_order("rk4").witness
-    <Witness [[[[[]_1]_1]_1]_1]_1: 0 instead of 1/120>
+    <Witness [[[[[]]]]]: 0 instead of 1/120>
     """
     limit = whole(limit, "limit", 1)
     is_own = tolerance is None

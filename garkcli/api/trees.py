@@ -110,7 +110,7 @@ def conditions(
             no such colour.
 
     >>> [(str(x.tree), x.value, x.residual) for x in conditions("heun", ["[[],[]]", "[[[]]]"])]
-    [('[[]_1,[]_1]_1', 1/2, 1/6), ('[[[]_1]_1]_1', 0, -1/6)]
+    [('[[],[]]', 1/2, 1/6), ('[[[]]]', 0, -1/6)]
     """
     method, known_as = meant_of(method, tolerance, is_any_kind=True)
     if isinstance(trees, (str, Tree)):

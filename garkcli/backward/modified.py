@@ -83,7 +83,7 @@ def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
     >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau
     >>> equation = modified_equation(midpoint, 3)
     >>> [(str(u), str(b)) for u, b in equation.terms(3)]
-    [('[[]_1,[]_1]_1', '-1/12'), ('[[[]_1]_1]_1', '1/12')]
+    [('[[],[]]', '-1/12'), ('[[[]]]', '1/12')]
     """
     tableau.demand_fields("the modified equation")
     forest = Forest.seen_by(tableau, order)

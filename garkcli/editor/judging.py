@@ -33,7 +33,7 @@ _MEANT = re.compile(r"did you mean '([^']+)'\?")
 _KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 
 
-class Span(Frozen):
+class TextSpan(Frozen):
     """A part of a line; line and columns count from 0."""
 
     line: int
@@ -45,22 +45,22 @@ class Fix(Frozen):
     """A change of a part of the file."""
 
     title: str
-    span: Span
+    span: TextSpan
     text: str
 
 
-class Shown(Frozen):
+class EditorView(Frozen):
     """A remark at its place, with the changes that mend it."""
 
     remark: Remark
-    span: Span
+    span: TextSpan
     fixes: tuple[Fix, ...] = ()
 
 
 class Judgement(Frozen):
     """The remarks on a file, and the texts of the lens above a line of it, from 0."""
 
-    remarks: tuple[Shown, ...] = ()
+    remarks: tuple[EditorView, ...] = ()
     lens: tuple[str, ...] = ()
     line: int = 0
 
@@ -94,7 +94,7 @@ def judged(text: str, source: str) -> Judgement:
         return Judgement((), (LATE,), line)
     lines = text.splitlines()
     shown = tuple(
-        Shown(x.remark, span_of(lines, x.remark), tuple(_fixes(outcome, x.remark, lines)))
+        EditorView(x.remark, span_of(lines, x.remark), tuple(_fixes(outcome, x.remark, lines)))
         for x in findings(outcome)
     )
     return Judgement(shown, _orders(outcome), line)
@@ -118,12 +118,12 @@ def _orders(outcome: Outcome) -> tuple[str, ...]:
     )
 
 
-def span_of(lines: list[str], remark: Remark) -> Span:
+def span_of(lines: list[str], remark: Remark) -> TextSpan:
     """Returns the word at the place of a remark."""
     line, start = max(remark.line, 1) - 1, max(remark.column, 1) - 1
     text = lines[line] if line < len(lines) else ""
     found = _TOKEN.match(text, start)
-    return Span(line, start, found.end() if found else min(start + 1, len(text)))
+    return TextSpan(line, start, found.end() if found else min(start + 1, len(text)))
 
 
 def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
@@ -142,7 +142,7 @@ def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
             yield Fix(f"Write {new} in place of {to_text(repair.old)}", place, new)
 
 
-def _place(text: str, repair: Repair) -> Span | None:
+def _place(text: str, repair: Repair) -> TextSpan | None:
     """Returns where an entry is written in a file with A and b; None if it is not."""
     root = composed(text)
     if not isinstance(root, MappingNode) or repair.l or repair.m:
@@ -160,8 +160,8 @@ def _item(node: Node | None, index: int) -> Node | None:
     return None
 
 
-def _scalar(node: Node | None) -> Span | None:
+def _scalar(node: Node | None) -> TextSpan | None:
     if not isinstance(node, ScalarNode):
         return None
     line, column = position(node.start_mark)
-    return Span(line - 1, column - 1, position(node.end_mark)[1] - 1)
+    return TextSpan(line - 1, column - 1, position(node.end_mark)[1] - 1)

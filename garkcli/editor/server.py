@@ -15,7 +15,7 @@ from lsprotocol import types as lsp
 from pygls.lsp.server import LanguageServer
 from pygls.workspace import TextDocument
 
-from garkcli.editor.judging import LATE, SECONDS, Judgement, Span, is_method
+from garkcli.editor.judging import LATE, SECONDS, Judgement, TextSpan, is_method
 from garkcli.editor.wording import choices_at, meaning_at
 from garkcli.version import __version__
 
@@ -108,7 +108,7 @@ async def judged_apart(text: str, source: str) -> Judgement:
             await process.wait()
 
 
-def ranged(document: TextDocument, span: Span) -> lsp.Range:
+def ranged(document: TextDocument, span: TextSpan) -> lsp.Range:
     """Returns a span in the units of the editor."""
     here = lsp.Range(lsp.Position(span.line, span.start), lsp.Position(span.line, span.end))
     return document.position_codec.range_to_client_units(document.lines, here)

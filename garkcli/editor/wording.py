@@ -20,7 +20,7 @@ _OPEN = re.compile(r"([\w-]+):\s*(?:\[\s*)?\{[^{}]*$")
 _VALUE = re.compile(r"([\w-]+):\s*(?:\[[^\]]*)?[\w*-]*$")
 
 
-class Choice(Frozen):
+class Suggestion(Frozen):
     """A word that may come next, with its meaning and what is written for it."""
 
     word: str
@@ -59,7 +59,7 @@ def meaning_at(lines: list[str], line: int, column: int) -> str:
     return f"**{meaning.name}** ({meaning.kind}): {meaning.text}{formula}"
 
 
-def choices_at(lines: list[str], line: int, column: int) -> list[Choice]:
+def choices_at(lines: list[str], line: int, column: int) -> list[Suggestion]:
     """Returns the keys, families, rules and methods that may come at a place."""
     before = (lines[line] if line < len(lines) else "")[:column]
     value = _VALUE.search(before)
@@ -72,26 +72,28 @@ def choices_at(lines: list[str], line: int, column: int) -> list[Choice]:
     return [*_keys(above)]
 
 
-def _values(key: str) -> Iterator[Choice]:
+def _values(key: str) -> Iterator[Suggestion]:
     if key == "family":
-        yield from (Choice(x, family.summary, x) for x, family in FAMILIES.items())
+        yield from (Suggestion(x, family.summary, x) for x, family in FAMILIES.items())
     if key in ("transfer", "rule", "default", "blocks"):
-        yield from (Choice(x, text, x) for x, text in SUMMARIES.items())
+        yield from (Suggestion(x, text, x) for x, text in SUMMARIES.items())
     if key in ("methods", "method", "adjoint", "extrapolate", "of"):
         for name, family in BY_STAGES.items():
-            yield Choice(f"{name}-2", family.summary, f"{name}-2")
-        yield from (Choice(name, "a method of the catalogue", name) for name in sorted(catalogue))
+            yield Suggestion(f"{name}-2", family.summary, f"{name}-2")
+        yield from (
+            Suggestion(name, "a method of the catalogue", name) for name in sorted(catalogue)
+        )
 
 
-def _keys(above: list[str]) -> Iterator[Choice]:
+def _keys(above: list[str]) -> Iterator[Suggestion]:
     """Yields the keys directly below others; those of expect are the claims."""
     if above == ["expect"]:
-        yield from (Choice(x, claim_meaning(x).text, f"{x}: ") for x in CLAIMS)
+        yield from (Suggestion(x, claim_meaning(x).text, f"{x}: ") for x in CLAIMS)
     prefix = "".join(f"{key}." for key in above)
     for path, key in keys_of("method").items():
         name = path.removeprefix(prefix)
         if path.startswith(prefix) and name and "." not in name:
-            yield Choice(name, key.text, f"{name}: ")
+            yield Suggestion(name, key.text, f"{name}: ")
 
 
 def _above(lines: list[str], line: int, before: str) -> list[str]:

@@ -40,7 +40,7 @@ class VertexKind(Frozen):
         """ρ (ρ − 1) ⋯, with as many factors as the weight: the factor of a root in the density of a
         tree of order ρ.
 
-        >>> Kind().integrated(4), Kind(weight=2).integrated(4)
+        >>> VertexKind().integrated(4), VertexKind(weight=2).integrated(4)
         (4, 12)
         """
         return perm(order, self.weight)
@@ -49,7 +49,7 @@ class VertexKind(Frozen):
     def of_linear_field(self) -> VertexKind:
         """The kind for a linear vector field.
 
-        >>> Kind().of_linear_field == LINEAR
+        >>> VertexKind().of_linear_field == LINEAR
         True
         """
         return VertexKind(self.arity - {SEVERAL}, self.weight, self.is_exact)
@@ -66,7 +66,7 @@ class VertexKind(Frozen):
     def branches(self) -> str:
         """The possible numbers of branches, in words.
 
-        >>> LINEAR.branches, Kind(frozenset({0, 2})).branches
+        >>> LINEAR.branches, VertexKind(frozenset({0, 2})).branches
         ('no branch or one branch', 'no branch or several branches')
         """
         return " or ".join(_WORDS[n] for n in sorted(self.arity))

@@ -160,7 +160,7 @@ def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionC
     a pair.
 
     >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
-    [<Tree [[]_1]_1>]
+    [<Tree [[]]>]
     """
     _check(order)
     if structure.is_directed or order % 2:

@@ -71,7 +71,7 @@ _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
 
 
 def are_numbers(cells: Iterable[str]) -> bool:
-    """Whether the cells of a column stand at its right."""
+    """Whether the cells of a column are aligned right."""
     return all(map(_NUMBER.match, cells))
 
 

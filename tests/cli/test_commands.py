@@ -94,8 +94,8 @@ EACH = [
     for i, (run, fs) in enumerate(RUNS)
     for f in fs
 ]
-WITHOUT_A_REPORT = {"export"}
-"""What it writes has the format of its target."""
+WITHOUT_A_REPORT = {"export", "lsp"}
+"""What they write has the format of a target, or of a protocol."""
 IN_JSON = {run: fs for run, fs in RUNS if "json" in fs}
 
 

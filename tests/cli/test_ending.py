@@ -62,6 +62,7 @@ LONG = {
     "export": ["export gauss-200 --to numpy -o x.py"],
     "claims": ["claims gauss-200"],
     "certificate": ["certificate gauss-200"],
+    "lsp": ["lsp --once gauss-200"],
 }
 """Runs of each command that take minutes, where another command is not enough."""
 SHORT = {

@@ -187,7 +187,7 @@ OVER_INPUTS = (
     *("design family.yaml --order 2 -o family.yaml",),
     *("design family.yaml --order 2 --emit family.yaml",),
     *("sweep spec.yaml --rows rows.jsonl -o spec.yaml",),
-    *("sweep spec.yaml --rows rows.jsonl -o m.gark.yaml",),
+    *("sweep spec.yaml --rows rows.jsonl -o m.gark.yaml", "lsp --once m.gark.yaml -o m.gark.yaml"),
     *("export m.gark.yaml --to json -o m.gark.yaml", "audit source.csv -o source.csv"),
     *("list methods --catalogue . -o m.gark.yaml", "show n --catalogue . -o n.gark.yaml"),
     "check m.gark.yaml --baseline source.csv -o source.csv",

@@ -332,8 +332,9 @@ def test_messages_fit_a_terminal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     """
     file = tmp_path / "x.yaml"
     file.write_text("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2, and-a-word-that-is-no-number]\n")
+    monkeypatch.chdir(tmp_path)
     commands = (
-        ["show", str(file)],
+        ["show", "x.yaml"],
         ["show", "no-such-method-of-the-catalogue"],
         ["tableau", "rk4", "--digits", "0"],
     )

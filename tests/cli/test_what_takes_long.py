@@ -41,8 +41,8 @@ TOLD = {
 """Arguments of each command, and something that it says."""
 AT_ONCE = {"new", "explain", "list", "cite", "schema"}
 """Commands that have nothing to compute."""
-ELSEWHERE = {"design", "sweep"}
-"""Commands whose work is counted in tests of their own."""
+ELSEWHERE = {"design", "sweep", "lsp"}
+"""Commands whose work is counted in tests of their own, or in a process apart."""
 
 
 def told(*arguments: str, stdin: str = "") -> tuple[Run, Listener]:

@@ -10,7 +10,7 @@ import pytest
 from garkcli.check.check_file import check_method
 from garkcli.check.findings import findings
 from garkcli.editor import judging
-from garkcli.editor.judging import Span, judged
+from garkcli.editor.judging import TextSpan, judged
 from garkcli.editor.wording import choices_at, meaning_at
 from garkcli.methodfile.load import loads
 from tests.cli.harness import gark
@@ -46,7 +46,7 @@ def test_remarks_are_those_of_the_command() -> None:
     found = judged(text, "mine.yaml")
     outcome = check_method(loads(text, "mine.yaml"))
     assert [x.remark for x in found.remarks] == [x.remark for x in findings(outcome)]
-    assert found.remarks[0].span == Span(3, 16, 17)
+    assert found.remarks[0].span == TextSpan(3, 16, 17)
     assert found.line == 1
     assert found.lens[0] == "order 1, proved; order 2 fails at [[]] by -1/18"
 
@@ -56,7 +56,11 @@ def test_couplings_have_a_lens_and_no_wrong_fix() -> None:
     text = "methods: [gauss-2, lobatto-iiia-3]\ntransfer: collocation\nexpect: {order: 5}\n"
     found = judged(text, "mine.yaml")
     assert [x.fixes for x in found.remarks] == [()]
-    assert [x.split(",")[0] for x in found.lens] == ["order 4", "conjugate order 4", "pair order 4"]
+    assert [x.split(",")[0] for x in found.lens] == [
+        "order 4",
+        "conjugate order 4",
+        "symplectic pair 4",
+    ]
 
 
 def test_faults_have_their_place() -> None:
@@ -65,7 +69,7 @@ def test_faults_have_their_place() -> None:
     assert fault.remark.line > 0
     (wrong,) = judged("A: [[0]]\nb: [1]\ntolerence: 1e-9\n", "x.yaml").remarks
     assert [x.text for x in wrong.fixes] == ["tolerance"]
-    assert wrong.span == Span(2, 0, 9)
+    assert wrong.span == TextSpan(2, 0, 9)
 
 
 def test_long_work_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
