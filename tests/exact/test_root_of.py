@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isqrt
 from typing import Any
 
 import pytest
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 from garkcli.errors import ExpressionError, GarkError, LimitExceeded, UndefinedValue
 from garkcli.exact.display import to_ball, to_latex, to_text
 from garkcli.exact.domain import Domain
-from garkcli.exact.enclosing import _narrowed, enclose, midpoint
+from garkcli.exact.enclosing import _narrowed, _value, enclose, midpoint
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.formula import parse_formula
@@ -205,3 +206,11 @@ def test_roots_are_narrowed_by_values_in_balls() -> None:
     assert ball.rad() < fmpq(1, 2**1990)
     low, high = (midpoint(x) for x in (ball.lower(), ball.upper()))
     assert p(low) < 0 < p(high)
+
+
+def test_values_beside_a_root_have_their_sign() -> None:
+    """Where a ball leaves the sign of p(x) open p(x) is computed exactly: x is within 1e-60 of √2."""
+    p = fmpz_poly([-2, 0, 1])
+    below = fmpq(isqrt(2 * 10**120), 10**60)
+    assert _value(p, below) < 0
+    assert _value(p, below + fmpq(1, 10**60)) > 0

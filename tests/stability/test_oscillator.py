@@ -23,6 +23,7 @@ from garkcli.stability.oscillator import (
     Ratio,
     oscillator_stability,
     stable_set,
+    usual_oscillator,
 )
 from garkcli.stability.springs_plane import springs_plane
 from garkcli.stability.two_frequencies import springs, two_frequencies
@@ -273,3 +274,21 @@ def test_a_method_that_does_nothing_has_order_zero() -> None:
     tableau = loads("methods: [{A: [[0]], b: [0]}]").tableau
     found = oscillator_stability(tableau, Oscillator.default(1, ONE))
     assert (found.phase.order, found.phase.constant) == (0, None)
+
+
+@pytest.mark.parametrize("x", [fmpq(1, 3), fmpq(2), fmpq(9)])
+def test_the_discriminant_is_that_of_the_trace(x: fmpq) -> None:
+    """4D² − N² over D² is 4 − (tr M)², where RK4 has tr M = 2 Re R(iy) = 2 − x + x²/12, x = y²."""
+    found = usual_oscillator(load("rk4").tableau)
+    assert found is not None
+    trace = 2 - x + x**2 / 12
+    assert found.discriminant(x) / found.trace.denominator(x) ** 2 == 4 - trace**2
+
+
+def test_the_discriminant_of_two_springs_is_that_of_the_trace() -> None:
+    """The same for a pair with a fast and a slow spring, from its trace."""
+    tableau = load("methods/collocation.gark.yaml").tableau
+    found = two_frequencies(tableau, springs(tableau, 1), fmpq(1))
+    for x in (fmpq(1, 3), fmpq(2), fmpq(9)):
+        N, D = found.trace.numerator(x), found.trace.denominator(x)
+        assert found.discriminant(x) == (2 * D - N) * (2 * D + N)
