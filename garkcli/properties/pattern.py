@@ -86,7 +86,13 @@ def stage_graph(
         from garkcli.tableau.pointwise import entries  # for stages of families
 
         listed = entries(tableau, DIGITS).A
-        blocks = {(tableau.colours[l].space, m): listed[l][m] for l, m in tableau.edges()}
+        of_points = {m for m in range(tableau.size) if isinstance(tableau.space(m), PointSpace)}
+        blocks = {
+            (tableau.colours[l].space, m): listed[l][m]
+            for l, m in tableau.edges()
+            if not {l, m} <= of_points
+        }
+        blocks = {**tableau.blocks, **blocks}
     successors: dict[Vertex, set[Vertex]] = {}
     loops: dict[Vertex, list[Number | None]] = {}
     is_certain = True

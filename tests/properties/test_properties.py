@@ -662,3 +662,15 @@ def test_the_pole_that_is_told(A: str, pole: str) -> None:
     found = find_property(tableau, "a-stable")
     assert found.value is False
     assert f"a pole at z = {pole}" in found.why
+
+
+def test_stages_beside_an_algebra_have_exact_zeros() -> None:
+    """Nodes of Gauss without radicals are enclosed; the zeros of the other method are exact."""
+    tableau = loads(
+        "methods: [{family: gauss, stages: 7}, {A: [[0, 0], [1/2, 0]], b: [0, 1]}]\n"
+        "transfer: interpolation"
+    ).tableau
+    subject = Subject(tableau, 1, simplifying(tableau, 2), 2, fmpq(0))
+    _, midpoint = subject.shapes
+    assert midpoint is not None
+    assert (midpoint.kind, midpoint.implicit_stages) == ("explicit", 0)
