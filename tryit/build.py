@@ -30,6 +30,7 @@ COMPILED = ("python-flint", "msgspec")
 PURE = ("click", "Jinja2", "latex2mathml", "MarkupSafe", "PyYAML")
 """Those with a part in C do without it."""
 PAGE = ("tryit.js", "worker.js")
+STATIC = ROOT / "garkcli" / "webpage" / "static"
 SUFFIXES = {".py", ".json", ".toml", ".txt", ".html", ".css", ".js", ".jinja", ".yaml"}
 LEFT_OUT = {"pytest_plugin.py"}
 EPOCH = (1980, 1, 1, 0, 0, 0)
@@ -49,8 +50,9 @@ def main() -> None:
     (TARGET / "wheels.json").write_text(json.dumps([*wheels, archive.name]), encoding="utf-8")
     for name in PAGE:
         shutil.copy(HERE / name, TARGET / name)
+    colours = (STATIC / "colours.css").read_text(encoding="utf-8")
     css = (HERE / "tryit.css").read_text(encoding="utf-8")
-    (TARGET / "tryit.css").write_text(css + STYLE, encoding="utf-8")
+    (TARGET / "tryit.css").write_text(colours + css + STYLE, encoding="utf-8")
     html = (HERE / "index.html").read_text(encoding="utf-8")
     (TARGET / "index.html").write_text(html.replace("{{ policy }}", policy()), encoding="utf-8")
     size = sum(x.stat().st_size for x in TARGET.iterdir()) / 1e6
@@ -62,7 +64,7 @@ def policy() -> str:
 
     The report in its frame runs its one script.
     """
-    script = (ROOT / "garkcli" / "webpage" / "static" / "page.js").read_bytes()
+    script = (STATIC / "page.js").read_bytes()
     report = b64encode(sha256(script).digest()).decode()
     return (
         "default-src 'none'; connect-src 'self'; worker-src 'self'; "

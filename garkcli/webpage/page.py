@@ -185,7 +185,7 @@ def render(methods: Sequence[Reported]) -> str:
         pictures=of_several(methods),
         columns=list(COLUMNS),
         dots=dots(sizes),
-        style=Markup(_static("page.css") + STYLE),
+        style=Markup(_static("colours.css") + _static("page.css") + STYLE),
         script=Markup(script),
         policy=_policy(script),
     )

@@ -330,30 +330,22 @@ def test_the_set_with_other_wishes() -> None:
     assert values["apart"]
 
 
-def test_a_stable_point_beside_a_line() -> None:
-    """G = 1 with any d, and g = 2 with d = 0, which is A-stable too: the set has both."""
-    text = """
+BESIDE = """
 parameters: {g: free, d: free}
-A: [[g, "1/2 - g + (g-1)*(g-2)"], [0, g]]
-b: [1, "(g-1)*d"]
+A: [[g, "1/2 - g + (g - %s)*(g - 2)"], [0, g]]
+b: [1, "(g - %s)*d"]
 design: {order: 2, a-stable: true}
 """
-    run = gark("design", "-", stdin=text)
-    assert "A-stable for exactly g = 1 or g = 2" in run.out
-    point = gark("design", "-", "--set", "d=0", stdin=text)
+"""A line g = … with any d, and a point g = 2 with d = 0."""
+
+
+@pytest.mark.parametrize(("line", "says"), [("1", "g = 1 or g = 2"), ("(-1)", "g = 2")])
+def test_a_stable_point_beside_a_line(line: str, says: str) -> None:
+    """G = 1 is A-stable with any d, g = −1 is not; g = 2 is: the set has all that are."""
+    run = gark("design", "-", stdin=BESIDE % (line, line))
+    assert (run.code, f"A-stable for exactly {says}\n" in run.out) == (0, True)
+    point = gark("design", "-", "--set", "d=0", stdin=BESIDE % (line, line))
     assert "g = 2: order 2 of the method, proved, A-stable" in point.out
-
-
-def test_a_stable_point_beside_a_line_without_stable_methods() -> None:
-    """G = −1 with any d is not A-stable, g = 2 with d = 0 is: a method is known."""
-    text = """
-parameters: {g: free, d: free}
-A: [[g, "1/2 - g + (g+1)*(g-2)"], [0, g]]
-b: [1, "(g+1)*d"]
-design: {order: 2, a-stable: true}
-"""
-    run = gark("design", "-", stdin=text)
-    assert (run.code, "A-stable for exactly g = 2\n" in run.out) == (0, True)
 
 
 def test_stable_sets_are_of_families_that_have_the_order() -> None:
