@@ -122,7 +122,7 @@ def check_time() -> None:
 
 
 def checked(items: Iterable[T]) -> Iterator[T]:
-    """Items, of which there may be very many, until the time is over.
+    """Yields items until the time is over; there may be very many.
 
     Raises:
         NotDecided: it is.

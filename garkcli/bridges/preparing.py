@@ -135,7 +135,7 @@ def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> Ga
 
 
 def _name(method: MethodFile) -> str:
-    """Its name; without one that of its file, without the folder."""
+    """The name of the method, or of its file without the folder."""
     if method.name != method.source:
         return method.name
     base = re.split(r"[\\/]", method.source)[-1]

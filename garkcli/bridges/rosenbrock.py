@@ -72,7 +72,7 @@ class RowSubject(TableSubject):
 
     @property
     def judged_orders(self) -> tuple[Judged | None, ...]:
-        """Its order, that for f(t, y), and that of its embedded weights."""
+        """The orders of the method, for f(t, y), and of the embedded weights."""
         return self.order, self.timed, self.embedded_order
 
     @property

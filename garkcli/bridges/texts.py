@@ -172,8 +172,8 @@ def _values_for(
 
 
 def filled(language: Language, begin: str, items: Sequence[str], end: str) -> list[str]:
-    """Items in as few lines as hold them, continuation lines indented to the first item; an item
-    that is too long gets its own line.
+    """Returns a list in as few lines as hold it, continuation lines indented to the first item; an
+    item that is too long gets its own line.
 
     >>> filled(Language(HASH, "python", width=12), "x = [", ["1", "22", "333"], "]")
     ['x = [1, 22,', '     333]']

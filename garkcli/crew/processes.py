@@ -28,7 +28,7 @@ MOST_WORKERS = 60
 PATIENCE = 10
 """The limit by the clock, as a multiple of that of processor time."""
 BATCH = 8
-"""Items that a worker has at hand, so that it need not wait for the next."""
+"""The items at hand for a worker, so that it need not wait for the next."""
 
 
 class _Worker(Generic[Item, Outcome]):

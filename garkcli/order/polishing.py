@@ -74,7 +74,7 @@ def _unknown() -> MethodError:
 
 
 class _Polishing:
-    """Iterates to the nearest method that meets some rows.
+    """The iteration to the nearest method that meets some rows.
 
     ``search`` has enough bits for the slopes; ``bits`` is the precision of the shifts.
     """

@@ -138,7 +138,7 @@ class ConditionTable(Mutable):
 
     @property
     def colours(self) -> Sequence[str]:
-        """Their names; one where the rows are for all colours."""
+        """The names of the colours; one where the rows are for all of them."""
         about = self.subject or self.valued
         return about.names if about else [str(l + 1) for l in range(self.coloured or 1)]
 

@@ -202,7 +202,7 @@ class Scope(Frozen):
 
     @property
     def title(self) -> str:
-        """Its name for users."""
+        """The name of the scope for users."""
         return self.of or self.name
 
 

@@ -186,7 +186,7 @@ class LinearStability(Frozen):
 
     @property
     def words(self) -> str:
-        """Its stability in short."""
+        """The stability in a few words."""
         words = _word("A-stable", self.a_stable)
         return f"{words}, {_word('L-stable', self.l_stable)}" if self.a_stable else words
 

@@ -300,7 +300,7 @@ class _StagePart:
         self._slopes = function(field.slopes(by), field.arguments, is_for_balls) if by else list
 
     def value(self, numbers: Sequence[Any]) -> Numbers:
-        """Its components."""
+        """The components of the vector field."""
         return self._value(*(numbers[place] for place in self._places))
 
     def slopes(self, numbers: Sequence[Any]) -> Iterator[Numbers]:

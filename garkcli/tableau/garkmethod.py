@@ -90,7 +90,7 @@ def derivation_of(method: GarkMethod | None) -> Derivation:
 
 
 def word_for(method: GarkMethod | None) -> str:
-    """Its noun in a sentence: method, conjugate or pair."""
+    """The noun in a sentence: method, conjugate or pair."""
     return derivation_of(method) or "method"
 
 

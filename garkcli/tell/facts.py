@@ -330,7 +330,7 @@ class Row(Generic[T_in]):
             yield self._name(field), field.schema, not field.is_optional
 
     def data(self, whole: T_in, dialect: Plain) -> dict[str, object]:
-        """Its fields for a result."""
+        """The fields of the row for a result."""
         what = self.kind.what
         if what is None:
             return {}

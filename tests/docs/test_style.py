@@ -50,6 +50,7 @@ REFUSED = {
 """Patterns that no text has, by their names in the tables of the style page."""
 OPENINGS = re.compile(
     r"(?:what|that|the same|those|of|which|how|who|whose|by (?:how much|what|which)|so many|where"
+    r"|its|their|items|iterates"
     r"|(?:returns|yields) the same (?:as|for|if|in|with))\b",
     re.IGNORECASE,
 )
