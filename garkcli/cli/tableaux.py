@@ -25,7 +25,14 @@ if TYPE_CHECKING:
 
 DEFAULT_DIGITS = 17
 """The default number of digits of entries without simple radicals."""
-EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "undecided": 3}
+EXIT_CODES = {
+    "identical": 0,
+    "same": 0,
+    "within-rounding": 0,
+    "same-step": 0,
+    "different": 1,
+    "undecided": 3,
+}
 
 
 REDUCED = "reduced"
@@ -442,10 +449,9 @@ def diff(given: Diff, output: Output) -> int:
     names = called(given.first), called(given.second)
     typed = _as_typed(given.first, names[0]), _as_typed(given.second, names[1])
     output.tell(REPORT, ComparedPair(found, names, typed))
-    if given.strict and found.relation in {"same", "within-rounding"}:
+    if given.strict and found.relation in {"same", "within-rounding", "same-step"}:
         return 1
-    is_same = found.is_same_step and not given.strict
-    return EXIT_CODES["same" if is_same else found.relation]
+    return EXIT_CODES[found.relation]
 
 
 def _as_typed(argument: str, name: str) -> str:

@@ -29,7 +29,9 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
-Relation: TypeAlias = Literal["identical", "same", "within-rounding", "different", "undecided"]
+Relation: TypeAlias = Literal[
+    "identical", "same", "within-rounding", "same-step", "different", "undecided"
+]
 """By entries; as methods; up to the rounding that the files admit; different; not known."""
 
 
@@ -113,7 +115,7 @@ class Comparison(Shown, Frozen):
         if same is None:
             return "undecided" if self.obstacle else "different"
         if same.step_only:
-            return "different"
+            return "same-step" if self.is_same_step else "different"
         if same.allowed:
             return "within-rounding"
         has_one_form = self.forms[0] == self.forms[1]
@@ -126,7 +128,7 @@ class Comparison(Shown, Frozen):
         """The only difference between the methods if it is not in a block or in b; otherwise
         empty.
         """
-        if self.relation != "different":
+        if self.relation not in {"same-step", "different"}:
             return ""
         kinds = {gap.kind for gap in self.gaps}
         if self.sameness is not None:

@@ -54,12 +54,13 @@ RELATIONS = {
     "identical": "identical: every entry is the same",
     "same": "the same method",
     "within-rounding": "the same method",
+    "same-step": "the same step",
     "different": "different methods",
     "undecided": "not decided",
 }
 """Relations between methods."""
-SAME_STEP, STEP_ALONE = "same-step", "step-alone"
-"""The relations of methods with one step: further weights that both have are the same, or not."""
+STEP_ALONE = "step-alone"
+"""The word for different methods with one step, whose further weights differ."""
 
 
 class ComparedMethod(NamedTuple):
@@ -150,8 +151,8 @@ def relation(x: ComparedPair) -> Answer[str]:
     same = found.sameness
     allowed = same.allowed if same and found.relation == "within-rounding" else None
     word: str = found.relation
-    if same is not None and same.step_only:
-        word = SAME_STEP if found.is_same_step else STEP_ALONE
+    if same is not None and same.step_only and word == "different":
+        word = STEP_ALONE
     return Answer(word, Status(allowed), Reason(found.remark or found.obstacle))
 
 

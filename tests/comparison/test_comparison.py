@@ -219,9 +219,10 @@ def test_rounding_is_as_large_as_both_files_admit() -> None:
 def test_embedded_weights_are_part_of_the_method() -> None:
     """The step is the same, the estimate of its error is not; without them neither."""
     other = loads(PAIR.replace("7/24, 1/4, 1/3, 1/8", "0, 1, 0, 0"))
-    for changed in (other, replace(other, embedded=None, dense=None)):
+    plain = replace(other, embedded=None, dense=None)
+    for changed, relation in ((other, "different"), (plain, "same-step")):
         found = compare(loads(PAIR), changed)
-        assert found.relation == "different"
+        assert found.relation == relation
         assert found.sameness is not None
         assert found.sameness.step_only
         assert "embedded weights" in found.remark
@@ -245,6 +246,10 @@ def test_a_method_without_estimate_is_the_same_step(tmp_path: Path) -> None:
         command = "diff", str(mine), "heun"
         assert (gark(*command).code, gark(*command, "--strict").code) == (code, strict)
         assert compare(load(str(mine)), load("heun")).is_same_step is (code == 0)
+        data = json.loads(gark(*command, "--format", "json").out)
+        jsonschema.validate(data, report_schema("diff"))
+        wanted = {"": "same-step", "embedded: [0, 1]\n": "different"}
+        assert data["relation"] == wanted.get(further, "identical")
     assert not compare(load("rk4"), load("heun")).is_same_step
 
 
@@ -264,7 +269,7 @@ def test_a_stage_for_the_estimate_is_not_left_out() -> None:
     """
     plain = loads("{A: [[0, 0, 0], [1/2, 0, 0], [0, 3/4, 0]], b: [2/9, 1/3, 4/9]}")
     found = compare(loads(PAIR), plain)
-    assert found.relation == "different"
+    assert found.relation == "same-step"
     assert found.sameness is not None
     assert (found.sameness.is_reduced, found.sameness.step_only) == (True, True)
 
