@@ -498,7 +498,7 @@ class Plain(Mutable):
         from garkcli.page.letters import definition
 
         for root, letter in letters.of.items():
-            if self.spelt(letter) in text:
+            if re.search(rf"(?<![A-Za-z]){self.spelt(letter)}(?![A-Za-z])", text):
                 yield from self.sentence(definition(root, letter), 1)
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:

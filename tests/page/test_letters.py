@@ -16,7 +16,9 @@ from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.rewriting import format_expression
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_method
+from garkcli.page.look import Look
 from garkcli.report.notebook import method_html, method_latex
+from garkcli.tell.dialect import Plain
 from garkcli.webpage.page import report_page
 from tests.cli.harness import gark
 
@@ -116,6 +118,20 @@ def test_letters_end_with_the_text() -> None:
     assert texts[:4] == texts[5:9] == ["γ", "ξ", "η", "ζ"]
     assert re.fullmatch(r"root_of\(x\*\*3-7, .*\)", texts[4])
     assert format_expression(first).startswith("root_of")
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "utf-8"])
+def test_letters_are_words_of_a_text(encoding: str) -> None:
+    """In ASCII ξ is xi, which is no part of "axis"; η is eta, no part of beta."""
+    letters = Letters()
+    with lettered(letters):
+        for k in (2, 3):
+            format_expression(parse(f"root_of(x^3 - {k}, 1.5)"))
+    d = Plain(look=Look(encoding=encoding))
+    assert len(letters.of) == 2
+    assert [*d.definitions(letters, "real axis, beta")] == []
+    first = d.spelt("2 ξ + 1")
+    assert len([*d.definitions(letters, first)]) == 1
 
 
 def test_rounded_files_have_no_letters() -> None:
