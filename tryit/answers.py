@@ -32,11 +32,11 @@ def choices() -> str:
 
 
 def named(name: str) -> str:
-    """The file of a method of the catalogue, as JSON: its text, or why there is none."""
+    """The file of a method of the catalogue, as JSON: ``text``, or ``error``, why there is none."""
     try:
         return json.dumps({"text": load(name).text})
     except GarkError as error:
-        return json.dumps({"text": f"# {error}\n"})
+        return json.dumps({"error": str(error)})
 
 
 def checked(text: str, width: int) -> str:
@@ -83,11 +83,10 @@ def drawn(text: str) -> str:
     from garkcli.plots.regions import region_of
     from garkcli.plots.svg import svg
 
-    if not _outcome(text).is_read:
-        return ""
+    Path(NAME).write_text(text, encoding="utf-8")
     try:
-        method = load(NAME)
         with within(SECONDS):
+            method = load(NAME)
             panel = region_of(method.tableau, method.tolerance)
     except GarkError:  # of a family there is none
         return ""

@@ -31,11 +31,14 @@ function next() {
     return;
   }
   const question = left.shift();
+  post(question, question === "checked" ? [text.value, columns()] : [text.value]);
+}
+
+function post(question, given) {
   busy = true;
   at("stop").disabled = false;
   document.body.dataset.busy = question;
   deadline = setTimeout(() => end(`No answer after ${LIMIT / 1000} seconds`), LIMIT);
-  const given = question === "checked" ? [text.value, columns()] : [text.value];
   worker.postMessage({ number, question, given });
 }
 
@@ -52,6 +55,7 @@ function end(why) {
   start();
   say(`${why}: stopped. gark starts anew; change the file to ask again.`, "fault");
   at("stop").disabled = true;
+  delete document.body.dataset.busy;
 }
 
 function received({ kind, number: of, question, value }) {
@@ -71,12 +75,16 @@ function received({ kind, number: of, question, value }) {
   }
   clearTimeout(deadline);
   busy = false;
-  if (question === "named") {
-    text.value = JSON.parse(value).text;
-    ask();
-    return;
+  if (question === "named" && kind !== "fault") {
+    const { text: file, error = "" } = JSON.parse(value);
+    at("done").textContent = error;
+    if (file !== undefined) {
+      text.value = file;
+      ask();
+      return;
+    }
   }
-  if (of === number) {
+  if (of === number && (question !== "named" || kind === "fault")) {
     show(kind, question, value);
   }
   if (!left.length) {
@@ -200,9 +208,8 @@ at("catalogue").addEventListener("submit", (event) => {
   if (!isReady || busy) {
     return;
   }
-  busy = true;
   left = [];
-  worker.postMessage({ number, question: "named", given: [at("name").value || "rk4"] });
+  post("named", [at("name").value || "rk4"]);
 });
 at("share").addEventListener("click", async () => {
   history.replaceState(null, "", `#file=${await packed(text.value)}`);

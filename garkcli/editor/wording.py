@@ -79,7 +79,8 @@ def _values(key: str) -> Iterator[Suggestion]:
         yield from (Suggestion(x, text, x) for x, text in SUMMARIES.items())
     if key in ("methods", "method", "adjoint", "extrapolate", "of"):
         for name, family in BY_STAGES.items():
-            yield Suggestion(f"{name}-2", family.summary, f"{name}-2")
+            member = name if family.is_single else f"{name}-{max(2, family.smallest)}"
+            yield Suggestion(member, family.summary, member)
         yield from (
             Suggestion(name, "a method of the catalogue", name) for name in sorted(catalogue)
         )
