@@ -11,7 +11,7 @@ from garkcli.cli.output import Output
 from garkcli.errors import UsageProblem
 
 
-class Lsp(opt.Options):
+class LspOptions(opt.Options):
     """The options of ``gark lsp``."""
 
     once: str | None = opt.option(
@@ -23,8 +23,8 @@ class Lsp(opt.Options):
     rules = (opt.needs(name, once, "--name is the path of a file that is typed", "add --once -"),)
 
 
-@declared("lsp", Lsp, ["json"])
-def lsp(given: Lsp, output: Output) -> None:
+@declared("lsp", LspOptions, ["json"])
+def lsp(given: LspOptions, output: Output) -> None:
     """A language server for method files, which editors start and speak to by standard input.
 
     It shows remarks at their places, the orders above the tableau, the meaning of keys, families

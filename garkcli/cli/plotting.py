@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from garkcli.cli import options as opt
@@ -45,7 +46,7 @@ def plot(given: PlotOptions, output: Output) -> None:
         output.demand_file()
     (file,) = output.files_meant([given.file], given.settings)
     method = given.method(file, is_any_kind=True)
-    what: str = given.what or _first(method)
+    what, panel = _first(method) if given.what is None else (given.what, None)
     if given.open and output.path is None:
         output.path, output.format = _temporary(what), "svg"
     if what == "tableau":
@@ -53,7 +54,7 @@ def plot(given: PlotOptions, output: Output) -> None:
     elif what == "tree":
         _tree(_last_tree(method), method.tableau, output)
     else:
-        _panel(_panel_of(what, method), method.name, output)
+        _panel(panel or _panel_of(what, method), method.name, output)
     if given.open and output.path is not None:
         output.show(output.path)
 
@@ -98,10 +99,14 @@ def _possible(method: GarkMethod) -> list[str]:
     return found if method.tableau.exact_to is not None else [*found, "convergence"]
 
 
-def _first(method: GarkMethod) -> str:
-    """Returns the picture that is drawn of a method if none is named."""
-    possible = _possible(method)
-    return next((x for x in ("region", "oscillator") if x in possible), "tableau")
+def _first(method: GarkMethod) -> tuple[str, Panel | None]:
+    """Returns the picture of a method if none is named: region, oscillator or tableau."""
+    from garkcli.webpage.pictures import NotDrawn, panel_named
+
+    for what in ("region", "oscillator"):
+        with suppress(NotDrawn, UsageProblem):
+            return what, panel_named(what, method)
+    return "tableau", None
 
 
 def _panel(panel: Panel, name: str, output: Output) -> None:

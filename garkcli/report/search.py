@@ -9,8 +9,7 @@ from typing import NamedTuple, get_args
 from flint import ctx
 
 from garkcli.design.member import Whose
-from garkcli.design.minimise.objective import LevelObjective as LevelObjective
-from garkcli.design.minimise.objective import Single, WeightedSum
+from garkcli.design.minimise.objective import LevelObjective, Single, WeightedSum
 from garkcli.design.search.run import Ending, FoundMethod, SearchResult
 from garkcli.design.search.run import decimals as decimals_of
 from garkcli.design.search.search import Proof, Search

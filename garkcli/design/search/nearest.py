@@ -24,7 +24,8 @@ BITS = 64
 
 def nearest_member(family: Family, method: Tableau, further: Further) -> list[float]:
     """Returns values of the unknowns at which the sum of squares of all differences to the
-    coefficients of a method has a local minimum: zero, where the method is a member.
+    coefficients of a method has a local minimum, found from 1/2 for each: zero, where the method is
+    a member.
 
     Args:
         family: of methods.
@@ -36,9 +37,10 @@ def nearest_member(family: Family, method: Tableau, further: Further) -> list[fl
     """
     import numpy as np
 
-    if _shape(family.tableau) != _shape(method):
-        sizes = [" and ".join(map(str, _shape(x))) for x in (method, family.tableau)]
-        message = f"--start: the method has {sizes[0]} stages, those of the file {sizes[1]}"
+    is_alike = family.tableau.size == method.size
+    if not is_alike or _shape(family.tableau) != _shape(method):
+        sizes = [" + ".join(map(str, _shape(x))) for x in (method, family.tableau)]
+        message = f"the start has {sizes[0]} stages, the methods of the file {sizes[1]}"
         raise UsageProblem(message, "name a method with as many", code="option-value")
     pairs = list(_pairs(family.tableau, method))
     if family.further.embedded is not None and further.embedded is not None:
@@ -51,7 +53,7 @@ def nearest_member(family: Family, method: Tableau, further: Further) -> list[fl
 
 
 def _shape(tableau: Tableau) -> list[int]:
-    return [tableau.spaces[colour.space].stages for colour in tableau.colours]
+    return [space.stages for space in tableau.spaces]
 
 
 def _pairs(family: Tableau, method: Tableau) -> Iterator[tuple[Number, Number]]:

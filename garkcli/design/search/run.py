@@ -261,7 +261,6 @@ def search_methods(
         most: the most methods to find; other successes are counted.
         whose: the order of the method, its symplectic conjugate or its pair.
         seconds: the time limit, after which the search ends with its finds; None for none.
-        first: values of the unknowns that replace the first start.
         objective: to minimise from each start, a name or a sum of names; None for none.
         first: values of the unknowns that replace the first start.
 
