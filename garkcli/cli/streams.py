@@ -220,7 +220,11 @@ def _for(encoding: str | None, text: str, format: str, width: int | None = None)
     from garkcli.page.plaintext import plain_text
     from garkcli.page.safety import JSON, XML, YAML, escaped
 
-    if format in JSON | YAML | XML:
+    if format in YAML:
+        from garkcli.grammar.editing import in_ascii
+
+        return in_ascii(text)
+    if format in JSON | XML:
         return "".join(x if x.isascii() else escaped(x, format) for x in text)
     return plain_text(text, encoding, width)
 

@@ -28,6 +28,28 @@ def quoted(text: str) -> str:
     return f'"{inside}"'
 
 
+def in_ascii(text: str) -> str:
+    r"""Returns YAML with the same values in ASCII: scalars with other characters are quoted, as
+    escapes are for quotes alone.
+
+    >>> print(in_ascii("title: näher\nb: 'ö'\n"), end="")
+    title: "n\U000000e4her"
+    b: "\U000000f6"
+    """
+    pieces: list[str] = []
+    place = 0
+    for token in yaml.scan(text):
+        start, end = token.start_mark.index, token.end_mark.index
+        if not isinstance(token, yaml.ScalarToken) or token.style == '"':
+            continue
+        if not text[start:end].isascii():
+            is_block = text[start] in "|>"
+            pieces += [text[place:start], quoted(token.value), "\n" * is_block]
+            place = end
+    made = "".join([*pieces, text[place:]])
+    return "".join(x if x.isascii() else f"\\U{ord(x):08x}" for x in made)
+
+
 def block_mapping(entries: list[tuple[Node, Node]]) -> MappingNode:
     return MappingNode("tag:yaml.org,2002:map", entries, flow_style=False)
 

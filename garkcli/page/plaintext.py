@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Iterator
 from functools import lru_cache
 
-PHRASES = {" · ": " * ", "½": "1/2 "}
+PHRASES = {" · ": " * ", "·10": "*10", "½": "1/2 "}
 """Phrases whose form differs from that of their characters; they are replaced first."""
 SIGNS = {
     # letters and operators; A^ would look like a power
@@ -20,6 +20,8 @@ SIGNS = {
     "\N{COMBINING DIAERESIS}": "''", "\N{COMBINING DOT ABOVE}": "'",
     "\N{COMBINING CIRCUMFLEX ACCENT}": "^", "\N{COMBINING TILDE}": "~",
     "\N{COMBINING MACRON}": "bar",
+    # derivatives by time
+    "ẋ": "x'", "ẏ": "y'", "ż": "z'", "ṗ": "p'",
     # a letter that is no accented one
     "ø": "o", "æ": "ae", "ß": "ss",
     # punctuation
@@ -48,8 +50,8 @@ _SCRIPT = r"(SUPERSCRIPT|SUBSCRIPT) "
 def ascii_form(sign: str) -> str:
     r"""Returns a character in ASCII; other scripts are written as code points.
 
-    >>> [ascii_form(x) for x in "γΩ²ö中"]
-    ['gamma', 'Omega', '^2', 'o', '\\u4e2d']
+    >>> [ascii_form(x) for x in "γΩ²öẏ中"]
+    ['gamma', 'Omega', '^2', 'o', "y'", '\\u4e2d']
     """
     if sign.isascii():
         return sign
