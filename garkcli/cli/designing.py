@@ -732,7 +732,7 @@ class Sweep(opt.Options):
         "--top",
         opt.number("N", 1),
         10,
-        "Show the N best; CSV and JSON lines have all.",
+        "Show the N best, or first if the file names no best; CSV and JSON lines have all.",
         heading="Output",
     )
     parquet: str | None = opt.option(

@@ -739,7 +739,9 @@ CONSTANTS: Section[ErrorConstants] = Section(
     Row("order", kinds.POSITION, lambda x: x.order),
     Row("exact", kinds.TRUTH, lambda x: x.is_exact, DATA),
     Row("all", part(NORMS), lambda x: x.all),
-    maybe("coupling", part(NORMS), lambda c: c.coupling if of_fields(c) else None),
+    maybe(
+        "coupling", part(NORMS), lambda c: c.coupling if c.coupling.trees and of_fields(c) else None
+    ),
 )
 
 

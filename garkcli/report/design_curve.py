@@ -11,7 +11,7 @@ from garkcli.design.search.search import Search
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.plots.curves import curve_scene
-from garkcli.report.search import ENDINGS, SECONDS
+from garkcli.report.search import ENDINGS, SECONDS, solved
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Section, itself
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
@@ -47,16 +47,16 @@ def _answer(x: CurveReport, d: Plain) -> str:
     order = f"order {search.order}" + f" of the {search.whose}" * (search.whose != "method")
     starts = counted(curve.starts, "start")
     end = "" if curve.ending is None else f", then {ENDINGS[curve.ending]}"
-    solved = f"{curve.successes} of {starts} solve the conditions in floats{end}"
+    success = solved(curve.successes, curve.starts) + end
     if not curve.knots:
         return d.prose(
-            f"no method of {order} found, which does not say that there is none; {solved}"
+            f"no method of {order} found, which does not say that there is none; {success}"
         )
     points = counted(len(curve.knots), "point")
     what = f"{points} of the front of {curve.across} and {curve.up}"
     if not curve.is_front:
         what = f"the best {curve.up} for {points} of {curve.across}"
-    return d.prose(f"{order}; {what}, in floats, the best of {starts}; {solved}")
+    return d.prose(f"{order}; {what}, in floats, the best of {starts}; {success}")
 
 
 def _number(x: float) -> str:

@@ -70,9 +70,17 @@ def _found(x: SearchReport, d: Plain) -> str:
         found = f"{order}; {best}, the best of {starts}{at}"
         at = ""
     end = "" if result.ending is None else f", then {ENDINGS[result.ending]}"
-    return d.prose(
-        f"{found}; {result.successes} of {starts} solve the conditions in floats{at}{end}"
-    )
+    return d.prose(f"{found}; {solved(result.successes, result.starts)}{at}{end}")
+
+
+def solved(successes: int, starts: int) -> str:
+    """The number of starts that succeed, in words.
+
+    >>> solved(1, 3)
+    '1 of 3 starts solves the conditions in floats'
+    """
+    verb = "solves" if successes == 1 else "solve"
+    return f"{successes} of {counted(starts, 'start')} {verb} the conditions in floats"
 
 
 def _verdict(method: FoundMethod) -> str:

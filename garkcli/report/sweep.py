@@ -115,7 +115,7 @@ def section(report: SweepReport | None = None) -> Section[SweepReport]:
         Row("failures", told(_failed_words), lambda x: x.failed, label="failed"),
         Row("columns", TEXTS, lambda x: list(x.plan.criteria.columns), DATA),
         Row("best", ROWS, lambda x: x.best[: x.top], DATA),
-        _table(plan, f"best by {by}" if by else "best", lambda x: x.best, most),
+        _table(plan, f"best by {by}" if by else "first rows", lambda x: x.best, most),
         Row("pareto", ROWS, lambda x: x.front if x.plan.pareto else [], DATA),
         _table(
             plan,

@@ -493,7 +493,7 @@ def test_a_search_starts_at_a_method(tmp_path: Path) -> None:
         assert (data["first_start"], method["start"], method["proof"]) == (name, 1, "exact")
         assert (method["values"]["c2"], method["values"]["c3"]) == (c2, c3)
     run = gark("design", str(path), "--search", "1", "--start", "rk4")
-    assert "1 of 1 start solve the conditions in floats, the first at rk4" in " ".join(
+    assert "1 of 1 start solves the conditions in floats, the first at rk4" in " ".join(
         run.out.split()
     )
 
