@@ -7,6 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from flint import fmpq
+
 from garkcli.check.analysis import analyse
 from garkcli.check.claims import verify
 from garkcli.frozen import replace
@@ -14,7 +16,7 @@ from garkcli.methodfile.description import CONSTRUCTIONS
 from garkcli.methodfile.expectations import highest_order
 from garkcli.order.certificate import Order
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.meant import AnyTableau, derived, meant, within_digits
+from garkcli.order.meant import AnyTableau, derived, meant, tolerance_of, within_digits
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -61,7 +63,7 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
             if order.witness is None or order.order >= claimed:
                 continue
             missed = MissedOrder(order.order + 1, claimed, key, key == "embedded-order")
-            answer = blame_of(judged, missed)
+            answer = _assuming(remark, judged, blame_of(judged, missed))
             first = first or answer
             if answer is not None and answer.repairs:
                 first = answer
@@ -107,7 +109,7 @@ def _unclaimed(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
         missed = MissedOrder(0, 0, key, is_embedded=key == "embedded-order")
         for judged, order in _ways(method, tableau, actual, key, remark):
             if slip := slip_of(judged, missed, order):
-                return slip
+                return _assuming(remark, judged, slip)
     return None
 
 
@@ -115,19 +117,35 @@ def _ways(
     method: MethodFile, tableau: Tableau, order: AnyOrder, key: str, remark: RoundingHint | None
 ) -> Iterator[tuple[AnyTableau, AnyOrder]]:
     """Yields the method and its order: exactly or within the tolerance of the file; for decimals
-    declared exact also as if they were rounded.
+    declared exact also as if they were rounded, within the tolerance of the remark on them if any.
     """
     if not isinstance(order, Order):
         yield meant(method.tableau, method.tolerance, method.further), order
         return
     yield tableau, order
-    if remark is not None:
-        return  # it says how the coefficients are rounded
-    from garkcli.methodfile.printed import left_open
-
-    rounded = within_digits(method.tableau, left_open)
+    rounded = _rounded(method, remark)
     if rounded is not None:
         yield rounded, order_of(derived(rounded, key))
+
+
+def _rounded(method: MethodFile, remark: RoundingHint | None) -> AnyTableau | None:
+    """Returns the method as if its decimals were rounded; None if a remark says which one is
+    wrong, or no number is a decimal.
+    """
+    if remark is None:
+        from garkcli.methodfile.printed import left_open
+
+        return within_digits(method.tableau, left_open)
+    if remark.exponent is None:
+        return None
+    return meant(method.tableau, fmpq(10) ** remark.exponent, method.further)
+
+
+def _assuming(remark: RoundingHint | None, judged: AnyTableau, blame: Blame | None) -> Blame | None:
+    """Returns the blame with the tolerance that it assumes, if a remark proposes that."""
+    if blame is None or remark is None or not remark.line:
+        return blame
+    return replace(blame, within=tolerance_of(judged))
 
 
 def _with_consequences(

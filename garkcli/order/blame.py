@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
+from flint import fmpq
+
 from garkcli.doing import doing
 from garkcli.errors import ZeroWeight
 from garkcli.exact.field import ONE, ZERO, Number
@@ -180,6 +182,7 @@ class Blame(Frozen):
         restores: other claims that fail, and hold with the first of ``repairs``: consequences of
             the same fault.
         restored: without a claimed order, the order with any of the repairs.
+        within: the tolerance that a remark proposes for the file, where the diagnosis assumes it.
     """
 
     order: int
@@ -194,6 +197,7 @@ class Blame(Frozen):
     names: tuple[str, ...] = ()
     restores: tuple[str, ...] = ()
     restored: int | None = None
+    within: fmpq | None = None
 
 
 @doing("the likely cause")

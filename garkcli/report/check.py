@@ -594,6 +594,7 @@ BLAME: Section[Blame] = Section(
     Row("repairs", parts(REPAIR), lambda x: x.repairs),
     Row("restores", kinds.TEXTS, lambda x: x.restores),
     maybe("restored", kinds.POSITION, lambda x: x.restored),
+    maybe("within", kinds.TOLERANCE, lambda x: x.within),
 )
 WRONG_SUM: Section[WrongSum] = Section(
     optional("b", PLACED, lambda x: _block(x.l) if x.m is None and not x.is_embedded else None),

@@ -19,12 +19,15 @@ MOST_REPAIRS = 3
 
 def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
     """The conditions that fail, the block in all of them, and repairs, with names of colours."""
-    texts = [] if blame.order == 1 or blame.restored is not None else _conditions(blame, own)
+    is_known = blame.order == 1 or blame.restored is not None or blame.within is not None
+    texts = [] if is_known else _conditions(blame, own)
     if blame.repairs:
         also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
         order = "the claimed order"
         if blame.restored is not None:
             order = f"{blame.of.replace('-', ' ')} {blame.restored}"
+        if blame.within is not None:
+            order = f"within {decimal(blame.within)} {order}"
         mended = _repairs(blame.repairs, own)
         texts.append(Reason(f"{order} would hold with {{}}{also}", mended))
     return joined("; ", texts) if texts else NO_REASON

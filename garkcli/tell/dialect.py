@@ -218,7 +218,8 @@ class Plain(Mutable):
         """A real algebraic number."""
         simple = root_text(root) if root.exact is None else shortest(root.exact)
         decimals = root_decimal(root, self.digits)
-        if self.is_brief and root.exact is not None and len(simple or "") > LONG_COEFFICIENT:
+        longest = LONG if root.exact is None else LONG_COEFFICIENT
+        if len(simple or "") > (longest if self.is_brief else LONG_POLYNOMIAL):
             simple = None
         if simple is None:
             if self.is_brief:

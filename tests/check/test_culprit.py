@@ -99,6 +99,46 @@ def test_decimals_are_mended_within_their_rounding() -> None:
     assert abs(repair.new - fmpq(2820667392, 10**10)) < fmpq(1, 10**8)
 
 
+TSITOURAS = """A:
+  - []
+  - [0.161]
+  - [-0.008480655492356989, 0.335480655492357]
+  - [2.8971530571054935, -6.359448489975075, 4.3622954328695815]
+  - [5.325864828439257, -11.748883564062828, 7.4955393428898365, -0.09249506636175525]
+  - [5.86145544294642, -12.92096931784711, 8.159367898576159, -0.071584973281401,
+     -0.028269050394068383]
+b: [0.09646076681806523, 0.01, 0.4798896504144996, 1.379008574103742, -3.290069515436081,
+    2.324710524099774]
+"""
+
+
+@pytest.mark.parametrize("claim", ["", "expect: {order: 5}\n"])
+def test_a_wrong_entry_is_named_beside_the_missing_tolerance(claim: str) -> None:
+    """Two digits of a_63 of Tsitouras' method in decimals are exchanged, and no tolerance is given:
+    the hint on it, with which order 1 holds, does not hide the entry, with which order 5 does. The
+    right method has the hint alone.
+    """
+    right = checked(TSITOURAS + claim)
+    assert "instead of" not in told(right)
+    assert right.remark is not None
+    assert right.remark.order == 5
+    text = TSITOURAS.replace("8.159367898576159", "8.159376898576159") + claim
+    wrong = checked(text)
+    assert wrong.blame is not None
+    assert wrong.blame.within == fmpq(1, 10**15)
+    (repair,) = wrong.blame.repairs
+    assert (repair.i, repair.j) == (5, 2)
+    assert repair.new == fmpq(8159367898576159, 10**15)
+    goal = "the claimed order" if claim else "order 5"
+    new, old = "8.159367898576159", "8.159376898576159"
+    assert f"within 1e-15 {goal} would hold with a[6,3] = {new} instead of {old}" in told(wrong)
+    assert "tolerance: 1e-15 order 1 holds" in told(wrong)
+    # the second way: with both changes in the file the order is there
+    mended = checked(text.replace(old, new) + "tolerance: 1e-15\n").analysis
+    assert mended is not None
+    assert mended.order.order == 5
+
+
 NAMES = ["forward-euler", "midpoint", "heun", "kutta", "rk4", "imex-ssp2-222", "theta-23"]
 PUBLISHED = [
     *(*NAMES, "backward-euler", "bogacki-shampine-3"),

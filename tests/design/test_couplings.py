@@ -22,6 +22,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.order.constants import error_constants
 from tests.cli.harness import gark
 from tests.oracles import multirate_series
+from tests.whole import in_whole
 
 SANDU = """multirate:
   mri:
@@ -109,15 +110,19 @@ def test_least_error() -> None:
         squared_error(tableau, 5, None)
 
 
-def test_a_search_finds_order_4(tmp_path: Path) -> None:
-    """Five stages and a linear forcing have order 4 (Sandu 2019, ERK45a)."""
+@pytest.mark.parametrize(("stages", "order"), [(3, 3), pytest.param(5, 4, marks=in_whole)])
+def test_a_search_finds_couplings(stages: int, order: int, tmp_path: Path) -> None:
+    """Three stages and a linear forcing have order 3, five have order 4 (Sandu 2019, ERK33a and
+    ERK45a).
+    """
     file, made = tmp_path / "m.yaml", tmp_path / "made"
-    nodes = "c2: 1/5, c3: 2/5, c4: 3/5, c5: 4/5"
-    file.write_text(f"unknown: {{stages: 5, shape: mri}}\ndesign: {{order: 4, fix: {{{nodes}}}}}\n")
+    nodes = ", ".join(f"c{i + 1}: {i}/{stages}" for i in range(1, stages))
+    shape = f"unknown: {{stages: {stages}, shape: mri}}\n"
+    file.write_text(f"{shape}design: {{order: {order}, fix: {{{nodes}}}}}\n")
     run = gark("design", str(file), "--search", "1", "--output-dir", str(made))
     assert run.code == 0, run.err
     [path] = made.iterdir()
-    assert loads(path.read_text()).order == 4
+    assert loads(path.read_text()).order == order
 
 
 @pytest.mark.parametrize(

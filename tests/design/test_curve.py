@@ -62,6 +62,7 @@ def test_a_front_is_between_the_optima() -> None:
         assert found == pytest.approx(float(exact.ball(64)), rel=1e-6)
 
 
+@in_whole
 def test_levels_grow_along_a_front() -> None:
     """Four stages of order 3: from the order 4, with no SSP coefficient, to Kraaijevanger's 2."""
     text = "unknown: {stages: 4, shape: explicit}\ndesign: {order: 3}"

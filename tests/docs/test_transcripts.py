@@ -28,7 +28,7 @@ EMPTY = (
 """Pages that begin in an empty folder; the others use what a checkout has."""
 LONG = (
     *("rk-1214", "pep-756", "kencarp-5", "fehlberg-9", "no-resonance"),
-    *("tacs-548", "ponio-548", "kencar-3"),
+    *("tacs-548", "ponio-548", "kencar-3", "explicit7-order5.yaml"),
 )
 """Words of commands that take long: they are run in ``make whole``, and where pages
 are renewed.

@@ -9,6 +9,7 @@ on every machine with IEEE arithmetic.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, fmpq, fmpq_mpoly
@@ -46,6 +47,11 @@ class SparsePolynomial(Frozen):
 
     terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
 
+    @cached_property
+    def in_floats(self) -> list[tuple[float, tuple[int, ...]]]:
+        """The terms with the nearest floats as coefficients."""
+        return [(as_float(a), factors) for a, factors in self.terms]
+
     @classmethod
     def of(cls, polynomial: fmpq_mpoly) -> SparsePolynomial:
         terms = []
@@ -58,8 +64,11 @@ class SparsePolynomial(Frozen):
 
     def at(self, points: Array, constant: Constant) -> Any:
         total: Any = None
-        for a, factors in self.terms:
-            term: Any = constant(a)
+        terms: Iterable[tuple[Any, tuple[int, ...]]] = self.in_floats
+        if constant is not as_float:
+            terms = ((constant(a), factors) for a, factors in self.terms)
+        for number, factors in terms:
+            term: Any = number
             for unknown in factors:
                 term = points[unknown] * term
             total = term if total is None else total + term

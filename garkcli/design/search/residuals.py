@@ -8,7 +8,7 @@ and derivatives in every unknown are computed together. The residual of a tree u
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from flint import fmpq, fmpq_mpoly
 
@@ -146,6 +146,23 @@ class _Vectors:
         return _Vectors(self.values[which], self.derivatives[which])
 
 
+class _Entries(NamedTuple):
+    """Nonzero entries of a block, at most one of each row.
+
+    Attributes:
+        rows: their indices, and ``columns``.
+        values: at each point, shape (entries, points).
+        places: row, unknown and column of each derivative that is not identically zero.
+        derivatives: at each point, shape (derivatives, points).
+    """
+
+    rows: Array
+    columns: Array
+    values: Array
+    places: Array
+    derivatives: Array
+
+
 class _Evaluation(StageVectors[_Vectors]):
     """One evaluation of all residuals."""
 
@@ -159,10 +176,7 @@ class _Evaluation(StageVectors[_Vectors]):
         self.points = points
         self.is_exact = points.dtype == object
         self.constant: rational.Constant = rational.as_ball if self.is_exact else rational.as_float
-        self.blocks = {
-            key: [[x if x.is_zero else x.at(points, self.constant) for x in row] for row in block]
-            for key, block in system.blocks.items()
-        }
+        self.blocks = {key: self._entries(block) for key, block in system.blocks.items()}
         self.weights = [[x.at(points, self.constant) for x in row] for row in system.weights]
         shape = len(system), points.shape[1]
         self.values = self._zeros(*shape)
@@ -191,23 +205,52 @@ class _Evaluation(StageVectors[_Vectors]):
         derivatives = self._zeros(1, space.stages, self.system.unknowns, points)
         return _Vectors(values, derivatives)
 
-    def _image(self, space: int, m: int, vectors: _Vectors) -> _Vectors:
-        block = self.blocks[space, m]
-        trees, _, points = vectors.values.shape
-        image = _Vectors(
-            self._zeros(trees, len(block), points),
-            self._zeros(trees, len(block), self.system.unknowns, points),
-        )
+    def _entries(self, block: Sequence[Sequence[rational.RationalFunction]]) -> list[_Entries]:
+        """Returns the nonzero entries of a block: the first of each row, the second, …"""
+        layers: list[list[tuple[int, int, rational.Slope]]] = []
         for i, row in enumerate(block):
-            for j, slope in enumerate(row):
-                if isinstance(slope, rational.Slope):
-                    check_time()
-                    v = vectors.values[:, j]
-                    image.values[:, i] += slope.value * v
-                    image.derivatives[:, i] += slope.value * vectors.derivatives[:, j]
-                    for unknown, derivative in slope.derivatives:
-                        image.derivatives[:, i, unknown] += derivative * v
-        return image
+            places = [(j, x) for j, x in enumerate(row) if not x.is_zero]
+            for k, (j, x) in enumerate(places):
+                if k == len(layers):
+                    layers.append([])
+                layers[k].append((i, j, x.at(self.points, self.constant)))
+        return [self._layer(entries) for entries in layers]
+
+    def _layer(self, entries: Sequence[tuple[int, int, rational.Slope]]) -> _Entries:
+        slopes = [
+            (i, unknown, j, derivative)
+            for i, j, slope in entries
+            for unknown, derivative in slope.derivatives
+        ]
+        return _Entries(
+            self.np.array([i for i, _, _ in entries]),
+            self.np.array([j for _, j, _ in entries]),
+            self._stacked([slope.value for _, _, slope in entries]),
+            self.np.array([x[:3] for x in slopes], int).reshape(-1, 3).transpose(),
+            self._stacked([derivative for _, _, _, derivative in slopes]),
+        )
+
+    def _stacked(self, numbers: Sequence[Any]) -> Array:
+        """Returns numbers, or arrays of one for each point, as (numbers, points)."""
+        stacked = self._zeros(len(numbers), self.points.shape[1])
+        for k, number in enumerate(numbers):
+            stacked[k] = number
+        return stacked
+
+    def _image(self, space: int, m: int, vectors: _Vectors) -> _Vectors:
+        layers = self.blocks[space, m]
+        trees, _, points = vectors.values.shape
+        stages = self.system.tableau.spaces[space].stages
+        values = self._zeros(trees, stages, points)
+        derivatives = self._zeros(trees, stages, self.system.unknowns, points)
+        for layer in layers:
+            check_time()
+            j, factors = layer.columns, layer.values
+            values[:, layer.rows] += factors * vectors.values[:, j]
+            derivatives[:, layer.rows] += factors[:, None] * vectors.derivatives[:, j]
+            i, unknowns, j = layer.places
+            derivatives[:, i, unknowns] += layer.derivatives * vectors.values[:, j]
+        return _Vectors(values, derivatives)
 
     def _joined(self, parts: list[_Vectors]) -> _Vectors:
         join = self.np.concatenate
