@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.check.analysis import Analysis, analyse, analyse_any, remark_of
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
+from garkcli.check.misprint import misprints
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
 from garkcli.errors import (
@@ -146,6 +147,7 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
         name=method.name,
         claims=verify(method.claims, analysis),
         text=method.text,
+        misprints=misprints(method, analysis.order),
         constants=_constants(analysis) if want_constants else None,
         left_behind=method.left_behind,
         **own,

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from garkcli.methodfile.description import BlockRule
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
+    from garkcli.order.suspects import SuspectedNumber
 
     OtherAnalysis: TypeAlias = (
         RosenbrockAnalysis
@@ -42,6 +43,7 @@ class Outcome(Shown, Frozen):
         text: the text of the file, for showing lines of it.
         blame: the likely cause of an order below its claim, or None.
         remark: the remark on its digits, or None.
+        misprints: numbers of a method of another kind of which one seems wrong.
         constants: the error constants at the first failing order, if wanted.
         needs_claims: whether a file without claims fails.
         needed: the required claims.
@@ -71,6 +73,7 @@ class Outcome(Shown, Frozen):
     text: str = ""
     blame: Blame | None = None
     remark: RoundingHint | None = None
+    misprints: tuple[SuspectedNumber, ...] = ()
     constants: ErrorConstants | None = None
     is_crash: bool = False
     needs_claims: bool = False

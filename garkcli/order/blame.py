@@ -19,7 +19,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import AnyTableau, derived, printed, tolerance_of
-from garkcli.order.repair import Repair, RepairedEntry
+from garkcli.order.repair import GAIN, HIGHEST_LOW, Repair, RepairedEntry
 from garkcli.order.tolerance import within
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
@@ -29,12 +29,6 @@ MAX_CONDITIONS = 20_000
 MAX_ENTRIES = 2_000
 FEW_CHECKED = 20
 """Failing conditions that are examined before the order is known."""
-GAIN = 2
-"""Without a claimed order, an entry is named if it restores so many. Many published methods are one
-entry away from the next order; none of the catalogue is one away from the order after that.
-"""
-HIGHEST_LOW = 4
-"""Without a claim no entry is sought above this order, which a wrong one hardly leaves."""
 NEAR = 10
 """Largest distance of a row sum from its node, in tolerances: the rounding of all entries."""
 FEW_ENTRIES = 400

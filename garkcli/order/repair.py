@@ -7,6 +7,13 @@ from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.tableau import Tableau
 
+GAIN = 2
+"""Without a claimed order, an entry is named if it restores so many. Many published methods are one
+entry away from the next order; none of the catalogue is one away from the order after that.
+"""
+HIGHEST_LOW = 4
+"""Without a claim no entry is sought above this order, which a wrong one hardly leaves."""
+
 
 class RepairedEntry(Frozen):
     """One entry of a method: the block's colours ``l, m``, or ``m`` None for the weights b^{l}; the

@@ -5,7 +5,7 @@ order, the others being off by rounding only.
 from __future__ import annotations
 
 from collections.abc import Container, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from flint import fmpq
 
@@ -25,7 +25,7 @@ from garkcli.order.rows import of_tree
 from garkcli.order.tolerance import unnatural, within
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from garkcli.exact.affine import Floats, Forms
     from garkcli.exact.field import Number
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from garkcli.ntrees.tree import Tree
     from garkcli.order.place import System
 
+T = TypeVar("T")
 MOST_NUMBERS = 300
 """Most printed numbers of a method that is searched."""
 MOST_SUSPECTS = 8
@@ -55,10 +56,55 @@ def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) ->
     their rounding; smallest change first, none below rounding. Returns the order that each gives.
     """
     search = rounded.search
-    if len(search.box.numbers) > MOST_NUMBERS:
-        return {}
+    changes = _changes(rounded, order, limit, lambda k, change: _repair(search, k, change))
+    return {change.made: change.order for change in changes}
+
+
+def suspected_numbers(
+    rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT
+) -> list[SuspectedNumber]:
+    """The single printed numbers whose change would give the method an order, as in ``suspects``,
+    also where a number is part of several entries.
+    """
+    numbers = rounded.search.box.numbers
+
+    def changed(k: int, change: fmpq) -> tuple[fmpq, fmpq] | None:
+        old = numbers[k]
+        return (old, old + change) if isinstance(old, fmpq) else None
+
+    return [
+        SuspectedNumber(*change.made, change.order)
+        for change in _changes(rounded, order, limit, changed)
+    ]
+
+
+class SuspectedNumber(Frozen):
+    """A printed number, the value that gives a method an order, and that order."""
+
+    old: fmpq
+    new: fmpq
+    order: int
+
+
+class _ChangedNumber(Frozen, Generic[T]):
+    """A suspected number in the form of its caller, and the order that its new value gives."""
+
+    made: T
+    order: int
+
+
+def _changes(
+    rounded: RoundedTableau, order: int, limit: int, made_of: Callable[[int, fmpq], T | None]
+) -> list[_ChangedNumber[T]]:
+    """The suspected numbers, each made by ``made_of`` of its index and its change, with the order that
+    the change gives; numbers of which that makes None are left out.
+    """
+    search = rounded.search
+    limit = min(limit, rounded.tableau.exact_to or limit)
+    if order > limit or len(search.box.numbers) > MOST_NUMBERS:
+        return []
     kept = search.order_of("method", limit)[0]
-    found: dict[Repair, int] = {}
+    found: dict[T, int] = {}
     tried = None
     for rank, candidate in _ranked(search, rounded.name, order, limit)[:MOST_SUSPECTS]:
         check_time()
@@ -75,11 +121,13 @@ def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) ->
             or wide.order_of("method", kept)[0] < kept
         ):
             continue
-        change = _in_few_digits(wide, k, search) - search.box.numbers[k]
-        repair = _repair(search, k, change)
-        if repair is not None and not within(change, search.box.radii[k]):
-            found[repair] = reached
-    return found
+        printed = search.box.numbers[k]
+        assert isinstance(printed, fmpq)
+        change = _in_few_digits(wide, k, search) - printed
+        made = made_of(k, change)
+        if made is not None and not within(change, search.box.radii[k]):
+            found[made] = reached
+    return [_ChangedNumber(made, reached) for made, reached in found.items()]
 
 
 def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) -> bool:

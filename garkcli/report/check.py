@@ -71,6 +71,7 @@ if TYPE_CHECKING:
     from garkcli.order.repair import Repair
     from garkcli.order.simplifying import Simplifying
     from garkcli.order.sums import WrongSum
+    from garkcli.order.suspects import SuspectedNumber
     from garkcli.properties.pattern import Shape
     from garkcli.properties.property import Verdict
     from garkcli.tableau.tableau import Colour, Tableau
@@ -578,6 +579,11 @@ REPAIR: Section[Repair] = Section(
     Row("old", kinds.EXACT, lambda x: x.old),
     Row("new", kinds.EXACT, lambda x: x.new),
 )
+MISPRINT: Section[SuspectedNumber] = Section(
+    Row("old", kinds.EXACT, lambda x: x.old),
+    Row("new", kinds.EXACT, lambda x: x.new),
+    Row("order", kinds.POSITION, lambda x: x.order),
+)
 BLAME: Section[Blame] = Section(
     Row(
         "of",
@@ -679,8 +685,13 @@ RECOVERED: Section[PrintDistance] = Section(
 
 def hints(o: Outcome) -> list[Reason]:
     """The culprits and repairs that failing conditions show, a sentence or two each."""
+    if o.misprints:
+        from garkcli.report.hints import misprint_text  # few files
+
+        return [misprint_text(o.misprints)]
     a = o.analysis
-    assert a is not None
+    if a is None:
+        return []
     sums = a.wrong_weights
     if o.remark is None and o.blame is None and not sums:
         return []

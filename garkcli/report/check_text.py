@@ -79,8 +79,7 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         yield from d.message(text, hanging=5)
     if not outcome.ok:
         told = [row for row in claim_rows(outcome, d) if "hold" not in row[0]]
-        if outcome.analysis is not None:
-            told += hint_rows(hints(outcome), d)
+        told += hint_rows(hints(outcome), d)
         yield from d.rows(told)
     elif outcome.remark is not None and not is_quiet:
         yield from d.rows(hint_rows(hints(outcome), d))

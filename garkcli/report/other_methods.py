@@ -16,7 +16,7 @@ from garkcli.report import check as c
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Status
 from garkcli.tell.facts import Answer, Level, Row, Rows, Section, itself, maybe, optional, via
-from garkcli.tell.parts import SAID, part, picture, told
+from garkcli.tell.parts import SAID, part, parts, picture, told
 
 if TYPE_CHECKING:
     from garkcli.check.nystrom import NystromAnalysis, NystromDense
@@ -132,7 +132,9 @@ def _form(
         via(get, [itself("method", told(method)), *c.OF_ALL_KINDS, c.COLOURS_OF, *analysis]),
         c.LEFT_BEHIND,
         c.IN_FULL,
+        Row("misprints", parts(c.MISPRINT), lambda o: o.misprints, DATA),
         c.CLAIMS,
+        c.HINTS,
         title=c.title,
         columns=c.COLUMNS,
     )

@@ -256,3 +256,16 @@ def test_a_single_term_has_no_parentheses() -> None:
     """R of the implicit Euler method, and of the midpoint rule."""
     assert "  1 / (-z + 1)\n" in run("backward-euler").output
     assert " (z + 2) / (-z + 2)\n" in run("implicit-midpoint").output
+
+
+def test_long_radicals_are_decimals(tmp_path: Path) -> None:
+    """Heun's method of order 3 in decimals: the end of the interval on the imaginary axis is that of
+    three digits in print, and the root of 33 digits is in JSON.
+    """
+    path = tmp_path / "heun.yaml"
+    path.write_text("A: [[], [0.333333], [0, 0.666667]]\nb: [0.25, 0, 0.75]\n", encoding="utf-8")
+    text = " ".join(run(str(path)).stdout.split())
+    assert "|y| ≤ 1.73204907552, y² ≤ 2.999994… SSP" in text
+    assert "sqrt" not in text
+    (data,) = json.loads(run(str(path), "--format", "json").stdout)["files"]
+    assert "sqrt(3086410493871142)" in data["imaginary_interval"]["to"]
