@@ -8,6 +8,7 @@ columns differ, and a file should be answered alike on every machine.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from itertools import chain
 from typing import Any, TypeAlias
@@ -154,36 +155,71 @@ class _Composer(yaml.SafeLoader):
 
 _TOO_DEEP = f"nested more than {MAX_NESTING} deep"
 _TOO_MANY = f"more than {MAX_NODES} values in one file"
-_YAML_CURES = (
-    ("'\\t'", "indent with spaces, not with tabs"),
-    ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
-    ("mapping keys are not allowed", "quote a text that begins with ?"),
-    ("block end", "align the keys and the dashes of one list"),
-    ("undefined alias", "define it first as &name, or quote the text"),
-    ("cannot start any token", "quote a text that begins with this sign"),
-    ("another document", "give every method a file of its own"),
-    ("unexpected end of stream", "a quotation mark is open: close it"),
-    ("expected alphabetic or numeric", "comments begin with #"),
-    ("duplicate anchor", "give every anchor a name of its own"),
-    ("undefined tag", "leave the tag out, or quote the text"),
+_SIGN = "quote a text that begins with this sign"
+_ALIGN = "align the keys and the dashes of one list"
+_YAML_WORDS = (
+    (r"character '\\t'", "a tab where a value or a key begins", "indent with spaces, not tabs"),
+    ("character (.+) that cannot start", "no text begins with {}", _SIGN),
+    (
+        "mapping values are not allowed",
+        "no key ends at this colon",
+        "quote a text that holds a colon, and align the keys",
+    ),
+    ("mapping keys are not allowed", "no text begins with '?'", _SIGN),
+    ("sequence entries are not allowed", "no item begins at this dash", _ALIGN),
+    ("expected ':'", "a colon is missing after the key", "write key: value"),
+    (r"block end>, but found ('[\]}]')", "{} closes no bracket", "leave it out"),
+    ("block end>", "this belongs to no list or mapping before it", _ALIGN),
+    (r"expected ',' or ('[\]}]')", "a comma or {} is missing", "put commas between the values"),
+    ("node content", "a value is missing", "write one, or quote a text that begins with this sign"),
+    (
+        "undefined alias '(.+)'",
+        "*{0} stands for a value &{0}, which is missing",
+        "define it first as &{0}, or quote the text",
+    ),
+    ("duplicate anchor '(.+)'", "&{} has two values", "give every anchor a name of its own"),
+    (
+        "another document|document (start|separator)",
+        "another document begins",
+        "give every method a file of its own",
+    ),
+    ("unexpected end of stream", "the quotation mark is open", "close it"),
+    (
+        "escape",
+        "no sign is written so after a backslash",
+        r"write \\ for a backslash, or put the text between single quotation marks",
+    ),
+    (
+        "indentation indicator|line break",
+        "the line does not end after | or >",
+        "begin the text on the next line, or quote it",
+    ),
+    ("alphabetic or numeric", "a name is missing after this sign", _SIGN),
+    ("", "the directive or tag is not known", "leave it out, or quote a text with % or !"),
 )
-"""Explanations of PyYAML's messages."""
+"""Regular expressions for PyYAML's messages, what they mean, and the cure."""
+_FROM_START = ("could not find expected ':'", "found unexpected end of stream")
+"""Messages that are about the start of what PyYAML reads, not about where it gives up."""
 
 
 def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
-    """Returns an error of PyYAML as a fault, with a cure."""
+    """Returns an error of PyYAML as a fault in plain words, with a cure."""
     mark = error.problem_mark or error.context_mark
     context = str(error.context or "")
     problem = str(error.problem or context)
     if context.startswith("found "):  # here the context says what is wrong
         problem = context.partition(";")[0]
-    cure = next((cure for words, cure in _YAML_CURES if words in problem), "")
-    if "parsing a flow" in context and error.context_mark:
+    if problem in _FROM_START and error.context_mark:
+        mark = error.context_mark
+    matches = ((re.search(pattern, problem), words) for pattern, *words in _YAML_WORDS)
+    match, words = next((match, words) for match, words in matches if match)
+    message, cure = (x.format(*match.groups()) for x in words)
+    if re.search("parsing a flow (sequence|mapping)", context) and error.context_mark:
         line, column = position(error.context_mark)
         cure = (
             f"the bracket at {line}:{column} is open: close it, and put commas between its values"
         )
-    message = printable(f"this is not YAML: {problem}")
+    message = printable(f"this is not YAML: {message}")
     return Remark(message, printable(cure), *position(mark), code="not-yaml")
 
 
@@ -201,7 +237,8 @@ def composed(text: str) -> Node | Remark | None:
             message = "half a sign, which no text has"
             cure, code = "write the text as Unicode", "not-utf8"
         else:
-            message = f"this is not YAML: {str(error).splitlines()[0]}"
+            shown = f"U+{sign:04X}" if isinstance(sign, int) else repr(sign)
+            message = f"this is not YAML: it has the control character {shown}"
             cure, code = "leave the control character out", "not-yaml"
         return Remark(message, cure, *place_of_sign(text, sign), code=code)
 
