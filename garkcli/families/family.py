@@ -96,6 +96,26 @@ class MethodFamily(Frozen):
         return self.smallest == self.largest
 
     @property
+    def needed(self) -> tuple[Option, ...]:
+        """The options that a member cannot do without."""
+        size = () if self.is_single else (self.counted,)
+        return (*size, *(option for option in self.options if option.default == ""))
+
+    @property
+    def stands_alone(self) -> bool:
+        """Whether its name alone is a method."""
+        return not self.needed
+
+    @property
+    def example(self) -> str:
+        """A member as an argument: ``gauss-2``."""
+        size = max(2, self.smallest)
+        if self.needed == (self.counted,):
+            return f"{self.name}-{size}"
+        chosen = {x.name: str(size) if x is self.counted else x.example for x in self.needed}
+        return f"{{family: {self.name}, {', '.join(f'{x}: {y}' for x, y in chosen.items())}}}"
+
+    @property
     def keys(self) -> tuple[str, ...]:
         """The keys that choose a member, besides ``family``."""
         return tuple(option.name for option in self.chosen)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from importlib import import_module
 
 from garkcli import families
-from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean
+from garkcli.errors import ExpressionError, UnknownFamily, counted, did_you_mean, nearest
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.family import MAX_STAGES, STAGES, Given, MethodFamily, Option, Options, Recipe
@@ -99,10 +99,11 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
     family = FAMILIES.get(name)
     if family is None:
         other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
-        cure = did_you_mean(name, FAMILIES)
+        cure, meant = did_you_mean(name, FAMILIES), nearest(name, FAMILIES)
         if other:
-            cure = f"it is called {other} here"
-        raise UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure, code="unknown-word")
+            cure, meant = f"it is called {other} here", ""
+        message = f"no family {name[:MAX_NAME]!r}"
+        raise UnknownFamily(message, cure, code="unknown-word", meant=meant)
     size = _size_of(family, size)
     recipe = family.recipe(size, _complete(family, options))
     most = family.largest if family.size == STAGES.name else MAX_STAGES

@@ -3,7 +3,8 @@
 An argument with a path separator is a file, and so is one that exists as a file; any other is a
 name. The user's folders come before the package, and the package before other packages; in each,
 names come before aliases, and both before spellings with the same letters and digits:
-``ARS(2,2,2)`` is ``ARS222``.
+``ARS(2,2,2)`` is ``ARS222``. The name of a family is no spelling of a method: ``sdirk2`` is not
+``sdirk-2``.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from garkcli.methodfile.shelves import (
 )
 
 if TYPE_CHECKING:
+    from garkcli.families.family import MethodFamily
     from garkcli.reference import Reference
 
 FAMILY = "the families"
@@ -116,10 +118,24 @@ def look_up(name: str) -> Shelved | None:
             if methods := shelf.named(key):
                 return _only(name, methods)
         methods = _called(key, (shelf.aliases for shelf in shelves))
-        methods = methods or _called(letters_of(name), (shelf.spellings for shelf in shelves))
+        methods = methods or _spelt_like(name, shelves)
         if methods:
             return _only(name, methods)
     return _of_family(name)
+
+
+def _spelt_like(name: str, shelves: Iterable[Shelf]) -> list[Shelved]:
+    """Returns the methods with the letters and digits of a name, if no family has the name."""
+    methods = _called(letters_of(name), (shelf.spellings for shelf in shelves))
+    return methods if methods and _family(name) is None else []
+
+
+def _family(name: str) -> MethodFamily | None:
+    """Returns the family of this name, of which one method has to be chosen."""
+    from garkcli.families.registry import FAMILIES
+
+    family = FAMILIES.get(name.strip().lower())
+    return None if family is None or family.stands_alone else family
 
 
 def is_catalogued(name: str) -> bool:
@@ -141,6 +157,8 @@ def _of_family(name: str) -> Shelved | None:
     if member is None:
         return None
     family, size = member
+    if size is None and not FAMILIES[family].stands_alone:
+        return None
     called = family if size is None else f"{family}-{size}"
     return _made(called, FAMILIES[family].reference)
 
@@ -188,6 +206,14 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
 
 def _unknown(name: str) -> Remark:
     """Returns the fault for an argument that is neither a file nor a name."""
+    family = _family(name)
+    if family is not None:
+        needs = " and ".join(option.name for option in family.needed)
+        message = f"{family.name} is a family: its methods need {needs}"
+        cure = f"write for instance {family.example}"
+        if alike := _called(letters_of(name), (shelf.spellings for shelf in every_shelf())):
+            cure += f", or {_first([x.name for x in alike])} for the method of the catalogue"
+        return Remark(message, cure, code="missing-key")
     message = "no such file, and no method of this name in the catalogue"
     known = [
         word

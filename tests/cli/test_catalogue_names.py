@@ -11,6 +11,7 @@ import pytest
 from garkcli.cli.arguments import MethodType
 from garkcli.cli.command import command_of
 from garkcli.cli.main import COMMANDS
+from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.naming import look_up
 from tests.cli.harness import Run, gark
 from tests.cli.test_completion import completions
@@ -105,6 +106,17 @@ def test_a_file_and_a_name_at_once_is_bad_usage(tmp_path: Path) -> None:
         assert f".{os.sep}rk4 for the file" in told
         assert "catalogue:rk4 for the method" in told
     assert gark("check", "catalogue:rk4", cwd=tmp_path).code == 0
+
+
+@pytest.mark.parametrize("name", [x for x, y in FAMILIES.items() if not y.stands_alone])
+def test_a_family_is_no_method_yet(name: str) -> None:
+    """Not even where a method of the catalogue has the same letters; the cure is a method."""
+    run = gark("check", name)
+    assert run.code == 2
+    assert f"{name} is a family: its methods need " in run.out
+    cure = run.out.partition("write for instance ")[2].partition(", or ")[0]
+    assert gark("tableau", " ".join(cure.split())).code == 0
+    assert ("or sdirk-2 for the method" in " ".join(run.out.split())) is (name == "sdirk2")
 
 
 def shadowed(folder: Path, *arguments: str) -> Run:
