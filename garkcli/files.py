@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 
 from garkcli.doing import hush
+from garkcli.terminal import is_terminal
 
 STDIN = "-"
 """The path of standard input."""
@@ -59,7 +60,7 @@ def read_bytes(path: str, most: int) -> bytes:
     if path == STDIN:
         if sys.stdin is None:
             raise OSError(0, "standard input is closed")
-        if sys.stdin.isatty():
+        if is_terminal(sys.stdin):
             hush()  # somebody types
         return sys.stdin.buffer.read(most + 1)
     return begin_of(path, most + 1)

@@ -12,11 +12,11 @@ from garkcli.cli import options as opt
 from garkcli.cli.command import declared
 from garkcli.cli.endings import settled
 from garkcli.cli.output import Output
-from garkcli.cli.streams import is_terminal
 from garkcli.doing import hush
 from garkcli.errors import HasFreeParameters, UsageProblem
 from garkcli.frozen import replace
 from garkcli.tell.report import FORMATS
+from garkcli.terminal import is_terminal
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile

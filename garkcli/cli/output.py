@@ -11,20 +11,11 @@ import click
 
 from garkcli.cli import arguments
 from garkcli.cli.endings import AUTO, settled
-from garkcli.cli.streams import (
-    TERMINAL,
-    complain,
-    look_of,
-    put,
-    put_exactly,
-    safe_pieces,
-    say,
-    wants_colour,
-    width_of_terminal,
-)
+from garkcli.cli.streams import complain, look_of, put, put_exactly, safe_pieces, say, wants_colour
 from garkcli.doing import hush
 from garkcli.errors import GarkError, MethodFileError, Remark, UsageProblem
 from garkcli.files import STDIN, note_input
+from garkcli.terminal import TERMINAL, width_of_terminal
 
 if TYPE_CHECKING:
     from garkcli.page.look import Look

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from garkcli.doing import hush
 from garkcli.errors import GarkError, MethodFileError, printable
 from garkcli.page.progress import aside
+from garkcli.terminal import TERMINAL, is_drawn_on, is_terminal, width_of_terminal
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 HANDLER = "garkcli.plaintext"
 """The name of the error handler of streams."""
-TERMINAL = 80
-"""The width of texts for people, also in their longer ASCII forms."""
 READER_GONE = 128 + 13
 """The exit code if the reader of the report is gone: that of a program ended by SIGPIPE."""
 INTERRUPTED = 128 + signal.SIGINT
@@ -154,13 +153,6 @@ def _fitting(text: str) -> str:
     return "\n".join(x for line in text.split("\n") for x in folded(line, width, "  "))
 
 
-def width_of_terminal() -> int:
-    """Returns the columns of the terminal, or 80."""
-    from shutil import get_terminal_size
-
-    return get_terminal_size((TERMINAL, 24)).columns
-
-
 def say_problem(error: GarkError) -> None:
     """Reports a problem and its cure, one line each, whatever they contain."""
     say(f"gark: {printable(error.message)}")
@@ -227,17 +219,6 @@ def _for(encoding: str | None, text: str, format: str, width: int | None = None)
     if format in JSON | XML:
         return "".join(x if x.isascii() else escaped(x, format) for x in text)
     return plain_text(text, encoding, width)
-
-
-def is_terminal(stream: object) -> bool:
-    """Returns whether a stream is a terminal; False if it is closed."""
-    isatty = getattr(stream, "isatty", None)
-    return bool(isatty is not None and isatty())
-
-
-def is_drawn_on(stream: object) -> bool:
-    """Returns whether a stream is a terminal that can move its cursor."""
-    return is_terminal(stream) and os.environ.get("TERM") != "dumb"
 
 
 def look_of(stream: object, has_colour: bool) -> Look:

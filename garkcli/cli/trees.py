@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING, Literal
 from garkcli.cli import options as opt
 from garkcli.cli.command import declared
 from garkcli.cli.output import Output
-from garkcli.cli.streams import is_terminal, say
+from garkcli.cli.streams import say
 from garkcli.doing import counting, hush
 from garkcli.errors import HasFreeParameters, UsageProblem
 from garkcli.frozen import replace
+from garkcli.terminal import is_terminal
 
 if TYPE_CHECKING:
     from garkcli.ntrees.symplectic import Kind as Symplectic

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import sys
 from collections.abc import Iterable, Iterator
 
 import click
@@ -70,18 +69,7 @@ def usage_text(error: click.ClickException) -> str:
     lines = []
     if context is not None:
         lines = [context.get_usage(), f"Try '{context.command_path} --help' for help.", ""]
-    return "\n".join([*lines, *map(_to_the_terminal, f"Error: {message}".splitlines())])
-
-
-def _to_the_terminal(text: str) -> str:
-    """Returns a line folded to the width of the terminal, unfolded for programs."""
-    if sys.stderr is None or not sys.stderr.isatty():  # None if it is closed
-        return text
-    from shutil import get_terminal_size
-    from textwrap import fill
-
-    width = get_terminal_size().columns
-    return fill(text, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+    return "\n".join([*lines, f"Error: {message}"])
 
 
 def _message(error: click.ClickException, context: click.Context | None) -> str:

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple, NoReturn, TypeAlias
 from garkcli import doing
 from garkcli.doing import Work
 from garkcli.errors import printable
+from garkcli.terminal import is_drawn_on
 
 if TYPE_CHECKING:
     from rich.live import Live
@@ -42,8 +43,7 @@ def watching(what: str) -> Iterator[None]:
 
     A terminal that cannot move its cursor shows nothing.
     """
-    is_watched = sys.stderr is not None and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
-    if not is_watched:
+    if not is_drawn_on(sys.stderr):
         yield
         return
     tasks = Tasks(what, _bars())

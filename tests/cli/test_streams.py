@@ -332,16 +332,17 @@ def test_messages_fit_a_terminal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     """
     file = tmp_path / "x.yaml"
     file.write_text("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2, and-a-word-that-is-no-number]\n")
-    monkeypatch.chdir(tmp_path)
     commands = (
         ["show", "x.yaml"],
         ["show", "no-such-method-of-the-catalogue"],
         ["tableau", "rk4", "--digits", "0"],
     )
-    piped = [gark(*command).err for command in commands]
-    monkeypatch.setattr("garkcli.cli.streams.is_terminal", lambda stream: stream is sys.stderr)
+    piped = [gark(*command, cwd=tmp_path).err for command in commands]
+    for module in ("terminal", "cli.streams"):
+        name = f"garkcli.{module}.is_terminal"
+        monkeypatch.setattr(name, lambda stream: stream is sys.stderr)
     for command, line in zip(commands, piped, strict=True):
-        shown = gark(*command, COLUMNS="44", NO_COLOR="1").err
+        shown = gark(*command, cwd=tmp_path, COLUMNS="44", NO_COLOR="1").err
         assert shown.split() == line.split()
         long = [x for x in shown.splitlines() if len(x) > 44]
         assert all(" " not in x.strip() or "|" in x for x in long)

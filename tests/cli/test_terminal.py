@@ -133,6 +133,18 @@ def test_a_dumb_terminal_is_a_pipe() -> None:
     assert shown("diff", "rk4", "kutta-38", TERM="dumb") == piped.out
 
 
+def test_one_file_knows_what_a_terminal_is() -> None:
+    """A second rule for it would differ sooner or later."""
+    package = ROOT / "garkcli"
+    rules = ("isatty", "get_terminal_size", '"TERM"')
+    knowing = {
+        path.name
+        for path in package.rglob("*.py")
+        if any(x in path.read_text(encoding="utf-8") for x in rules)
+    }
+    assert knowing == {"terminal.py"}
+
+
 def test_sites_are_links(tmp_path: Path) -> None:
     """An address and a DOI lead to their sites, without the full stop behind them; what is no site
     does not, whatever a file says.
