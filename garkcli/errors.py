@@ -39,6 +39,7 @@ class GarkError(Exception):
         message: what is wrong, and where.
         help: the cure, or empty.
         code: the kind of error, as ``gark explain`` knows it.
+        meant: the word that was meant in place of the wrong one, or empty.
 
     >>> print(GarkError("no order is given", "write 4", code="missing-key"))
     no order is given; write 4
@@ -46,11 +47,12 @@ class GarkError(Exception):
 
     code = UNKNOWN
 
-    def __init__(self, message: str, help: str = "", *, code: str = "") -> None:
+    def __init__(self, message: str, help: str = "", *, code: str = "", meant: str = "") -> None:
         super().__init__(message)
         self.message = message
         self.help = help
         self.code = code or type(self).code
+        self.meant = meant
 
     def __str__(self) -> str:
         if not self.help:
@@ -82,9 +84,16 @@ class ExpressionError(GarkError):
     """
 
     def __init__(
-        self, message: str, help: str = "", start: int = 0, end: int = 0, *, code: str = ""
+        self,
+        message: str,
+        help: str = "",
+        start: int = 0,
+        end: int = 0,
+        *,
+        code: str = "",
+        meant: str = "",
     ) -> None:
-        super().__init__(message, help, code=code)
+        super().__init__(message, help, code=code, meant=meant)
         self.start = start
         self.end = end
 
@@ -231,6 +240,7 @@ class Remark(Frozen):
         code: as ``gark explain`` knows it.
         level: how bad it is.
         claims: of a table, the declarations that are not true, as claims of a method file.
+        meant: the word that was meant in place of the one there, or empty.
     """
 
     message: str
@@ -240,6 +250,7 @@ class Remark(Frozen):
     code: str = UNKNOWN
     level: Severity = "error"
     claims: Mapping[str, str] | None = None
+    meant: str = ""
 
 
 MANY_WORDS = 50

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+import sys
 from importlib.util import find_spec
 
 from garkcli.cli import options as opt
 from garkcli.cli.command import declared
 from garkcli.cli.output import Output
+from garkcli.cli.streams import say
+from garkcli.doing import hush
 from garkcli.errors import UsageProblem
+from garkcli.terminal import is_terminal
 
 
 class LspOptions(opt.Options):
@@ -24,11 +28,14 @@ class LspOptions(opt.Options):
 
 
 @declared("lsp", LspOptions, ["json"])
-def lsp(given: LspOptions, output: Output) -> None:
+def lsp(given: LspOptions, output: Output) -> int:
     """A language server for method files, which editors start and speak to by standard input.
 
     It shows remarks at their places, the orders above the tableau, the meaning of keys, families
     and rules under the cursor, what may come next, and entries that would mend a claim.
+
+    Exit code with --once: 0 every claim holds, or numbers are free, 1 a claim fails, 2 FILE cannot
+    be read as a method, 3 a claim is undecided.
     """
     if given.once is not None:
         from msgspec import json
@@ -40,12 +47,17 @@ def lsp(given: LspOptions, output: Output) -> None:
         text, source = read_method_text(given.once)
         if given.name is not None and is_stream(given.once):
             source = given.name
-        output.write(json.format(json.encode(judged(text, source))).decode() + "\n")
-        return
+        found = judged(text, source)
+        output.write(json.format(json.encode(found)).decode() + "\n")
+        return found.exit_code
     if find_spec("pygls") is None:
         cure = 'type pip install "garkcli[lsp]", or in a checkout pip install ".[lsp]"'
         raise UsageProblem("gark lsp needs pygls", cure, code="missing-package")
     from garkcli.editor.server import make_server
 
+    if is_terminal(sys.stdin):
+        say("gark lsp waits for the messages of an editor; gark lsp --once FILE needs none")
+        hush()
     # copies, which the server closes at its end
     make_server().start_io(os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb"))
+    return 0

@@ -29,7 +29,6 @@ COLUMNS = 200
 LATE = "not decided in time; gark check takes longer"
 """The lens of a file that takes too long."""
 _TOKEN = re.compile(r"[^\s,\[\]{}:]+")
-_MEANT = re.compile(r"did you mean '([^']+)'\?")
 _KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 
 
@@ -58,11 +57,14 @@ class EditorView(Frozen):
 
 
 class Judgement(Frozen):
-    """The remarks on a file, and the texts of the lens above a line of it, from 0."""
+    """The remarks on a file, the texts of the lens above a line of it, from 0, and the exit code of
+    ``gark check``.
+    """
 
     remarks: tuple[EditorView, ...] = ()
     lens: tuple[str, ...] = ()
     line: int = 0
+    exit_code: int = 0
 
 
 def is_method(name: str, text: str) -> bool:
@@ -91,13 +93,13 @@ def judged(text: str, source: str) -> Judgement:
     except MethodFileError as error:
         outcome = Outcome(source, source, faults=error.faults, text=text)
     except NotDecided:
-        return Judgement((), (LATE,), line)
+        return Judgement((), (LATE,), line, exit_code=3)
     lines = text.splitlines()
     shown = tuple(
         EditorView(x.remark, span_of(lines, x.remark), tuple(_fixes(outcome, x.remark, lines)))
         for x in findings(outcome)
     )
-    return Judgement(shown, _orders(outcome), line)
+    return Judgement(shown, _orders(outcome), line, outcome.exit_code)
 
 
 def _line_of_tableau(text: str) -> int:
@@ -128,18 +130,21 @@ def span_of(lines: list[str], remark: Remark) -> TextSpan:
 
 def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
     """Yields the word that was meant, or the entry that makes a claim hold."""
-    meant = _MEANT.search(remark.help)
-    if meant is not None:
-        span = span_of(lines, remark)
-        yield Fix(f"Write {meant[1]}", span, meant[1])
+    if remark.meant:
+        yield Fix(f"Write {remark.meant}", span_of(lines, remark), remark.meant)
     blame = outcome.blame
-    if remark.code != "claim" or blame is None or not remark.message.startswith(f"{blame.of}:"):
+    if blame is None or (remark.line, remark.column) not in _places_of(blame.of, outcome):
         return
     for repair in blame.repairs:
         place = _place(outcome.text, repair)
         if place is not None:
             new = to_text(repair.new)
             yield Fix(f"Write {new} in place of {to_text(repair.old)}", place, new)
+
+
+def _places_of(key: str, outcome: Outcome) -> list[tuple[int, int]]:
+    """Returns where a file makes a claim that fails."""
+    return [(x.line, x.column) for x in outcome.failed_claims if x.claim == key]
 
 
 def _place(text: str, repair: Repair) -> TextSpan | None:

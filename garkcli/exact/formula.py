@@ -15,7 +15,7 @@ from typing import ClassVar, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, did_you_mean
+from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, did_you_mean, nearest
 from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.enclosing import OPERATIONS, integer_power
 from garkcli.exact.expression import FUNCTIONS as ROOTS
@@ -90,9 +90,9 @@ class _FormulaParser(Parser):
             return super()._function(name, start)
         if name not in FUNCTIONS:
             message = f"{name!r} is not a function of formulas"
-            raise ExpressionError(
-                message, _cure_of(name), start, self.last_end, code="unknown-function"
-            )
+            cure, meant = _cure_of(name)
+            place = start, self.last_end
+            raise ExpressionError(message, cure, *place, code="unknown-function", meant=meant)
         opened = self.start
         self._advance()
         argument = self._sum()
@@ -100,15 +100,15 @@ class _FormulaParser(Parser):
         return Call(name, argument, start=start, end=self.last_end)
 
 
-def _cure_of(name: str) -> str:
-    """The cure for an unknown function."""
+def _cure_of(name: str) -> tuple[str, str]:
+    """The cure for an unknown function, and the one that was meant."""
     if name in _CURES:
-        return _CURES[name]
+        return _CURES[name], ""
     known = (*FUNCTIONS, "sqrt")
     near = did_you_mean(name, known)
     if near.startswith("did"):
-        return near
-    return f"write products with *, as in {name}*(x); functions: {', '.join(known)}"
+        return near, nearest(name, known)
+    return f"write products with *, as in {name}*(x); functions: {', '.join(known)}", ""
 
 
 Value: TypeAlias = fmpq | arb

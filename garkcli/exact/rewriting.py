@@ -7,7 +7,7 @@ from typing import ClassVar, NamedTuple
 
 from flint import fmpq
 
-from garkcli.errors import LimitExceeded, UndefinedValue, did_you_mean
+from garkcli.errors import LimitExceeded, UndefinedValue, did_you_mean, nearest
 from garkcli.exact.expression import INDEX_OF_ROOT
 from garkcli.exact.letters import letter_of
 from garkcli.exact.nodes import (
@@ -116,14 +116,15 @@ def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expr
 
 def _unknown_name(name: Name, values: Mapping[str, object]) -> UndefinedValue:
     cure = did_you_mean(name.name, values) if values else ""
+    meant = nearest(name.name, values)
     if not cure.startswith("did"):
         cure = (
             f"define it, before its use: parameters: {{{name.name}: 1/2}}, or"
             f" {{{name.name}: free}} for gark design"
         )
-    return UndefinedValue(
-        f"{name.name!r} is not a parameter", cure, name.start, name.end, code="unknown-name"
-    )
+    message = f"{name.name!r} is not a parameter"
+    place = name.start, name.end
+    return UndefinedValue(message, cure, *place, code="unknown-name", meant=meant)
 
 
 def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:

@@ -15,6 +15,7 @@ from garkcli.errors import (
     Remark,
     counted,
     did_you_mean,
+    nearest,
     printable,
 )
 from garkcli.frozen import Frozen, replace
@@ -133,9 +134,10 @@ class Source:
         cause: str = "",
         *,
         code: str,
+        meant: str = "",
     ) -> None:
         """Reports a fault at ``node``, or of the file as a whole, ``offset`` characters into its
-        text.
+        text; ``meant`` is the word that was meant there.
 
         ``where`` says what the value is, such as ``A^{1,1}, row 2``. The same message about a word
         of the file, with another ``where``, has the same cause and is reported once, with its other
@@ -146,7 +148,8 @@ class Source:
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
-        self._note(Remark(printable(text), printable(cure), line, column, code=code), cause, is_one)
+        fault = Remark(printable(text), printable(cure), line, column, code=code, meant=meant)
+        self._note(fault, cause, is_one)
 
     def _note(self, fault: Remark, cause: str = "", is_one: bool = False) -> None:
         self.faults.append(fault)
@@ -166,7 +169,8 @@ class Source:
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
     ) -> None:
         """Reports an error in the text of a number."""
-        self.fault(node, error.message, error.help, error.start, where, cause, code=error.code)
+        told = error.message, error.help, error.start, where, cause
+        self.fault(node, *told, code=error.code, meant=error.meant)
 
     def close(self) -> None:
         """Raises MethodFileError if there are faults, with all of them in file order."""
@@ -303,7 +307,7 @@ class Source:
             noun = "key" if len(nodes) == 1 else "keys"
             names = ", ".join(shortened(x.value) for x in shown)
             first = nodes[0].value
-            cure = cures.get(first)
+            cure, meant = cures.get(first), ""
             if isinstance(cure, Home):
                 homes = ((x, cures[x.value]) for x in shown)
                 lines = [
@@ -315,7 +319,8 @@ class Source:
             elif cure is None:
                 meant = meant_key(first, known, words)
                 cure = f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
-            self.fault(nodes[0], f"{where}: unknown {noun} {names}", cure, code="unknown-key")
+            message = f"{where}: unknown {noun} {names}"
+            self.fault(nodes[0], message, cure, code="unknown-key", meant=meant)
         if len(unknown) > MAX_FAULTS:
             count = len(unknown) - MAX_FAULTS
             message = f"{where}: and {count} more unknown keys"
@@ -378,5 +383,11 @@ class Source:
         if text is None or text in words:
             return text
         message = f"{where}: {shortened(text)} is not known"
-        self.fault(node, message, did_you_mean(text, words), code="unknown-word")
+        self.unknown_word(node, message, text, words)
         return None
+
+    def unknown_word(self, node: Node, message: str, word: str, known: Iterable[str]) -> None:
+        """Reports a word at ``node`` that is not known, with the one that was meant."""
+        words = list(known)
+        cure, meant = did_you_mean(word, words), nearest(word, words)
+        self.fault(node, message, cure, code="unknown-word", meant=meant)

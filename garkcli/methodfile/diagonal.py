@@ -125,8 +125,10 @@ def _method(at: NumbersReader, node: Node, l: int) -> d.FamilyText | d.ButcherTe
             at.source.fault(node, message, _written_out(node), code="mapping-expected")
         else:
             message = f"{where}: no family {shortened(named[0])}"
-            cure = did_you_mean(named[0], FAMILIES)
-            at.source.fault(node, message, cure, code="unknown-word")
+            name, size = named
+            cure, near = did_you_mean(name, FAMILIES), nearest(name, FAMILIES)
+            meant = near if size is None or not near else f"{near}-{size}"
+            at.source.fault(node, message, cure, code="unknown-word", meant=meant)
         return None
     # of anything but a mapping there are no keys
     if "stages" in keys and not keys & {"family", "A", "b"}:
@@ -191,7 +193,7 @@ def _family(at: NumbersReader, node: Node, where: str) -> tuple[d.FamilyText, En
         place = entries["family"]
         if family is not None:  # it lacks members of such a size
             place = entries.get(family.size, place)
-        at.source.fault(place, error.message, error.help, code=error.code)
+        at.source.fault(place, error.message, error.help, code=error.code, meant=error.meant)
         return None
     # what a member is chosen by, as it is
     nodes = ((key, entries.get(key)) for key in FAMILIES[name].keys)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import chain, pairwise, product
 from typing import Any, Literal, TypeAlias
 
-from garkcli.errors import MethodError, did_you_mean
+from garkcli.errors import MethodError
 from garkcli.frozen import Frozen, replace
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Extent, Node, extent, node_at, shortened
@@ -474,7 +474,7 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     if name is None or name in SHAPES:
         return name
     message = f"{where}: {shortened(name)} is not a shape"
-    at.source.fault(node, message, did_you_mean(name, SHAPES), code="unknown-word")
+    at.source.unknown_word(node, message, name, SHAPES)
     return None
 
 

@@ -72,6 +72,32 @@ def test_faults_have_their_place() -> None:
     assert wrong.span == TextSpan(2, 0, 9)
 
 
+@pytest.mark.parametrize(
+    ("text", "wrong", "meant"),
+    [
+        ("A: [[0]]\nb: [1]\ntolerence: 1e-9\n", "tolerence", "tolerance"),
+        ("methods: [{family: gaus, stages: 2}]\n", "gaus", "gauss"),
+        ("methods: [gaus-2]\n", "gaus-2", "gauss-2"),
+        ("methods: [gauss-2, gauss-2]\ntransfer: colocation\n", "colocation", "collocation"),
+        ("parameters: {theta: 1/2}\nA: [[tehta]]\nb: [1]\n", "tehta", "theta"),
+    ],
+)
+def test_a_misspelt_word_is_written_as_it_was_meant(text: str, wrong: str, meant: str) -> None:
+    """The whole word, and only that, is replaced; then the file is a method."""
+    view = judged(text, "x.yaml").remarks[0]
+    (fix,) = view.fixes
+    line = text.splitlines()[fix.span.line]
+    assert (line[fix.span.start : fix.span.end], fix.text) == (wrong, meant)
+    assert check_method(loads(text.replace(wrong, meant))).is_read
+
+
+def test_a_value_is_not_replaced_by_the_name_that_was_meant() -> None:
+    """The remark on a misspelt name may be at its value."""
+    text = "unknown: {shape: explicit, stages: 2}\ndesign: {order: 2, fix: {a12: 1/2}}\n"
+    for view in judged(text, "x.yaml").remarks:
+        assert all(fix.text != "a21" for fix in view.fixes)
+
+
 def test_long_work_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     """The lens says so, and nothing is underlined."""
     monkeypatch.setattr(judging, "SECONDS", 0.0)
@@ -92,7 +118,9 @@ def test_words_of_flow_and_of_blocks() -> None:
 def test_the_command_prints_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """And names what to install where there is no pygls."""
     (tmp_path / "mine.yaml").write_text(IN_LINES, encoding="utf-8")
-    found = json.loads(gark("lsp", "--once", "mine.yaml", cwd=tmp_path).out)
+    run = gark("lsp", "--once", "mine.yaml", cwd=tmp_path)
+    assert run.code == 1
+    found = json.loads(run.out)
     assert found["remarks"][0]["fixes"][0]["text"] == "1/6"
     assert found["line"] == 2
     monkeypatch.setattr("garkcli.cli.editing.find_spec", lambda _: None)

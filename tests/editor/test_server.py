@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
+import subprocess
 import sys
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -23,7 +26,20 @@ WRONG = (
     "b: [1/6, 1/3, 1/3, 1/6]\n"
     "expect: {order: 4}\n"
 )
-pytestmark = pytest.mark.asyncio
+
+
+def test_somebody_who_types_is_told_that_an_editor_is_missing() -> None:
+    """In a terminal the server names the call that needs no editor; an interrupt ends it."""
+    pty = pytest.importorskip("pty", reason="this system has no pseudo-terminals")
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-m", "garkcli", "lsp"]
+    with subprocess.Popen(command, stdin=theirs, stderr=subprocess.PIPE, text=True) as server:
+        assert server.stderr is not None
+        assert "gark lsp --once FILE" in server.stderr.readline()
+        server.send_signal(signal.SIGINT)
+        assert server.wait(PATIENCE) == -signal.SIGINT
+    os.close(ours)
+    os.close(theirs)
 
 
 @pytest_asyncio.fixture
@@ -74,6 +90,7 @@ def at(uri: str, line: int, character: int) -> dict[str, Any]:
     }
 
 
+@pytest.mark.asyncio
 async def test_a_wrong_entry_is_underlined_and_mended(client: Any) -> None:
     """A squiggle at the claim, the orders above the tableau, a quick fix at the entry; once it is
     carried out nothing is left.
@@ -102,6 +119,7 @@ async def test_a_wrong_entry_is_underlined_and_mended(client: Any) -> None:
     assert lenses[0].command.title.startswith("order 4, proved; order 5 fails")
 
 
+@pytest.mark.asyncio
 async def test_a_misspelt_key_is_mended(client: Any) -> None:
     """Also beyond letters of two units of UTF-16."""
     text = "A: [[0]]\nb: [1]\ndescription: {𝒜: 1}\nexpct: {order: 1}\n"
@@ -120,6 +138,7 @@ async def test_a_misspelt_key_is_mended(client: Any) -> None:
     )
 
 
+@pytest.mark.asyncio
 async def test_words_under_the_cursor_and_to_come(client: Any) -> None:
     """Keys, claims, families, rules and methods."""
     text = "methods:\n  - {family: gauss, stages: 2}\n  - lobatto-iiia-3\ntransfer: collocation\nexpect:\n  order: 4\n  \n\n"
@@ -153,6 +172,7 @@ async def test_words_under_the_cursor_and_to_come(client: Any) -> None:
     assert {"family", "stages"} <= await choices(1, 5)
 
 
+@pytest.mark.asyncio
 async def test_other_files_and_unknowns_are_left_alone(client: Any) -> None:
     """YAML that is no method has no squiggles; free numbers have a lens alone."""
     assert await told(client, type_in(client, "jobs:\n  build: [1\n", "ci.yaml")) == []
@@ -163,6 +183,7 @@ async def test_other_files_and_unknowns_are_left_alone(client: Any) -> None:
     assert "gark design" in lens.command.title
 
 
+@pytest.mark.asyncio
 async def test_typing_goes_on_while_gark_is_busy(client: Any) -> None:
     """An earlier version that takes long is given up; the last one is judged."""
     slow = "methods: [gauss-30, lobatto-iiia-31]\ntransfer: collocation\n"

@@ -7,7 +7,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.errors import ExpressionError, did_you_mean
+from garkcli.errors import ExpressionError, did_you_mean, nearest
 from garkcli.exact.display import LOG10_2
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, value_of
@@ -70,7 +70,8 @@ class FormulaReader(Mutable):
         for name, place in strangers.items():
             message = f"{where}: {shortened(name)} is not a {noun}"
             cure = names.get(name) or did_you_mean(name, sorted(allowed))
-            self.source.fault(node, message, cure, place.start, code="wrong-value")
+            meant = "" if names.get(name) else nearest(name, sorted(allowed))
+            self.source.fault(node, message, cure, place.start, code="wrong-value", meant=meant)
         return None if strangers else expression
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
