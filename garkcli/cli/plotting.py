@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from garkcli.ntrees.tree import Tree
     from garkcli.plots.scene import Panel
     from garkcli.tableau.garkmethod import GarkMethod
-    from garkcli.tableau.tableau import Tableau
 What: TypeAlias = Literal[
     "region", "star", "oscillator", "convergence", "energy", "tableau", "tree"
 ]
@@ -39,8 +38,9 @@ class PlotOptions(opt.Derivable):
 def plot(given: PlotOptions, output: Output) -> None:
     """One look at a method: its picture in the terminal, as SVG in a file, or in the browser.
 
-    -o FILE.svg writes the picture. With --open and without -o it is written into a temporary
-    folder. If a method has no such picture, gark says why.
+    -o FILE.svg writes the picture as SVG, -o FILE.txt as text; PNG and PDF are drawn by --plot of
+    gark stability, converge and energy. With --open and without -o the picture is written into a
+    temporary folder. If a method has no such picture, gark says why.
     """
     if given.open:
         output.demand_file()
@@ -52,7 +52,7 @@ def plot(given: PlotOptions, output: Output) -> None:
     if what == "tableau":
         _tableau(method, output)
     elif what == "tree":
-        _tree(_last_tree(method), method.tableau, output)
+        _tree(_last_tree(method), method, output)
     else:
         _panel(panel or _panel_of(what, method), method.name, output)
     if given.open and output.path is not None:
@@ -77,7 +77,7 @@ def _panel_of(what: str, method: GarkMethod) -> Panel:
     try:
         return panel_named(what, method)
     except NotDrawn as error:
-        why = str(error).rstrip(".") or "the method has no such picture"
+        why = str(error).rstrip(".")
         others = ", ".join(x for x in (*_possible(method), "tableau", "tree") if x != what)
         message = f"--what {what}: {why[:1].lower()}{why[1:]}"
         raise UsageProblem(message, f"choose among {others}", code="option-value") from None
@@ -113,7 +113,7 @@ def _panel(panel: Panel, name: str, output: Output) -> None:
     if output.format == "svg":
         from garkcli.plots.svg import document
 
-        output.write(document(panel))
+        output.write(document(panel, name))
         return
     from functools import partial
 
@@ -142,18 +142,18 @@ def _last_tree(method: GarkMethod) -> Tree:
     return witness.tree
 
 
-def _tree(tree: Tree, tableau: Tableau, output: Output) -> None:
+def _tree(tree: Tree, method: GarkMethod, output: Output) -> None:
     """Writes a tree, its colours with the names that gark check gives them."""
     from garkcli.ntrees.drawing import draw_svg_sheet, draw_text
     from garkcli.ntrees.notation import format_tree
     from garkcli.page.plaintext import plain_text
     from garkcli.report.check import named_colours
 
-    names = [colour.name for colour in tableau.colours]
-    has_colours, is_named = len(names) > 1, not tableau.has_fields_alone
+    names = [colour.name for colour in method.tableau.colours]
+    has_colours, is_named = len(names) > 1, not method.tableau.has_fields_alone
     written = format_tree(tree, names if is_named else has_colours)
     if output.format == "svg":
-        output.write(draw_svg_sheet([tree], [written]))
+        output.write(draw_svg_sheet([tree], [written], title=f"{method.name}: {written}"))
         return
     lines = [written, *([named_colours(tree, names)] if is_named else []), ""]
     lines += draw_text(tree, has_colours, output.width)
@@ -172,4 +172,4 @@ def _tableau(method: GarkMethod, output: Output) -> None:
 
     shown = of_method(method, coupling=coupling_of_slow_stages(method))
     text = "".join(REPORT.pieces(shown, width=output.width))
-    output.write(of_lines(text.splitlines()))
+    output.write(of_lines(text.splitlines(), f"{method.name}: tableau"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from garkcli.errors import counted
 from garkcli.ntrees.notation import written_order
 
 if TYPE_CHECKING:
@@ -242,13 +243,18 @@ def draw_svg(tree: Tree) -> str:
     return draw_svg_sheet([tree])
 
 
-def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns: int = 0) -> str:
+def draw_svg_sheet(
+    trees: Sequence[Tree], captions: Lines | None = None, columns: int = 0, title: str = ""
+) -> str:
     """An SVG document with the trees in rows of ``columns``, each above its caption, σ and γ.
 
     By default a row has six trees, or three if there are few, so that a phone shows them. The dots
     carry the colours' numbers, from 1, and fills of ``PALETTE``; if colour 1 is the only one they
     are plain. ``captions``: a line of text for each tree; ``ValueError`` if their numbers differ.
+    ``title`` is for screen readers, by default the tree or the number of trees.
     """
+    from html import escape  # brings a table of entities along
+
     count = len(trees)
     if captions is not None and len(captions) != count:
         counts = f"{len(captions)} captions for {count} trees"
@@ -276,10 +282,15 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
     font = f'font-family="{FONTS}" font-size="{CAPTION_SIZE}" text-anchor="middle"'
     namespace = 'xmlns="http://www.w3.org/2000/svg"'
     head = [
-        f"<svg {namespace} {size} {view} {font}>",
+        f'<svg {namespace} {size} {view} {font} role="img">',
+        f"<title>{escape(title or _title(trees))}</title>",
         '<rect width="100%" height="100%" fill="#ffffff"/>',
     ]
     return "\n".join([*head, *body, "</svg>", ""])
+
+
+def _title(trees: Sequence[Tree]) -> str:
+    return str(trees[0]) if len(trees) == 1 else counted(len(trees), "tree")
 
 
 def _grid(

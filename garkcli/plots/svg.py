@@ -7,7 +7,7 @@ that they can be distinguished in grey. There are no ids: a page can have any nu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from typing import TypeAlias
 
@@ -23,6 +23,9 @@ ON_ANY = ("#2f7dc8", "#d24a3a", "#3f8f36", "#9b6ac0")
 _DARK_COLOURS = ("#8ab8f5", "#ff9d8c", "#8fd08a", "#d3a6f2")
 _LEGEND_ROW = 18
 _LONGEST = 46  # characters of a name
+_LONGEST_TITLE = 60
+_HEAD = 26.0
+"""The space of a title above the frame."""
 _RADIUS = 3
 _MOST_ACROSS, _MOST_UP = 6, 7
 """The largest numbers of marks on the axes."""
@@ -32,17 +35,14 @@ def _variables(colours: Sequence[str]) -> str:
     return ";".join(f"--picture-{k}:{colour}" for k, colour in enumerate(colours, start=1))
 
 
-def _style() -> str:
+def _colours() -> str:
     light = _variables(scene.COLOURS[: len(ON_ANY)])
     dark = _variables(_DARK_COLOURS)
-    return (
-        f":root{{{light}}}\n"
-        f"@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}\n"
-        "svg.plot{display:block;width:100%;max-width:30rem;height:auto}\n"
-    )
+    screen = f"@media screen and (prefers-color-scheme:dark){{:root{{{dark}}}}}\n"
+    return f":root{{{light}}}\n{screen}"
 
 
-STYLE = _style()
+STYLE = _colours() + "svg.plot{display:block;width:100%;max-width:30rem;height:auto}\n"
 """The style sheet for pages with pictures."""
 
 
@@ -56,57 +56,69 @@ def colour(style: int | None) -> str:
 
 def svg(panel: scene.Panel) -> str:
     """Returns a panel as an element, with title and description for screen readers."""
+    inside, height = _inside(panel)
+    view = f"0 0 {scene.WIDTH} {_number(height)}"
+    head = _opened("svg", **{"class": "plot"}, role="img", viewBox=view, **_LOOK)
+    return "\n".join([head, element("title", panel.title), *inside, "</svg>"])
+
+
+_LOOK: dict[str, Value] = {"font_size": "12", "fill": "currentColor", "stroke_linejoin": "round"}
+
+
+def _inside(panel: scene.Panel) -> tuple[list[str], float]:
+    """Returns the elements of a panel with its description, and its height."""
     frame = _Frame(panel)
     foot = frame.bottom + _BOTTOM
-    height = _number(foot + _LEGEND_ROW * len(panel.legend))
-    head = _opened(
-        "svg",
-        **{"class": "plot"},
-        role="img",
-        viewBox=f"0 0 {scene.WIDTH} {height}",
-        font_size="12",
-        fill="currentColor",
-        stroke_linejoin="round",
-    )
     lines = [
-        head,
-        element("title", panel.title),
         element("desc", panel.description),
         *frame.axes(panel),
         *frame.cut_off(panel.shapes),
         *_legend_rows(panel.legend, foot + 6),
+    ]
+    return lines, foot + _LEGEND_ROW * len(panel.legend)
+
+
+def document(panel: scene.Panel, name: str) -> str:
+    """Returns a panel as a file of its own below the name of its subject, light or dark as its
+    viewer.
+    """
+    title = f"{name}: {panel.title}"
+    inside, height = _inside(panel)
+    style = f"{_colours()}svg{{color:#1d1f24;background:#fff;font-family:sans-serif}}\n"
+    dark = "@media (prefers-color-scheme:dark){svg{color:#e8e8e8;background:#17191d}}\n"
+    caption = scene.shortened(title, _LONGEST_TITLE)
+    lines = [
+        _file(scene.WIDTH, height + _HEAD, -_HEAD, _LOOK),
+        f"<style>\n{style}{dark}</style>",
+        element("title", title),
+        element("text", caption, x=_LEFT - 46.0, y=-8.0, font_weight="bold"),
+        *inside,
         "</svg>",
     ]
-    return "\n".join(lines)
+    return "\n".join(lines) + "\n"
 
 
-def document(panel: scene.Panel) -> str:
-    """Returns a panel as a file of its own, light or dark as its viewer."""
-    style = f"{_style()}svg{{color:#1d1f24;background:#fff;font-family:sans-serif}}\n"
-    dark = "@media (prefers-color-scheme:dark){svg{color:#e8e8e8;background:#17191d}}\n"
-    head, rest = svg(panel).split("\n", 1)
-    opened = head.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" ', 1)
-    return f"{opened}\n<style>\n{style}{dark}</style>\n{rest}\n"
+def _file(width: float, height: float, top: float, attributes: Mapping[str, Value]) -> str:
+    """Returns the head of a document of this size, whose first line is at ``top``."""
+    size = {"width": float(width), "height": float(height)}
+    view = " ".join(map(_number, (0.0, top, *size.values())))
+    place = {"xmlns": "http://www.w3.org/2000/svg", "role": "img", "viewBox": view}
+    return _opened("svg", **place, **size, **attributes)
 
 
-def of_lines(lines: Sequence[str]) -> str:
+def of_lines(lines: Sequence[str], title: str) -> str:
     """Returns lines of text as a file of its own, with letters of equal width."""
     wide, high = 8 * max(map(len, lines)) + 2 * _TOP, 18 * len(lines) + 2 * _TOP
-    head = _opened(
-        "svg",
-        xmlns="http://www.w3.org/2000/svg",
-        role="img",
-        viewBox=f"0 0 {wide} {high}",
-        width=float(wide),
-        font_family="DejaVu Sans Mono, monospace",
-        font_size="13",
-        style="background:#fff;white-space:pre",
-    )
+    look: dict[str, Value] = {
+        "font_family": "DejaVu Sans Mono, monospace",
+        "font_size": "13",
+        "style": "background:#fff;white-space:pre",
+    }
     rows = [
         element("text", line, x=float(_TOP), y=float(_TOP + 18 * k), **{"xml:space": "preserve"})
         for k, line in enumerate(lines, start=1)
     ]
-    return "\n".join([head, *rows, "</svg>", ""])
+    return "\n".join([_file(wide, high, 0, look), element("title", title), *rows, "</svg>", ""])
 
 
 class _Frame:

@@ -121,9 +121,13 @@ class Picture(Frozen):
 
 
 class NotDrawn(Exception):
-    """A picture that cannot be drawn. The text is a sentence with the reason, empty if the picture
-    would not be expected.
+    """A picture that cannot be drawn. The text is a sentence with the reason; ``is_expected`` says
+    whether somebody who has not asked for the picture misses it.
     """
+
+    def __init__(self, reason: str, is_expected: bool = True) -> None:
+        super().__init__(reason)
+        self.is_expected = is_expected
 
 
 def _is_gark(method: GarkMethod) -> bool:
@@ -157,11 +161,12 @@ def pictures(
         try:
             drawn.append(_picture(name, *draw(method)))
         except NotDrawn as error:
-            drawn.append(Picture(name, title, "", "", str(error)))
+            if error.is_expected:
+                drawn.append(Picture(name, title, "", "", str(error)))
         except GarkError as error:
             # of a problem that the method is not for
             drawn.append(Picture(name, title, "", "", f"Not drawn: {error}."))
-    return [picture for picture in drawn if picture.svg or picture.note]
+    return drawn
 
 
 def _is_drawn_of(name: str, method: GarkMethod) -> bool:
@@ -196,7 +201,7 @@ def _region(method: GarkMethod, is_order_star: bool = False) -> tuple[Panel, str
     panel = region_of(method.tableau, method.tolerance, is_order_star, MOST)
     if panel is None:
         if not _is_gark(method):
-            raise NotDrawn("")
+            raise NotDrawn("A method of this kind has no stability function.", False)
         raise NotDrawn(
             "There is no stability function: colours drive positions or momenta only, or do not "
             "depend on each other."
@@ -211,10 +216,10 @@ def _pair(method: GarkMethod) -> tuple[Panel, str]:
     alone = directions(method.tableau)[1:]
     is_small = sum(method.stages) <= MOST_STAGES_OF_PAIR
     if len(alone) != 2 or not is_small or method.tolerance is not None:
-        raise NotDrawn("")
+        raise NotDrawn("The method is no small exact pair of two methods.", False)
     imex = imex_pair(method.tableau, stability_fraction(method.tableau))
     if imex is None:
-        raise NotDrawn("")
+        raise NotDrawn("The method is no pair of an implicit and an explicit method.", False)
     _, shares = alone[imex.explicit]
     panel = pair_panel(imex, stability_function(method.tableau, shares))
     return panel, panel.note
@@ -232,8 +237,10 @@ def _oscillator(method: GarkMethod) -> tuple[Panel, str]:
         why = "The method has no split for the oscillator."
         if rounded:
             why = "With rounded coefficients nothing is decided about the oscillator."
+        elif found is not None:
+            why = "The trace, which is drawn, decides nothing: the determinant of a step is not 1."
         # the region tells what there is to tell
-        raise NotDrawn("" if has_region else why)
+        raise NotDrawn(why, is_expected=not has_region)
     panel = trace_panel([(method.name, found)])
     return panel, panel.note
 
@@ -302,10 +309,14 @@ def panel_named(name: str, method: GarkMethod) -> Panel:
     Raises NotDrawn if there is none, GarkError if the problem does not fit the method.
     """
     if name in PICTURES and name != "convergence" and not _is_drawn_of(name, method):
-        raise NotDrawn("This picture is not of such methods.")
+        kinds = "GARK and Nyström methods" if name == "oscillator" else "GARK methods"
+        raise NotDrawn(f"The picture is of {kinds}, and this method is of another kind.")
     draw = partial(_region, is_order_star=True) if name == "star" else PICTURES[name][1]
     panel, note = draw(method)
     return replace(panel, note=note)
+
+
+_TOO_FEW = "Fewer than two methods have such a picture."
 
 
 def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
@@ -319,7 +330,7 @@ def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
         else:
             without.append(method.name)
     if len(named) < 2:
-        raise NotDrawn("")
+        raise NotDrawn(_TOO_FEW)
     panel = region_panel(named)
     none = f" No stability function: {', '.join(without)}." if without else ""
     return panel, panel.note + none
@@ -329,7 +340,7 @@ def _comparison(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
     """Returns the errors on the problem for which the most trees of the methods matter."""
     small = [x for x in methods if _is_gark(x) and not _is_large(x)]
     if len(small) < 2:
-        raise NotDrawn("")
+        raise NotDrawn(_TOO_FEW)
     tableaus = [x.tableau for x in small]
     name = seeing_problem(tableaus)
     results = [
@@ -338,5 +349,5 @@ def _comparison(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
     ]
     panel = comparison_panel([(x.name, result) for x, result in zip(small, results, strict=True)])
     if len(panel.legend) < 2:
-        raise NotDrawn("")
+        raise NotDrawn(_TOO_FEW)
     return panel, f"Numerical: all on the problem {name}."

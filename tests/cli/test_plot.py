@@ -54,6 +54,13 @@ def test_each_picture_in_the_terminal_and_as_a_file(what: str, tmp_path: Path) -
     root = ET.parse(file).getroot()
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
     assert {"path", "text"} & {x.tag.rpartition("}")[2] for x in root.iter()}
+    size = [float(root.attrib[x]) for x in ("width", "height")]
+    assert size == [float(x) for x in root.attrib["viewBox"].split()[2:]]
+    name = load(METHODS[what]).name
+    title = root.findtext("{http://www.w3.org/2000/svg}title")
+    assert title is not None
+    assert title.startswith(f"{name}: ")
+    assert root.attrib["role"] == "img"
 
 
 def test_region_and_star_of_gauss() -> None:
@@ -67,10 +74,18 @@ def test_region_and_star_of_gauss() -> None:
 
 def test_no_picture_has_a_reason_and_a_cure() -> None:
     """A method that the picture is not for is refused with exit code 2."""
-    for method, what in (("leapfrog-2", "region"), ("rk4", "oscillator"), ("ros3p", "energy")):
+    cases = (
+        ("leapfrog-2", "region", "there is no stability function: colours drive positions"),
+        ("rk4", "oscillator", "decides nothing: the determinant of a step is not 1"),
+        ("ros3p", "energy", "of GARK methods, and this method is of another kind"),
+        ("nystrom-4", "star", "a method of this kind has no stability function"),
+        ("ars-343", "oscillator", "the determinant of a step is not 1"),
+    )
+    for method, what, why in cases:
         run = gark("plot", method, "--what", what)
         assert (run.code, run.out) == (2, "")
         assert f"--what {what}: " in run.err
+        assert why in " ".join(run.err.split())
         assert "help: choose among" in run.err
         assert f" {what}," not in run.err.partition("help:")[2]
 
@@ -94,7 +109,8 @@ def test_tableau_and_tree_are_those_of_other_commands(method: str, tmp_path: Pat
     assert f"fails at {lines[0]} by" in gark("check", method, COLUMNS="200").out
     file = tmp_path / "tableau.svg"
     assert gark("plot", method, "--what", "tableau", "-o", str(file)).code == 0
-    texts = ["".join(x.itertext()) for x in ET.parse(file).getroot()]
+    title, *texts = ["".join(x.itertext()) for x in ET.parse(file).getroot()]
+    assert title.endswith(": tableau")
     assert [x for x in texts if x] == [x for x in gark("tableau", method).out.splitlines() if x]
 
 
