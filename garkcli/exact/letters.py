@@ -13,7 +13,9 @@ from garkcli.exact.nodes import AlgebraicRoot
 
 DIAGONAL = "γ"
 """The letter of the entry on the diagonal of A."""
-LETTERS: Mapping[str, str] = {"γ": r"\gamma ", "ξ": r"\xi ", "η": r"\eta ", "ζ": r"\zeta "}
+LETTERS: Mapping[str, str] = {
+    "γ": r"\gamma ", "ξ": r"\xi ", "η": r"\eta ", "ζ": r"\zeta ", "κ": r"\kappa ", "μ": r"\mu ",
+}  # fmt: skip
 """Letters with their commands in LaTeX; a further root is written out each time."""
 NAMES: Mapping[str, str] = {letter: x.strip(" \\") for letter, x in LETTERS.items()}
 """Letters as names of parameters."""
@@ -28,13 +30,18 @@ class Letters:
     """
 
     def __init__(
-        self, diagonal: AlgebraicRoot | None = None, written: Mapping[str, str] = NOTHING
+        self,
+        diagonal: AlgebraicRoot | None = None,
+        written: Mapping[str, str] = NOTHING,
+        taken: str = "",
     ) -> None:
-        """``diagonal`` has the letter γ; ``written`` has what is written for letters."""
+        """``diagonal`` has the letter γ; ``written`` has what is written for letters, ``taken`` the
+        letters that the text has for something else.
+        """
         self.of: dict[AlgebraicRoot, str] = {}
-        self._diagonal = diagonal
+        self._diagonal = None if DIAGONAL in taken else diagonal
         self._written = written
-        self._free = [letter for letter in LETTERS if letter != DIAGONAL]
+        self._free = [letter for letter in LETTERS if letter not in {*taken, DIAGONAL}]
 
     def letter(self, root: AlgebraicRoot, latex: bool = False) -> str | None:
         """The letter of a root; None if all are taken."""

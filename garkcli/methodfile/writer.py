@@ -11,7 +11,7 @@ from flint import arb, fmpq
 from garkcli.exact.display import decimal, plain_decimal, to_ball, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
-from garkcli.exact.letters import NAMES, Letters, lettered
+from garkcli.exact.letters import NAMES
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.rewriting import format_expression
 from garkcli.frozen import replace
@@ -19,7 +19,7 @@ from garkcli.grammar.editing import quoted, row_text
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.letters import letters_of
+from garkcli.tableau.letters import Defined, with_letters
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
@@ -44,8 +44,7 @@ def write_tableau_file(
     writes a coefficient, ``parameters`` has a text such as ``tau: free`` for each parameter.
     """
     tableau.demand_fields("a method file")
-    letters = None if parameters else letters_of(tableau, NAMES)
-    with lettered(letters):
+    with with_letters(None if parameters else tableau, NAMES) as letters:
         spelled_out = _spelled_out(tableau, text, further)
     parameters = [*parameters, *_defined(letters)]
     lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]
@@ -66,10 +65,9 @@ def _spelled_out(tableau: Tableau, text: NumberText, further: Further) -> list[s
     return [*lines, f"linear: [{', '.join(linear)}]"] if linear else lines
 
 
-def _defined(letters: Letters | None) -> list[str]:
+def _defined(letters: Defined) -> list[str]:
     """Returns the parameters that stand for roots."""
-    found = {} if letters is None else letters.of
-    return [f"{NAMES[x]}: {quoted(format_expression(root))}" for root, x in found.items()]
+    return [f"{NAMES[x]}: {quoted(format_expression(root))}" for root, x in letters.items()]
 
 
 def tolerance_text(written: Written) -> str:
@@ -115,8 +113,7 @@ def write_form(
     the row sums of A.
     """
     text = to_text if tolerance is None else _decimal_text
-    letters = letters_of(tableau, NAMES)
-    with lettered(letters):
+    with with_letters(tableau, NAMES) as letters:
         lines = _in_form(form, keys, tableau, text, further)
     parameters = _defined(letters)
     head = [f"parameters: {{{', '.join(parameters)}}}"] if parameters else []

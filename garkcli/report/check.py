@@ -467,7 +467,7 @@ COLOUR: Section[OfColour] = Section(
     ),
     maybe(
         "gamma",
-        kinds.EXACT,
+        kinds.GAMMA,
         lambda x: None if x.shape is None else Answer(x.shape.gamma, Status(x.within)),
     ),
     Row("stage_order", kinds.COUNT, lambda x: Answer(x.stage_order, Status(x.within, x.is_open))),
@@ -506,7 +506,7 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     for x in found:
         said = [] if x.shape is None else [_shape_words(x.shape, x.within, d)]
         if x.shape is not None and x.shape.gamma is not None:
-            said.append(f"γ = {d.known(d.number(x.shape.gamma), Status(x.within))}")
+            said.append(f"γ = {d.known(d.diagonal(x.shape.gamma), Status(x.within))}")
         stage_order = d.known(d.capped(x.stage_order, x.limit), Status(x.within))
         said.append(f"stage order {stage_order}")
         texts.append(f"{d.prose(x.name)} {', '.join(said)}")
@@ -519,7 +519,7 @@ OWN_ROWS: dict[str, Rows[Analysis]] = {
     "gamma": (
         maybe(
             "gamma",
-            kinds.EXACT,
+            kinds.GAMMA,
             lambda a: Answer(a.subject.shape.gamma, Status(within(a, "gamma"))),
         ),
     ),

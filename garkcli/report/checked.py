@@ -57,6 +57,8 @@ REPORT: Report[Outcome] = Report(
     _signs,
     tail=Section(itself("summary", part(SUMMARY))),
     is_open=True,
+    letters=lambda x: None if x.analysis is None else x.analysis.tableau,
+    taken="ξηζ",
 )
 
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, TypeVar
 
 from garkcli.check.findings import witness_text
 from garkcli.errors import GarkError, printable
-from garkcli.exact.letters import lettered
 from garkcli.exact.polynomial_text import integral
 from garkcli.ntrees.drawing import draw_svg_sheet
 from garkcli.page.cells import remark
@@ -18,7 +17,7 @@ from garkcli.page.exactly import polynomial_latex
 from garkcli.page.letters import definition, definition_latex
 from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
-from garkcli.tableau.letters import letters_of
+from garkcli.tableau.letters import with_letters
 
 if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
@@ -39,11 +38,9 @@ def method_latex(method: GarkMethod) -> str | None:
     """The tableau as arrays of LaTeX; None if it is too large to be examined."""
     if _is_large(method):
         return None
-    letters = letters_of(method.tableau)
-    with lettered(letters):
+    with with_letters(method.tableau) as letters:
         lines = [*displays(method.tableau, method.entries)]
-    found = {} if letters is None else letters.of
-    return "\n".join([*(rf"\[ {definition_latex(*x)} \]" for x in found.items()), *lines])
+    return "\n".join([*(rf"\[ {definition_latex(*x)} \]" for x in letters.items()), *lines])
 
 
 def method_html(method: GarkMethod) -> str:
@@ -52,11 +49,9 @@ def method_html(method: GarkMethod) -> str:
     """
     if _is_large(method):
         return f"<pre>{_text(repr(method))}</pre>"
-    letters = letters_of(method.tableau)
-    with lettered(letters):
+    with with_letters(method.tableau) as letters:
         tables = tableau_lines(method.tableau, method.entries, method.name)
-    found = {} if letters is None else letters.of
-    noted = [f"<p>{_text(definition(*x))}</p>" for x in found.items()]
+    noted = [f"<p>{_text(definition(*x))}</p>" for x in letters.items()]
     note = remark(method.entries)
     noted += [f"<p>{_text(note)}</p>"] if note else []
     return "\n".join([*tables, *noted, *_region_html(method)])

@@ -152,7 +152,7 @@ def rosenbrock_words(tableau: Tableau) -> str:
 def _with_gamma(a: RosenbrockAnalysis, d: Plain) -> str:
     text = rosenbrock_words(a.tableau)
     diagonal = set(Rosenbrock.of(a.tableau).diagonal)
-    return f"{text}, {d.prose('γ')} = {d.number(diagonal.pop())}" if len(diagonal) == 1 else text
+    return f"{text}, {d.prose('γ')} = {d.diagonal(diagonal.pop())}" if len(diagonal) == 1 else text
 
 
 OF_ROSENBROCK_TREES = (

@@ -2,28 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from itertools import chain
+from typing import TypeAlias, TypeGuard
 
 from garkcli.exact.field import Algebraic
-from garkcli.exact.letters import NOTHING, Letters
+from garkcli.exact.letters import NOTHING, Letters, lettered
 from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.rewriting import roots_in
 from garkcli.tableau.tableau import Tableau
 
+Defined: TypeAlias = Mapping[AlgebraicRoot, str]
+"""Roots with their letters."""
 
-def letters_of(tableau: Tableau, written: Mapping[str, str] = NOTHING) -> Letters | None:
-    """The letters for the numbers of a method; None if no root of degree 3 or more is in them.
 
-    ``written`` has what stands for letters where they cannot be written.
+@contextmanager
+def with_letters(
+    tableau: Tableau | None, written: Mapping[str, str] = NOTHING, taken: str = ""
+) -> Iterator[Defined]:
+    """Gives the roots of degree 3 or more in the numbers of a method letters in the texts that are
+    made inside.
+
+    Yields those that have occurred so far, for their definitions. ``written`` and ``taken`` are as
+    in ``Letters``.
     """
-    field = tableau.field
-    if field is None:
-        return None
-    roots = chain.from_iterable(roots_in(radical) for radical, _ in field.radicals)
-    if not any(isinstance(root, AlgebraicRoot) for root in roots):
-        return None
-    return Letters(_diagonal(tableau), written)
+    letters = Letters(_diagonal(tableau), written, taken) if _has_roots(tableau) else None
+    with lettered(letters):
+        yield {} if letters is None else letters.of
+
+
+def _has_roots(tableau: Tableau | None) -> TypeGuard[Tableau]:
+    """Whether a root of degree 3 or more is in the numbers of a method."""
+    if tableau is None or tableau.field is None:
+        return False
+    roots = chain.from_iterable(roots_in(radical) for radical, _ in tableau.field.radicals)
+    return any(isinstance(root, AlgebraicRoot) for root in roots)
 
 
 def _diagonal(tableau: Tableau) -> AlgebraicRoot | None:

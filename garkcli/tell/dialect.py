@@ -16,6 +16,7 @@ from flint import arb, fmpq
 from garkcli.errors import printable
 from garkcli.exact.display import decimal, shortest, to_decimal, to_text
 from garkcli.exact.field import Algebraic
+from garkcli.exact.letters import DIAGONAL
 from garkcli.exact.polynomial_text import (
     LONG_COEFFICIENT,
     has_long_coefficients,
@@ -39,7 +40,6 @@ from garkcli.reason import NO_REASON, Place, Reason
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
-    from garkcli.exact.letters import Letters
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
     from garkcli.plots.scene import Scene
     from garkcli.stability.ball_polynomials import Bounds
+    from garkcli.tableau.letters import Defined
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
 
@@ -148,7 +149,7 @@ class Plain(Mutable):
     is_brief: bool = True
     places: int | None = None
     told: list[tuple[str, str]] = field(default_factory=list)
-    letters: Letters | None = None
+    letters: Defined | None = None
     is_inserted: bool = False
 
     infinity = "∞"
@@ -205,6 +206,12 @@ class Plain(Mutable):
         if is_number and (self.places is not None or len(text) > LONG):
             return f"about {to_decimal(x, self.places or 8)}"
         return self.expression(text)
+
+    def diagonal(self, x: Number) -> str:
+        """The diagonal entry γ, as a decimal where the text has its letter for it."""
+        if shortest(x) == DIAGONAL:
+            return f"about {to_decimal(x, self.places or 8)}"
+        return self.number(x)
 
     def short(self, x: Number) -> str:
         """An exact number among many."""
@@ -494,11 +501,11 @@ class Plain(Mutable):
         """A line for the rows of a table that are left out."""
         return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
-    def definitions(self, letters: Letters, text: str) -> Iterator[str]:
+    def definitions(self, letters: Defined, text: str) -> Iterator[str]:
         """A line for each letter of a root that is in the text."""
         from garkcli.page.letters import definition
 
-        for root, letter in letters.of.items():
+        for root, letter in letters.items():
             if re.search(rf"(?<![A-Za-z]){self.spelt(letter)}(?![A-Za-z])", text):
                 yield from self.sentence(definition(root, letter), 1)
 

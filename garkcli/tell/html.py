@@ -17,9 +17,9 @@ from garkcli.tell.latex import expression_latex
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
-    from garkcli.exact.letters import Letters
     from garkcli.exact.polynomial import Polynomial
     from garkcli.plots.scene import Scene
+    from garkcli.tableau.letters import Defined
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
 
@@ -98,10 +98,10 @@ class Html(Plain):
     def more(self, count: int, depth: int) -> list[str]:
         return [f"<p>… {count} more</p>"]
 
-    def definitions(self, letters: Letters, text: str) -> Iterator[str]:
+    def definitions(self, letters: Defined, text: str) -> Iterator[str]:
         from garkcli.page.letters import definition, definition_latex
 
-        for root, letter in letters.of.items():
+        for root, letter in letters.items():
             if letter in text or LETTERS[letter].strip() in text:
                 latex = definition_latex(root, letter)
                 yield from self.sentence(self.formula(latex, definition(root, letter)))

@@ -97,6 +97,7 @@ TEXTS: Kind[Sequence[str]] = Kind(
 )
 FLOAT: Kind[float] = Kind(Json(S.SIZE), Words(lambda x, _: f"{x:.6g}"))
 EXACT: Kind[Number] = Kind(Json(S.EXACT, lambda x, _: to_text(x)), Words(lambda x, d: d.number(x)))
+GAMMA: Kind[Number] = Kind(EXACT.what, Words(lambda x, d: d.diagonal(x)))
 EXACTS: Kind[Sequence[Number]] = Kind(
     Json(array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
     Words(lambda xs, d: ", ".join(map(d.short, xs))),

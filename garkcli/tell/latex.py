@@ -18,7 +18,6 @@ from garkcli.tell.dialect import WHOLE, Cells, GridLayout, Plain
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
-    from garkcli.exact.letters import Letters
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
@@ -26,12 +25,13 @@ if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
     from garkcli.reason import Place
     from garkcli.stability.ball_polynomials import Bounds
+    from garkcli.tableau.letters import Defined
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
 
 SIGNS = {
     **{sign: rf"${command}$" for sign, command in {
-        "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "∞": r"\infty", "−": "-",
+        "|": "|", "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "∞": r"\infty", "−": "-",
         "⁻": "^-", "²": "^2", "³": "^3", "ᵀ": r"^{\mathsf T}", "½": r"\frac12", "𝟙": r"\mathbf 1",
         "→": r"\to", "↔": r"\leftrightarrow", "·": r"\cdot", "⊙": r"\odot", "×": r"\times",
         "±": r"\pm", "‖": r"\|", "√": r"\surd", "∂": r"\partial", "∫": r"\int", "Σ": r"\sum",
@@ -48,12 +48,14 @@ _ABOVE = {
     "\N{COMBINING DIAERESIS}": "ddot",
     "\N{COMBINING MACRON}": "bar",
 }
-_SIGN = re.compile(f"[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
+_SIGN = re.compile(rf"\|[^|]+\||[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
 
 
 def _sign(found: re.Match[str]) -> str:
-    """A sign, or a letter with what is above it."""
+    """A sign, a letter with what is above it, or an absolute value."""
     sign = found[0]
+    if sign.startswith("|") and len(sign) > 1:
+        return f"$|{_SIGN.sub(_sign, sign[1:-1]).replace('$', '')}|$"
     if len(sign) > 1:
         return rf"$\{_ABOVE[sign[1]]} {sign[0]}$"
     return SIGNS.get(sign) or greek(sign)
@@ -180,10 +182,10 @@ class Latex(Plain):
         yield rf"\end{{{kind}}}"
         yield ""
 
-    def definitions(self, letters: Letters, text: str) -> Iterator[str]:
+    def definitions(self, letters: Defined, text: str) -> Iterator[str]:
         from garkcli.page.letters import definition_latex
 
-        for root, letter in letters.of.items():
+        for root, letter in letters.items():
             if LETTERS[letter].strip() in text:
                 yield rf"\[ {definition_latex(root, letter)} \]"
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager
 from itertools import chain
 from typing import TYPE_CHECKING, Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
 
-from garkcli.exact.letters import Letters, lettered
 from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
 from garkcli.page.look import PLAIN, Look
 from garkcli.page.schema import Schema, array, one_of, published
-from garkcli.tableau.letters import letters_of
+from garkcli.tableau.letters import Defined, with_letters
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Plot, Section, Stream
 from garkcli.tell.outputs import body, labelled, many, one
@@ -76,6 +76,7 @@ class Report(Frozen, Generic[Whole]):
         is_open: whether the schema allows others.
         lines: the parts of a result that CSV has, with the section that tells them.
         letters: the method of a result in whose numbers roots of polynomials have letters.
+        taken: letters that a text has for something else.
     """
 
     schema_name: str
@@ -88,6 +89,7 @@ class Report(Frozen, Generic[Whole]):
     is_open: bool = False
     lines: Callable[[Whole], Lines] | None = None
     letters: Callable[[Whole], Tableau | None] = lambda _: None
+    taken: str = ""
 
     @classmethod
     def only(
@@ -221,13 +223,11 @@ class Report(Frozen, Generic[Whole]):
         self, whole: Whole, format: str, look: Look, level: Level, **signs: Unpack[DialectSigns]
     ) -> str:
         d = self.dialect(whole, format, look, level < Level.DETAIL, **signs)
-        d.letters = self._letters_of(whole)
-        with lettered(d.letters):
+        with self._lettered(whole) as d.letters:
             return "".join(d.page(one(self.form(whole), whole, d, level)))
 
-    def _letters_of(self, whole: Whole) -> Letters | None:
-        tableau = self.letters(whole)
-        return None if tableau is None else letters_of(tableau)
+    def _lettered(self, whole: Whole) -> AbstractContextManager[Defined]:
+        return with_letters(self.letters(whole), taken=self.taken)
 
     def columns(self, whole: Whole) -> Sequence[str]:
         return self.form(whole).columns
@@ -239,9 +239,8 @@ class Report(Frozen, Generic[Whole]):
     def html(self, whole: Whole) -> str:
         """A fragment of a page with its pictures, for notebooks."""
         form, d = self.form(whole), self.dialect(whole, "html", is_brief=True)
-        d.letters = self._letters_of(whole)
         pictures = Section([row for row in form.rows if isinstance(row.kind.shown, Plot)])
-        with lettered(d.letters):
+        with self._lettered(whole) as d.letters:
             lines = one(form, whole, d), body(pictures, whole, d, Level.DETAIL, 1)
             return "".join(d.page(chain(*lines)))
 

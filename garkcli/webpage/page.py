@@ -17,12 +17,11 @@ from garkcli.api.numbers import Whole, whole
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
 from garkcli.errors import MethodError, counted, printable
-from garkcli.exact.letters import lettered
 from garkcli.frozen import replace
 from garkcli.plots.svg import STYLE
 from garkcli.report.check import METHOD, truth
 from garkcli.report.checked import REPORT
-from garkcli.tableau.letters import letters_of
+from garkcli.tableau.letters import with_letters
 from garkcli.tell.dialect import Plain
 from garkcli.tell.outputs import cell, phrase, words
 from garkcli.webpage.mathml import Typeset
@@ -193,12 +192,12 @@ def render(methods: Sequence[Reported]) -> str:
 
 def _sections(method: Reported) -> Iterator[tuple[Content, Content]]:
     """Yields the nonempty sections with the content for their templates."""
-    letters = None if method.tableau is None else letters_of(method.tableau)
-    for name, title in SECTIONS.items():
-        with doing(f"{method.outcome.name}: {title}"), lettered(letters):
-            content = import_module(f"garkcli.webpage.sections.{name}").content(method)
-        if content is not None:
-            yield {"name": name, "title": title}, content
+    with with_letters(method.tableau):
+        for name, title in SECTIONS.items():
+            with doing(f"{method.outcome.name}: {title}"):
+                content = import_module(f"garkcli.webpage.sections.{name}").content(method)
+            if content is not None:
+                yield {"name": name, "title": title}, content
 
 
 def _policy(script: str) -> str:

@@ -65,7 +65,7 @@ def test_all_faults_of_a_file_come_at_once_and_in_file_order() -> None:
 def test_signs_that_yaml_refuses(text: str, place: tuple[int, int]) -> None:
     """A control character is reported where it stands, whatever stands before it."""
     (fault,) = faults(text)
-    assert "unacceptable character" in fault.message
+    assert "has the control character U+00" in fault.message
     assert (fault.line, fault.column) == place
 
 

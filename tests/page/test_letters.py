@@ -30,7 +30,10 @@ CUBICS = ["ars-343", "norsett-3", "alexander-3", "least-error-gauss2-lobatto3"]
 
 @pytest.mark.parametrize(
     "command",
-    ["tableau ars-343", "show ars-343", "tableau ars-343 --format latex", "stability alexander-3"],
+    [
+        *("tableau ars-343", "show ars-343", "tableau ars-343 --format latex"),
+        *("stability alexander-3", "check alexander-3 -v --format latex"),
+    ],
 )
 def test_a_root_is_written_once(command: str) -> None:
     """In texts and in LaTeX it is defined, and then its letter."""
@@ -73,6 +76,19 @@ def test_a_root_that_is_no_diagonal_is_another_letter() -> None:
     assert "ξ = root_of(6*x**3" in gark("conjugate", "alexander-3").out
 
 
+def test_letters_that_a_check_has_for_conditions_are_no_roots() -> None:
+    """η, ξ and ζ are numbers of simplifying assumptions there; γ has its value, not its letter."""
+    root = '"root_of(x^3 - x - 1, 1.32)"'
+    text = f"A: [[{GAMMA!r}, 0], [{root}, 1/2]]\nb: [1/2, 1/2]\n"
+    found = gark("check", "-", "--format", "latex", "-v", stdin=text).out
+    assert r"6\kappa ^{3}-18\kappa ^{2}+9\kappa -1 = 0" in found
+    assert r"\mu ^{3}-\mu -1 = 0" in found
+    assert r"\frac{\kappa }{2}+\frac{\mu }{2}" in found
+    shown = gark("check", "alexander-3", "-v", "--format", "latex").out
+    assert "$\\gamma$ & about 0.43586652" in shown
+    assert "γ γ" not in gark("check", "alexander-3", "--format", "markdown").out
+
+
 def test_a_report_without_the_root_does_not_define_it() -> None:
     """The lines on ARS(3,4,3) are decimals."""
     assert "γ" not in gark("stability", "ars-343").out
@@ -109,14 +125,14 @@ def test_pages_and_notebooks_define_it_too() -> None:
 
 
 def test_letters_end_with_the_text() -> None:
-    """Five roots have four letters, each for one root; outside they are written out."""
-    roots = [parse(f"root_of(x^3 - {k}, 1.5)") for k in (2, 3, 5, 6, 7)]
+    """Seven roots have six letters, each for one root; outside they are written out."""
+    roots = [parse(f"root_of(x^3 - {k}, 1.5)") for k in (2, 3, 5, 6, 7, 9, 10)]
     first = roots[0]
     assert isinstance(first, AlgebraicRoot)
     with lettered(Letters(first)):
         texts = [format_expression(root) for root in [*roots, *roots]]
-    assert texts[:4] == texts[5:9] == ["γ", "ξ", "η", "ζ"]
-    assert re.fullmatch(r"root_of\(x\*\*3-7, .*\)", texts[4])
+    assert texts[:6] == texts[7:13] == ["γ", "ξ", "η", "ζ", "κ", "μ"]
+    assert re.fullmatch(r"root_of\(x\*\*3-10, .*\)", texts[6])
     assert format_expression(first).startswith("root_of")
 
 
@@ -129,9 +145,9 @@ def test_letters_are_words_of_a_text(encoding: str) -> None:
             format_expression(parse(f"root_of(x^3 - {k}, 1.5)"))
     d = Plain(look=Look(encoding=encoding))
     assert len(letters.of) == 2
-    assert [*d.definitions(letters, "real axis, beta")] == []
+    assert [*d.definitions(letters.of, "real axis, beta")] == []
     first = d.spelt("2 ξ + 1")
-    assert len([*d.definitions(letters, first)]) == 1
+    assert len([*d.definitions(letters.of, first)]) == 1
 
 
 def test_rounded_files_have_no_letters() -> None:

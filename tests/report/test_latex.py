@@ -80,6 +80,14 @@ def test_latex_is_balanced(arguments: tuple[str, ...]) -> None:
     assert "sqrt(" not in text
 
 
+def test_absolute_values_are_formulas() -> None:
+    """A bar in text is a dash in the fonts of LaTeX."""
+    text = gark("stability", "rk4", "--format", "latex").out
+    assert r"$|y|$ $\le$" in text
+    assert "|" not in re.sub(r"\$[^$]*\$", "", text)
+    assert Latex().prose("|R(∞)| < 1, a | b") == r"$|R(\infty)|$ $<$ 1, a $|$ b"
+
+
 def test_the_check_for_balance_can_fail() -> None:
     """The helper of these tests notices what is not closed."""
     for text in ("{", "}", r"\begin{array}", r"\begin{a}\end{b}", "$x", r"\[x"):

@@ -11,10 +11,9 @@ from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.exact.display import decimal_latex, to_latex
-from garkcli.exact.letters import lettered
 from garkcli.page.letters import definition_latex
 from garkcli.page.tableau_latex import displays
-from garkcli.tableau.letters import letters_of
+from garkcli.tableau.letters import with_letters
 from garkcli.tableau.pointwise import Cell, Entries
 
 DECIMALS = Style(longest=1000, point=False)
@@ -30,10 +29,9 @@ def write(payload: Payload) -> str:
         notes.append("Left out: dense output.")
     lines = PERCENT.lines(head(payload, *notes))
     entries = Entries(payload.c, payload.A, payload.b, True, 0, embedded=payload.embedded)
-    letters = letters_of(payload.tableau)
-    with lettered(letters):
+    with with_letters(payload.tableau) as letters:
         arrays = [*displays(payload.tableau, entries, partial(_cell, payload))]
-    for root, letter in ({} if letters is None else letters.of).items():
+    for root, letter in letters.items():
         lines.append(rf"\[ {definition_latex(root, letter)} \]")
     lines += arrays
     return "\n".join(lines) + "\n"
