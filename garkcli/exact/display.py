@@ -11,6 +11,7 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.parametric import Parametric
+from garkcli.exact.rewriting import decimal_latex
 
 _LONG_DENOMINATOR = 10000
 _SMALL = fmpq(1, 1000)
@@ -50,16 +51,6 @@ def _short_decimal(size: fmpq) -> str:
         return ""
     decimals = decimal(size) if size < _SMALL else plain_decimal(size)
     return decimals if len(decimals) < len(str(size)) else ""
-
-
-def decimal_latex(text: str) -> str:
-    r"""A decimal in LaTeX.
-
-    >>> decimal_latex("-1.5e-16"), decimal_latex("0.25")
-    ('-1.5 \\cdot 10^{-16}', '0.25')
-    """
-    mantissa, _, exponent = text.partition("e")
-    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
 
 
 def to_latex(number: Number | Parametric) -> str:

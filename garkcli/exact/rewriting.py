@@ -20,6 +20,7 @@ from garkcli.exact.nodes import (
     Power,
     RealPower,
     Root,
+    is_decimal,
     parts,
 )
 from garkcli.frozen import replace
@@ -154,7 +155,7 @@ class PlainText:
     def written(self, expression: Expression) -> str:
         match expression:
             case Literal(value=value):
-                return self.number(value)
+                return self.decimal(expression) if is_decimal(expression) else self.number(value)
             case Name(name=name):
                 return self.name(name)
             case Chain():
@@ -193,6 +194,10 @@ class PlainText:
 
     def number(self, value: fmpq) -> str:
         return str(value)
+
+    def decimal(self, literal: Literal) -> str:
+        """A number that was written as a decimal."""
+        return self.number(literal.value)
 
     def power(self, base: str, exponent: int) -> str:
         return f"{base}**{exponent}"
@@ -258,18 +263,29 @@ def _is_sum(expression: Expression) -> bool:
     return isinstance(expression, Chain) and expression.signs[0] in "+-" and expression.signs != "-"
 
 
+def decimal_latex(text: str) -> str:
+    r"""A decimal in LaTeX.
+
+    >>> decimal_latex("-1.5e-16"), decimal_latex("0.25")
+    ('-1.5 \\cdot 10^{-16}', '0.25')
+    """
+    mantissa, _, exponent = text.partition("e")
+    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
+
+
 class _Latex(PlainText):
     r"""Writes expressions in LaTeX: products without signs, quotients as fractions.
 
     >>> from garkcli.exact.expression import parse
     >>> texts = "1/2 - 3*sqrt(154)/77", "1/2*x", "-1/120*z^5", "-2*a12_31*(-x^2 + tau)"
-    >>> for text in (*texts, "-(-2*(3/4))/x"):
+    >>> for text in (*texts, "-(-2*(3/4))/x", "-0.25*x - 1e-9"):
     ...     print(format_expression(parse(text), latex=True))
     \frac{1}{2}-\frac{3\sqrt{154}}{77}
     \frac{x}{2}
     -\frac{z^{5}}{120}
     -2a_{12,31}\left(-x^{2}+\tau \right)
     -\frac{\left(-2\cdot \frac{3}{4}\right)}{x}
+    -0.25x-1 \cdot 10^{-9}
     """
 
     is_latex = True
@@ -323,6 +339,11 @@ class _Latex(PlainText):
         sign = "-" if value < 0 else ""
         numerator = abs(value.p)
         return f"{sign}\\frac{{{numerator}}}{{{value.q}}}"
+
+    def decimal(self, literal: Literal) -> str:
+        # the text is that of the digits alone where a minus stands before them
+        sign = "-" if literal.value < 0 and not literal.text.startswith("-") else ""
+        return sign + decimal_latex(literal.text)
 
     def power(self, base: str, exponent: int) -> str:
         return f"{base}^{{{exponent}}}"

@@ -10,8 +10,9 @@ from collections.abc import Callable, Iterator, Sequence
 
 from flint import arb
 
-from garkcli.exact.display import decimal_latex, to_latex
+from garkcli.exact.display import to_latex
 from garkcli.exact.polynomial_text import power_text
+from garkcli.exact.rewriting import decimal_latex
 from garkcli.page.cells import cell_text, lines_of, parts_of
 from garkcli.page.exactly import sum_latex
 from garkcli.tableau.pointwise import Cell, Entries

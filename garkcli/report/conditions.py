@@ -12,8 +12,9 @@ from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import counted
-from garkcli.exact.display import decimal, decimal_latex, shortest, to_decimal, to_latex
+from garkcli.exact.display import decimal, shortest, to_decimal, to_latex
 from garkcli.exact.parametric import Parametric
+from garkcli.exact.rewriting import decimal_latex
 from garkcli.frozen import Frozen, Mutable
 from garkcli.ntrees.notation import condition_latex, condition_text, format_tree, vertex_letters
 from garkcli.ntrees.tree import Tree

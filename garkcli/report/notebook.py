@@ -126,7 +126,7 @@ def stability_latex(found: Stability) -> str:
     """R(z), and the step matrix on the oscillator, as formulas."""
     from garkcli.report.stability import formulas
 
-    lines = " \\\\\n".join(f"{name} &= {value}" for name, value in formulas(found))
+    lines = " \\\\\n".join(f"{name} &{value}" for name, value in formulas(found))
     return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
 from math import isqrt
-from typing import TYPE_CHECKING, NamedTuple, Never, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, Never, TypeAlias, TypeVar
 
 from flint import arb, ctx, fmpq
 
@@ -15,15 +15,19 @@ from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
     ball_decimal,
+    has_long_coefficients,
     integral,
     integral_scale,
+    is_long,
+    multivariate_decimals,
     multivariate_text,
+    polynomial_decimals,
     polynomial_text,
 )
 from garkcli.exact.roots import RealRoot, sign
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, multivariate_latex, polynomial_latex, root_data
 from garkcli.plots.regions import stability_scene
 from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.ball_polynomials import OPEN, Bounds
@@ -49,6 +53,7 @@ from garkcli.tell.facts import (
     maybe,
     via,
 )
+from garkcli.tell.latex import expression_latex
 from garkcli.tell.parts import part, parts, plot, told
 from garkcli.tell.report import Report
 
@@ -372,12 +377,14 @@ OF_COLOUR: Section[LinearStability] = Section(
 OF_ALL: Section[LinearStability] = Section(
     LINEAR, title=lambda _, d: d.prose("one λ for both parts")
 )
+_OTHERWISE: dict[str, dict[str, Any]] = {
+    "R": {"label": "R̂(z)"},
+    "R_infinity": {"label": "R̂(∞)"},
+    "real_interval": {"level": DETAIL},
+    "imaginary_interval": {"level": DETAIL},
+}
 OF_EMBEDDED: Section[LinearStability] = Section(
-    LINEAR[0].but(label="R̂(z)"),
-    LINEAR[1].but(label="R̂(∞)"),
-    LINEAR[2:5],
-    (row.but(level=DETAIL) for row in LINEAR[5:7]),
-    LINEAR[-1],
+    [row.but(**_OTHERWISE.get(row.key, {})) for row in LINEAR if row.key != "ssp"],
     title=lambda _, d: d.prose("embedded weights"),
 )
 EMBEDDED: Row[StabilityReport] = maybe(
@@ -684,7 +691,7 @@ ALIKE: Rows[StabilityReport] = via(lambda x: x.found.linear[0], LINEAR)
 ALONE: Row[StabilityReport] = Row("colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL)
 SEVERAL: Rows[StabilityReport] = [
     *via(_colours, OF_COLOURS[:1]),
-    *ALIKE[1:],
+    *(row for row in ALIKE if row.key != "R"),
     ALONE,
     Row("R_alike", kinds.ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
     *via(_colours, OF_COLOURS[1:]),
@@ -692,8 +699,14 @@ SEVERAL: Rows[StabilityReport] = [
 ]
 
 
-EXPLICIT: Section[LinearStability] = Section(LINEAR[5:8])
-IMPLICIT: Section[LinearStability] = Section(LINEAR[1], LINEAR[4], LINEAR[7])
+def _of_linear(*keys: str) -> Section[LinearStability]:
+    """Returns rows of ``LINEAR`` by their keys."""
+    rows = {row.key: row for row in LINEAR}
+    return Section([rows[key] for key in keys])
+
+
+EXPLICIT = _of_linear("real_interval", "imaginary_interval", "ssp")
+IMPLICIT = _of_linear("R_infinity", "A_alpha", "ssp")
 OF_BOTH: Rows[ImexParts] = [
     Row("implicit_part", told(_implicit_words), lambda x: x.implicit, HEADLINE),
     Row("explicit_part", _after_colon(_explicit_words), lambda x: x.explicit, HEADLINE),
@@ -840,22 +853,44 @@ def whole(found: Stability, name: str) -> StabilityReport:
 
 
 def formulas(found: Stability) -> Iterator[tuple[str, str]]:
-    """Names and values in LaTeX of what decides stability."""
-    from garkcli.page.exactly import multivariate_latex, quotient_latex
-
-    def quotient(x: kinds.Quotient, variable: str) -> str:
-        return quotient_latex(x.numerator, x.denominator, variable)
-
+    """Names and values, behind = or ≈, of what decides stability, in LaTeX; long coefficients are
+    decimals.
+    """
     if found.colours is not None and found.colours.R is not None:
-        names = [f"z_{{{k + 1}}}" for k in range(found.colours.size)]
-        over, under = (multivariate_latex(p, names) for p in integral_parts(found.colours.R))
-        yield f"R({', '.join(names)})", over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
+        names = ", ".join(f"z_{{{k + 1}}}" for k in range(found.colours.size))
+        yield f"R({names})", _fraction(found.colours.R)
     if found.tolerance is None:
         for one in found.linear:
             name = "R(z)" if one.name == "all" else rf"R_{{\mathrm{{{one.name}}}}}(z)"
-            yield name, quotient(one.R, "z")
+            yield name, _quotient(one.R, "z")
         if found.embedded is not None:
-            yield r"\hat R(z)", quotient(found.embedded.R, "z")
+            yield r"\hat R(z)", _quotient(found.embedded.R, "z")
     if found.oscillator is not None:
-        yield r"\operatorname{tr} M(x)", quotient(found.oscillator.trace, "x")
-        yield r"\det M(x)", quotient(found.oscillator.determinant, "x")
+        yield r"\operatorname{tr} M(x)", _quotient(found.oscillator.trace, "x")
+        yield r"\det M(x)", _quotient(found.oscillator.determinant, "x")
+
+
+def _fraction(R: Fraction) -> str:
+    whole = integral_parts(R)
+    colours = range(1, whole[0].variables + 1)
+    if any(is_long(a) for p in whole for _, a in p.terms):
+        names = [f"z{k}" for k in colours]
+        return _in_decimals([multivariate_decimals(p, names) for p in (R.numerator, R.denominator)])
+    return _over(*(multivariate_latex(p, [f"z_{{{k}}}" for k in colours]) for p in whole))
+
+
+def _quotient(x: kinds.Quotient, variable: str) -> str:
+    given = x.numerator, x.denominator
+    whole = integral(given)
+    if has_long_coefficients(*whole):
+        return _in_decimals([polynomial_decimals(p, variable) for p in given])
+    return _over(*(polynomial_latex(p, variable) for p in whole))
+
+
+def _in_decimals(texts: Sequence[str]) -> str:
+    top, bottom = (expression_latex(text) or "" for text in texts)
+    return _over(top, bottom, r"\approx")
+
+
+def _over(top: str, bottom: str, sign: str = "=") -> str:
+    return f"{sign} {top}" if bottom == "1" else rf"{sign} \frac{{{top}}}{{{bottom}}}"

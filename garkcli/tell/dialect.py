@@ -245,13 +245,13 @@ class Plain(Mutable):
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
         """A polynomial; a long one is described, one with long coefficients has decimals."""
-        text = polynomial_text(p, variable)
+        text, about = polynomial_text(p, variable), ""
         is_wide = max(map(len, text.split()), default=0) > LONG
         if is_wide or (self.is_brief and has_long_coefficients(p)):
-            text = f"about {polynomial_decimals(p, variable)}"
-        if len(text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
+            text, about = polynomial_decimals(p, variable), "about "
+        if len(about + text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
             return f"a polynomial of degree {p.degree}, in --format json"
-        return self.expression(text)
+        return about + self.expression(text)
 
     def over(self, top: str, bottom: str) -> str:
         if bottom == "1":
@@ -262,7 +262,8 @@ class Plain(Mutable):
     def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
         """A rational function with whole coefficients, in decimals where these are long."""
         if self.is_brief and has_long_coefficients(*integral([p, q])):
-            return f"about {self.over(*(polynomial_decimals(x, variable) for x in (p, q)))}"
+            decimals = Plain.over(self, *(polynomial_decimals(x, variable) for x in (p, q)))
+            return f"about {self.expression(decimals)}"
         return self.over(*(self.polynomial(x, variable) for x in integral([p, q])))
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from flint import fmpq
 
-from garkcli.exact.display import decimal, decimal_latex, plain_decimal, to_decimal, to_text
+from garkcli.exact.display import decimal, plain_decimal, to_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
+from garkcli.exact.rewriting import decimal_latex
 from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too

@@ -12,9 +12,10 @@ from flint import arb
 from latex2mathml.converter import convert
 from markupsafe import Markup
 
-from garkcli.exact.display import decimal_latex, to_decimal, to_latex, to_text
+from garkcli.exact.display import to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parametric
+from garkcli.exact.rewriting import decimal_latex
 from garkcli.ntrees.notation import condition_latex
 from garkcli.ntrees.tree import Tree
 from garkcli.page.cells import cell_text

@@ -761,3 +761,17 @@ def test_what_one_looks_for_is_first(tmp_path: Path) -> None:
         for name in ("tableau", "orders"):
             assert ("symplectic pair" in text_of(by_id(page_of, f"m1-{name}"))) is is_told
     assert "symplectic pair" in text_of(by_id(read(text(PAIRED)), "m1-tableau"))
+
+
+def test_long_coefficients_are_decimals_and_labels_are_not_repeated() -> None:
+    """The stability of ARS(3,4,3), whose exact R(z) would be cut off at every width; a page on one
+    method names it once, in its title.
+    """
+    page = report_page("ars-343", pictures=False)
+    assert 'class="whose"' not in page
+    stability = page.partition(">Stability</h2>")[2].partition("</section>")[0]
+    assert max(map(len, re.findall(r"\d+", stability))) < 14
+    first = stability.partition("<dl")[2].partition("</dl>")[0]
+    labels = re.findall(r"<dt>(.*?)</dt>", first)
+    assert len(labels) == len(set(labels)) > 8
+    assert "γ = γ" not in re.sub(r"<[^>]*>", "", page)

@@ -10,7 +10,8 @@ from garkcli.bridges.comments import PERCENT, head
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import EVERYTHING, Bridge
-from garkcli.exact.display import decimal_latex, to_latex
+from garkcli.exact.display import to_latex
+from garkcli.exact.rewriting import decimal_latex
 from garkcli.page.letters import definition_latex
 from garkcli.page.tableau_latex import displays
 from garkcli.tableau.letters import with_letters

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from markupsafe import Markup
 
 from garkcli.api.calls import find_stability
@@ -26,6 +28,14 @@ def _has_stability(tableau: Tableau) -> bool:
     return is_derivatives(tableau) or (tableau.exact_to is None and not is_nprk(tableau))
 
 
+def _together(facts: Sequence[tuple[str, str]]) -> list[tuple[Markup, Markup]]:
+    """Returns labels with their texts, each label once."""
+    texts: dict[str, list[str]] = {}
+    for label, text in facts:
+        texts.setdefault(label, []).append(text)
+    return [(Markup(label), Markup("; ".join(found))) for label, found in texts.items()]
+
+
 def content(method: Reported) -> Content | None:
     """Returns the variables of the template; None if stability does not apply."""
     file = method.outcome.file
@@ -37,9 +47,9 @@ def content(method: Reported) -> Content | None:
         return {"file": file, "near": ""}
     found = find_stability(method.method)
     return {
-        "formulas": [typeset(f"{x} = {y}") for x, y in formulas(found) if len(y) <= _LONGEST],
+        "formulas": [typeset(f"{x} {y}") for x, y in formulas(found) if len(y) <= _LONGEST],
         "parts": [
-            (Markup(title), [(Markup(x), Markup(y)) for x, y in facts])
+            (Markup(title), _together(facts))
             for title, facts in REPORT.labelled(
                 StabilityReport("", "", found), Typeset, without=_TYPESET
             )
