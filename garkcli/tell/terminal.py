@@ -146,23 +146,47 @@ class Terminal(Coloured):
     def beside(
         self, columns: Sequence[Cells], widths: Sequence[int], room: int, heads: int = 1
     ) -> Iterable[str]:
+        *fixed, last = _narrowed(widths, room)
+        are_right = [are_numbers(column[heads:]) for column in columns]
+        left = room - sum(fixed) - 2 * len(fixed)
+        fixed.append(max(min(last, left), 1))
+        head = [column[0] for column in columns] if heads else []
+        rows: list[Sequence[str]] = []
+        for row in zip(*(column[heads:] for column in columns), strict=True):
+            if len(row) > 1 and shown_width(row[0]) > fixed[0]:
+                # a name is not broken, so that it can be copied
+                yield from self._table(head, rows, fixed, are_right, room)
+                yield from self._lines(self._folding(row[0], hanging=2), room=room)
+                head, rows = [], [("", *row[1:])]
+            else:
+                rows.append(row)
+        yield from self._table(head, rows, fixed, are_right, room)
+
+    def _table(
+        self,
+        head: Cells,
+        rows: Sequence[Cells],
+        widths: Sequence[int],
+        are_right: Sequence[bool],
+        room: int,
+    ) -> list[str]:
+        if not head and not rows:
+            return []
         # a divider and a padding make the gap of two blanks, which the widths count with
         table = Table(
             box=Box(self.spelt(_RULED), ascii=True),
             padding=(0, 1, 0, 0),
             pad_edge=False,
             show_edge=False,
-            show_header=heads > 0,
+            show_header=bool(head),
             header_style=STRONG,
             border_style=FAINT,
         )
-        # the last column takes what is left
-        fixed = [*_narrowed(widths, room)[:-1], None]
-        for column, width in zip(columns, fixed, strict=True):
-            justify: JustifyMethod = "right" if are_numbers(column[heads:]) else "left"
-            head = self._folding(column[0]) if heads else ""
-            table.add_column(head, width=width, justify=justify)
-        for row in zip(*(column[heads:] for column in columns), strict=True):
+        heads = map(self._folding, head or [""] * len(widths))
+        for text, width, is_right in zip(heads, widths, are_right, strict=True):
+            justify: JustifyMethod = "right" if is_right else "left"
+            table.add_column(text, width=width, justify=justify)
+        for row in rows:
             table.add_row(*map(self._folding, row))
         return self._lines(table, room=room)
 

@@ -109,6 +109,19 @@ def test_a_word_that_no_line_holds_is_broken_where_it_is() -> None:
     assert d.message("b{l}A{l,m}A{m,n} = 1/24", 2) == ["b{l}A{l,m}A{m,n}", "  = 1/24"]
 
 
+@pytest.mark.parametrize("columns", [44, 60, 80])
+def test_names_and_trees_are_not_broken(columns: int) -> None:
+    """One that is too long for its column has a line of its own, as in a pipe."""
+    runs = {
+        ("list", "methods", "least"): "p-stable-least-error-gauss2-lobatto3",
+        ("conditions", "ars-343", "--order", "3"): "[[[]_1]_1]_1",
+    }
+    for command, name in runs.items():
+        lines = ESCAPE.sub("", shown(*command, columns=columns)).splitlines()
+        assert any(name in x for x in lines)
+        assert max(map(len, lines)) <= columns
+
+
 def test_heads_of_tables_are_ruled_off() -> None:
     """Below the heads there is a line, in the signs that the terminal has."""
     for encoding, sign in (("utf-8", "─"), ("ascii", "-")):
