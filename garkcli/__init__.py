@@ -98,7 +98,7 @@ ANSWERS = {
     "RosenbrockAnalysis.html=html InfinitesimalAnalysis.html=html NystromAnalysis.html=html "
     "NprkAnalysis.html=html DerivativesAnalysis.html=html "
     "Stability.html=html Comparison.html=html Design.html=html Minimum.html=html "
-    "StableValues.html=html StablePlane.html=html SweepReport.html=html MethodProof.html=html "
+    "StableValues.html=html SweepReport.html=html MethodProof.html=html "
     "ModifiedRun.html=html BackwardAnalysis.html=html Convergence.html=html LongRun.html=html",
     "plots.calls": "GarkMethod.plot=plot_method",
 }

@@ -21,7 +21,7 @@ from garkcli.design.search import run as searching
 from garkcli.design.search.nearest import nearest_member
 from garkcli.design.search.run import TOLERANCE, FoundMethod, SearchResult
 from garkcli.design.stability_kinds import TwoSprings
-from garkcli.design.stable_plane import StablePlane, stable_set
+from garkcli.design.stable_set import stable_set
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.design.within import DesignWithin, find_within
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
@@ -210,12 +210,13 @@ def stable_values(
     up_to: Number | None = None,
     colour: Whole | None = None,
     seconds: float | None = None,
-) -> StableValues | StablePlane:
-    r"""The values of the parameter of a family that make it stable: ``gark design --a-stable``.
+) -> StableValues:
+    r"""The values of one or two parameters of a family that make it stable: ``gark design
+    --a-stable``.
 
     Args:
-        family: as ``find_parameters`` takes it; with one free parameter, or several on which the
-            step depends through one linear combination; for A-stability with two.
+        family: as ``find_parameters`` takes it; with at most two free parameters, or several on
+            which the step depends through at most two linear combinations.
         wanted: ``"a-stable"``, ``"l-stable"``, ``"p-stable"`` or ``"i-stable"``.
         whose: as in ``find_parameters``.
         slow: (hω_s)² for P- or I-stability on two springs; None for the oscillator.
@@ -227,8 +228,8 @@ def stable_values(
 
     Raises:
         MethodError: there is no such colour.
-        UsageProblem: the stability does not apply to the method, there are several parameters, or
-            coefficients are irrational.
+        UsageProblem: the stability does not apply to the method, there are more parameters, or
+            some are under roots.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
 

@@ -2,7 +2,7 @@
 
 Most only ask which coefficients are zero or equal. Those with inequalities are decided for one
 parameter, between the zeros of the polynomials whose signs matter; A-, L- and P-stability by
-``garkcli.design.stable_values``.
+``garkcli.design.stable_set``.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from typing import Any
 
 from garkcli.check.every_facts import UNDECIDED, FamilyFact, Question, answer, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
-from garkcli.design.stable_values import Wanted, stable_values
+from garkcli.design.stable_set import stable_set
+from garkcli.design.stable_values import Wanted
 from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval, Point, roots_of, where
 from garkcli.exact.field import ONE, Number
@@ -76,7 +77,7 @@ def find_property(family: EveryFamily, key: str, limit: int) -> FamilyFact:
         return find(family, ask, is_of_stages=True)
     if family.has_one and key in STABLE:
         try:
-            values = stable_values(family.family, STABLE[key])
+            values = stable_set(family.family, STABLE[key])
         except GarkError:
             return FamilyFact(None)
         return _of_set(family, values.found, values.undecided)

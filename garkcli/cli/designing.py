@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 AnyResult = TypeVar("AnyResult", "SearchResult", "OptimaCurve")
 _STANDARD_INPUT = {STDIN, "<stdin>"}
-_PLOT = "--plot draws the A-stable values of two parameters"
+_PLOT = "--plot draws the stable values of two parameters"
 PROOFS = ("exact", "exists", "numerical")
 """The certainty of methods that were found, the most certain first."""
 
@@ -485,8 +485,6 @@ def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> 
     from garkcli.api.design import stable_values
     from garkcli.cli.stability import colour_named
     from garkcli.design.member import TABLEAUS
-    from garkcli.design.stable_plane import StablePlane
-    from garkcli.report import stable_plane as planes
     from garkcli.report.stable_values import REPORT, StableReport
 
     asked = given.of("stable_values")
@@ -501,13 +499,10 @@ def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> 
     if given.plot is not None:
         from garkcli.plots.curves import stable_plane_scene
 
-        if not isinstance(found, StablePlane):
+        if not found.is_plane:
             raise UsageProblem(_PLOT, "free a second parameter", code="option-alone")
         output.save_plot(stable_plane_scene(found, family.name), given.plot)
-    if isinstance(found, StablePlane):
-        output.tell(planes.REPORT, planes.PlaneReport(family.source, found, given.digits))
-    else:
-        output.tell(REPORT, StableReport(family.source, found, given.digits))
+    output.tell(REPORT, StableReport(family.source, found, given.digits))
     return EXIT_CODES[found.has_values]
 
 

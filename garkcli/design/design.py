@@ -31,7 +31,7 @@ from garkcli.design.parts import Part, Pieces, diagonal_unknowns, nodes_as_coord
 from garkcli.design.real_points import has_methods, has_point, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
-from garkcli.design.stable_plane import values_of_one
+from garkcli.design.stable_set import BEYOND, stable_set
 from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.design.steps import (
@@ -48,7 +48,7 @@ from garkcli.design.steps import (
     Zeros,
 )
 from garkcli.design.want import numerators
-from garkcli.errors import NotDecided, ZeroWeight
+from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact.parametric import fraction
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
@@ -621,27 +621,36 @@ def estimates_nothing(design: Design, step: Step) -> bool:
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """The values of one unknown with each wanted kind of stability, of the highest order that is
-    reached; empty if solutions are examined one by one.
+    """The values of one or two unknowns with each wanted kind of stability, of the highest order
+    that is reached; empty if solutions are examined one by one.
     """
     family = design.family
     if any(step.known.stable for step in design.steps):
         *_, best = [design.last, *(step for step in design.steps if step.may_have_methods)]
         return best.known.stable
-    if design.last.kind != "every-value" or len(family.ring.names) > 1 or not family.parameters:
+    if design.last.kind != "every-value" or len(family.parameters) != 1:
         return ()
     return _sets(family, design.whose)
 
 
 def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
-    """The set of each wanted kind of stability; empty if one is no set of values of one unknown."""
+    """The set of each wanted kind of stability; empty if one is no set of values of one or two
+    unknowns.
+
+    Raises:
+        UsageProblem: a stability is not applicable.
+        NotDecided: the time limit has passed.
+    """
     wanted = [
         x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind
     ]
     sets = []
     for x in wanted:
-        kind = cast("Wanted", x.kind)
-        values = values_of_one(family.tested(x), kind, whose, colour=x.colour)
-        if values is not None:
-            sets.append(replace(values, is_embedded=x.is_embedded))
-    return tuple(sets) if len(sets) == len(wanted) else ()
+        try:
+            values = stable_set(family.tested(x), cast("Wanted", x.kind), whose, colour=x.colour)
+        except (NotDecided, UsageProblem) as error:
+            if error.code in BEYOND or (isinstance(error, NotDecided) and not error.is_late):
+                return ()
+            raise
+        sets.append(replace(values, is_embedded=x.is_embedded))
+    return tuple(sets)

@@ -22,7 +22,7 @@ from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.exact.span import leading_columns
 from garkcli.frozen import Frozen, replace
 from garkcli.stepping.linear import stage_system
-from garkcli.tableau.family import Family
+from garkcli.tableau.family import Family, reducing
 from garkcli.tableau.tableau import Tableau
 
 
@@ -61,12 +61,12 @@ def fewest(
     as a form in the old parameters.
 
     Args:
-        family: its coefficients are polynomials in several parameters.
+        family: its coefficients are polynomials in several parameters and roots of numbers.
         tableau: of the family or made of it; its step counts.
         fields: y ↦ L^m y for each colour, rational.
     """
     names = family.parameters
-    pivots, directions = _directions(tableau, family.ring, fields)
+    pivots, directions = _directions(tableau, family, fields)
     pivots, directions = pivots[: len(names) - 1], directions[: len(names) - 1]
     kept = [k for k in range(len(names)) if k not in pivots]
     forms = []
@@ -75,15 +75,20 @@ def fewest(
         forms.append(LinearForm(((names[k], fmpq(1)), *(x for x in reversed(others) if x[1]))))
     if not pivots:
         return family, forms
-    ring = Parameters([names[k] for k in kept])
+    parameters = tuple(names[k] for k in kept)
+    ring = Parameters([*parameters, *(x.name for x in family.radicals)])
     values: dict[str, Any] = {name: fmpq(0) for name in names}
     values |= {name: ring.parameter(name) for name in ring.names}
     smaller = replace(
         family,
         tableau=member(family.tableau, family.ring, values),
         ring=ring,
-        parameters=ring.names,
-        ranges={name: family.ranges[name] for name in ring.names},
+        parameters=parameters,
+        ranges={name: family.ranges[name] for name in parameters},
+        radicals=tuple(
+            replace(x, relation=x.relation.project_to_context(ring.context))
+            for x in family.radicals
+        ),
     )
     return smaller, forms
 
@@ -113,21 +118,22 @@ def step_polynomials(
 
 
 def _directions(
-    tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
+    tableau: Tableau, family: Family, fields: Sequence[Matrix]
 ) -> tuple[list[int], list[list[fmpq]]]:
     """Pivots and a basis of the directions along which the step is constant: each has 1 at its
     pivot, a late parameter, and the others have 0 there.
     """
-    denominator, numerators = step_polynomials(tableau, ring, fields)
-    number = len(ring.names)
+    denominator, numerators = step_polynomials(tableau, family.ring, fields)
+    number = len(family.parameters)
+    modulo = reducing(["_z", *family.ring.names], family.radicals)
     slopes = []
     for numerator in numerators:
         check_time()
         changes = [
-            denominator * numerator.derivative(k + 1) - numerator * denominator.derivative(k + 1)
-            for k in range(number)
+            denominator * numerator.derivative(k) - numerator * denominator.derivative(k)
+            for k in range(1, number + 1)
         ]
-        tables = [p.to_dict() for p in changes]
+        tables = [modulo.reduced(p).to_dict() for p in changes]
         rows = [[fmpq(table.get(e, 0)) for table in tables] for e in dict.fromkeys(chain(*tables))]
         slopes += rows
     if not slopes:

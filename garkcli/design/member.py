@@ -73,8 +73,7 @@ class _At:
             return cast("fmpq", x)
         denominator = self.polynomial(x.denominator)
         if not denominator:
-            message = "a denominator is zero: no method has these values"
-            raise VanishingDenominator(message, f"it is that of {x}")
+            raise no_method(f"it is that of {x}")
         return self.polynomial(x.numerator) / denominator
 
     def polynomial(self, polynomial: fmpq_mpoly) -> Number:
@@ -91,6 +90,11 @@ class _At:
                     term = term * value
             total = total + term
         return total
+
+
+def no_method(which: str) -> VanishingDenominator:
+    """The error that values are poles."""
+    return VanishingDenominator("a denominator is zero: no method has these values", which)
 
 
 def _monomials(values: list[Number], ring: Parameters) -> list[fmpq_mpoly] | None:

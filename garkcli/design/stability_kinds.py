@@ -1,5 +1,5 @@
-"""Kinds of stability of a family of one parameter t: the curves that decide, and decisions for one
-value.
+"""Kinds of stability of a family in one or two parameters: what decides, and decisions for one
+value of a single parameter t.
 
 A-stability depends on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on the roots of Q, I-stability
 on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t; of
@@ -12,23 +12,24 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
+from typing import Any, ClassVar
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
 
+from garkcli.design.family_step import FamilyStep, Flat, family_step
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import MOST_DEGREE, TABLEAUS, Whose, member, shares_of
+from garkcli.design.member import MOST_DEGREE, TABLEAUS, Whose, member, shares_of, value_of
 from garkcli.design.solutions import Solution, solutions, value_at
-from garkcli.design.step_plane import Line, StepPlane, step_plane
 from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, between, contains, first_end, has, sign_of
 from garkcli.exact.enclosing import value
 from garkcli.exact.field import ZERO, Number, poly_of
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Parameters, fraction
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, number_of
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
@@ -39,7 +40,7 @@ from garkcli.stability.two_frequencies import (
     two_frequencies,
     unknowns_of,
 )
-from garkcli.tableau.family import OSCILLATING, Family
+from garkcli.tableau.family import OSCILLATING, Family, Radical
 from garkcli.tableau.tableau import Tableau
 
 _RIGHT = "the linear test equation does not apply: some stages do not depend on every vector field"
@@ -54,7 +55,7 @@ MOST_CONSTANT = 16
 
 
 class Members(Frozen):
-    """The methods of a family of one parameter, with numbers for the roots among its
+    """The methods of a family in one or two parameters, with numbers for the roots among its
     coefficients.
     """
 
@@ -63,11 +64,16 @@ class Members(Frozen):
 
     @property
     def critical(self) -> tuple[Polynomial, ...] | None:
-        """Polynomials between whose roots one value decides A-stability, if known."""
+        """Polynomials between whose roots one value decides, if known."""
         return None
 
-    def known(self, t: Point) -> bool | None:  # noqa: ARG002 -- slices know some
-        """Whether a value is A-stable, if known without a computation."""
+    def known(self, t: Point, is_closed: bool) -> bool | None:  # noqa: ARG002 -- slices know some
+        """Whether a value is stable, if known without a computation.
+
+        Args:
+            t: the value.
+            is_closed: whether limits of stable methods are stable.
+        """
         return None
 
     @cached_property
@@ -128,61 +134,120 @@ class Members(Frozen):
         if ideal.degree <= MOST_POINTS:
             yield from ((x, root) for x in solutions(ideal) for root in x.real)
 
-    def line(self, tableau: Tableau) -> Line:
-        """The methods along the parameter, or others made of them.
+    def flat(self, tableau: Tableau) -> Flat:
+        """The methods in the parameters, or others made of them.
 
         Raises:
             NotDecided: the field of the roots among the coefficients is too large.
         """
         if self.constants is None:
             raise NotDecided
-        return Line(tableau, self.family.ring, self.constants)
+        return Flat(tableau, self.family.ring, self.constants)
 
-    def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
+    def step(self, tableau: Tableau, fields: Sequence[Matrix]) -> FamilyStep:
         """The step of the methods for every value."""
-        return step_plane(self.line(tableau), fields)
+        return family_step(self.flat(tableau), fields)
+
+    def over(
+        self, t: Point, critical: tuple[Polynomial, ...] | None, limits: tuple[Interval, ...] | None
+    ) -> Slice:
+        """The methods in two parameters at one value of the first.
+
+        Args:
+            t: the value; an irrational one is one more root among the coefficients.
+            critical: as in ``Slice``.
+            limits: as in ``Slice``.
+        """
+        family = self.family
+        first, second = family.parameters
+        rational = t.exact if isinstance(t, RealRoot) else t
+        radicals = list(family.radicals)
+        names = [second, *(x.name for x in radicals), *[first] * (rational is None)]
+        ring = Parameters(names)
+        if rational is None:
+            assert isinstance(t, RealRoot)
+            powers = enumerate(t.polynomial.coeffs())
+            x = ring.context.gen(len(ring.names) - 1)
+            relation = sum((x**k * fmpq(a) for k, a in powers), x * 0)
+            radicals.append(Radical(first, relation, meant=t))
+        values: dict[str, Any] = {name: ring.parameter(name) for name in ring.names}
+        values.setdefault(first, rational)
+
+        def moved(polynomials: Sequence[fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
+            numbers = (value_of(p, family.ring, values) for p in polynomials)
+            return tuple(fraction(x, ring)[0] for x in numbers)
+
+        line = replace(
+            family,
+            tableau=member(family.tableau, family.ring, values),
+            ring=ring,
+            parameters=(second,),
+            ranges={second: family.ranges[second]},
+            radicals=tuple(
+                replace(x, relation=x.relation.project_to_context(ring.context)) for x in radicals
+            ),
+            relations=moved(family.relations),
+            nonzero=moved(family.nonzero),
+            positive=moved(family.positive),
+            not_negative=moved(family.not_negative),
+        )
+        return Slice(line, self.whose, critical, limits)
 
 
 class Slice(Members):
-    """The methods of a family of two parameters at one value of the first.
+    """The methods of a family in two parameters at one value of the first.
 
     Attributes:
         critical: polynomials that vanish where curves meet the line; None if a curve contains it.
-        limits: values whose methods are limits of A-stable ones and so A-stable themselves; between
-            curves these are all A-stable values.
+        limits: values whose methods are limits of stable ones. Where at most one curve meets the
+            line, and crosses it once, nothing changes along the curve: there these are all stable
+            values.
     """
 
     critical: tuple[Polynomial, ...] | None
     limits: tuple[Interval, ...] | None
 
-    def known(self, t: Point) -> bool | None:
+    def known(self, t: Point, is_closed: bool) -> bool | None:
         if self.limits is None:
             return None
-        if has(self.limits, t):
-            return True
-        is_between = self.critical and all(sign_of(p, t) for p in self.critical)
-        return False if is_between else None
+        is_limit = has(self.limits, t)
+        if self.critical is not None:
+            meeting = [p for p in self.critical if sign_of(p, t) == 0]
+            if not meeting or (len(meeting) == 1 and sign_of(meeting[0].derivative(), t)):
+                return is_limit
+        return True if is_closed and is_limit else None
 
 
 class StabilityKind(ABC):
     """A kind of stability of a family: the set of stable x ≥ 0 of each method, which should be
-    everything.
+    everything, and perhaps a condition besides, such as R(∞) = 0.
 
     Attributes:
         members: the methods.
-        plane: the step of the family.
-        signs: polynomials in x and t: if one is negative the method is not stable at x.
-        critical: polynomials between whose roots one t decides.
-        essential: polynomials; at their zeros a limit of stable methods may be unstable.
+        step: the step of the family.
+        signs: polynomials in x and the parameters: if one is negative the method is not stable at
+            x.
+        narrowing: polynomials in the parameters whose zeros decide the condition besides.
         greatest: the bound on x; None if there is none.
+        is_closed: whether limits of stable methods are stable.
     """
 
     members: Members
-    plane: StepPlane
+    step: FamilyStep
     signs: list[fmpq_mpoly]
-    critical: list[Polynomial]
-    essential: list[Polynomial]
+    narrowing: list[fmpq_mpoly]
     greatest: fmpq | None = None
+    is_closed: ClassVar[bool] = False
+
+    @property
+    @abstractmethod
+    def deciding(self) -> list[fmpq_mpoly]:
+        """Polynomials in the parameters between whose zeros one method decides."""
+
+    @property
+    def essential(self) -> list[fmpq_mpoly]:
+        """Polynomials in t; at their zeros a limit of stable methods may be unstable."""
+        return []
 
     @abstractmethod
     def holds(self, tableau: Tableau) -> bool:
@@ -191,6 +256,10 @@ class StabilityKind(ABC):
     @abstractmethod
     def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
         """The x ≥ 0 at which a method is stable, by the engine for one method."""
+
+    def keeps(self, t: Point) -> bool:
+        """Whether a value meets the condition besides: the narrowing polynomials vanish."""
+        return all(sign_of(self.step.in_t(p), t) == 0 for p in self.narrowing)
 
     def decide(self, t: Point) -> bool:
         """Whether the method at a value has it; False if there is no method.
@@ -214,7 +283,7 @@ class StabilityKind(ABC):
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         """Polynomials in t: if one is negative the method is not stable at x."""
-        return [self.plane.at_y(p, x) for p in self.signs]
+        return [self.step.at_y(p, x) for p in self.signs]
 
 
 def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
@@ -238,27 +307,34 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
 
 
 class AStability(StabilityKind):
-    """|R(z)| ≤ 1 for Re z ≤ 0, with λ for all colours or for one alone."""
+    """|R(z)| ≤ 1 for Re z ≤ 0, with λ for all colours or for one alone; of L-stability R(∞) = 0
+    besides.
+    """
 
-    def __init__(self, members: Members, tableau: Tableau, colour: int | None = None) -> None:
+    is_closed = True  # |P| ≤ |Q| on the left half plane, with continuous coefficients
+
+    def __init__(
+        self, members: Members, tableau: Tableau, colour: int | None = None, is_damped: bool = False
+    ) -> None:
         self.shares = shares_of(tableau, colour)
         fields = driven(tableau, "a-stable", colour)
         self.members = members
-        self.plane = members.plane(tableau, fields)
-        self.Q = self.plane.denominator
-        self.P = self.plane.numerators[0][0]
+        self.step = members.step(tableau, fields)
+        self.Q = self.step.denominator
+        self.P = self.step.numerators[0][0]
         self.signs = [squared_modulus(self.Q) - squared_modulus(self.P)]
-        u, v = real_and_imaginary(self.Q)
-        self.essential = []
+        coefficients = self.step.coefficients
+        self.narrowing = [*coefficients(self.P), *coefficients(self.Q)] if is_damped else []
+
+    @property
+    def deciding(self) -> list[fmpq_mpoly]:
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        self.critical = list(members.critical or ())
-        if members.critical is None:
-            self.critical = [
-                *self.plane.projected(self.signs, [ZERO]),
-                *(self.plane.in_t(projection.leading(p)) for p in (self.Q, self.P)),
-                *self.plane.meeting(u, v),
-                *self.plane.meeting(self.P, self.Q),
-            ]
+        return [
+            *self.step.seen(self.signs, [ZERO]),
+            *map(projection.leading, (self.Q, self.P)),
+            *self.step.meeting(*real_and_imaginary(self.Q)),
+            *self.step.meeting(self.P, self.Q),
+        ]
 
     def holds(self, tableau: Tableau) -> bool:
         return is_a_stable(stability_function(tableau, self.shares))
@@ -270,7 +346,7 @@ class AStability(StabilityKind):
         """Whether |P| > |Q| is proved at one of a few z with Re z ≤ 0."""
         with ctx.workprec(BITS):
             P, Q = (
-                [a.enclosed_at(t.ball(BITS)) for a in self.plane.coefficients(p)]
+                [self.step.in_t(a).enclosed_at(t.ball(BITS)) for a in self.step.coefficients(p)]
                 for p in (self.P, self.Q)
             )
             sizes = [arb(0), *(arb(fmpq(4) ** k) for k in range(-6, 7))]
@@ -281,26 +357,54 @@ class AStability(StabilityKind):
                 points += [z.mid() for z in near if z.real < 0]
             return any(abs(value(P, z)) > abs(value(Q, z)) for z in points)
 
-    def is_damped(self, t: Point) -> bool:
-        """Whether R(∞) = 0; a common factor of P and Q lowers both degrees equally."""
-        return self._degree_at(self.P, t) < self._degree_at(self.Q, t)
+    def keeps(self, t: Point) -> bool:
+        """Whether R(∞) = 0 if wanted; a common factor of P and Q lowers both degrees equally."""
+        return not self.narrowing or self._degree_at(self.P, t) < self._degree_at(self.Q, t)
 
     def _degree_at(self, p: fmpq_mpoly, t: Point) -> int:
-        coefficients = self.plane.coefficients(p)
+        coefficients = map(self.step.in_t, self.step.coefficients(p))
         return max((k for k, a in enumerate(coefficients) if sign_of(a, t)), default=-1)
 
 
-class IStability(StabilityKind):
-    """All powers of the step matrix on the oscillator are bounded for every step size."""
+class Oscillating(StabilityKind):
+    """All powers of the step matrix on an oscillator are bounded; of P-stability det M = 1 besides.
 
-    def __init__(self, members: Members, tableau: Tableau) -> None:
+    Attributes:
+        poles: the denominator of the step, in x and the parameters.
+        others: further polynomials whose zeros count.
+    """
+
+    poles: fmpq_mpoly
+    others: list[fmpq_mpoly]
+
+    @property
+    def ends(self) -> list[fmpq]:
+        """The ends of the x."""
+        return [x for x in (ZERO, self.greatest) if x is not None]
+
+    @property
+    def deciding(self) -> list[fmpq_mpoly]:
+        return self.step.seen([*self.signs, *self.others], self.ends)
+
+    @property
+    def essential(self) -> list[fmpq_mpoly]:
+        return self.step.seen([self.poles, *self.signs], self.ends)
+
+    def narrowed(self, is_conservative: bool) -> list[fmpq_mpoly]:
+        """The coefficients of 1 − det M, times D², if they are wanted to vanish."""
+        return self.step.coefficients(self.signs[0]) if is_conservative else []
+
+
+class IStability(Oscillating):
+    """I- and P-stability for every step size on the oscillator."""
+
+    def __init__(self, members: Members, tableau: Tableau, is_conservative: bool = False) -> None:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        self.plane = members.plane(tableau, driven(tableau, "i-stable"))
-        self.signs, others = oscillator_curves(self.plane)
-        poles = in_square(self.plane.denominator)
-        self.essential = self.plane.projected([poles, *self.signs], [ZERO])
-        self.critical = self.plane.projected([*self.signs, *others], [ZERO])
+        self.step = members.step(tableau, driven(tableau, "i-stable"))
+        self.signs, self.others = oscillator_curves(self.step)
+        self.poles = in_square(self.step.denominator)
+        self.narrowing = self.narrowed(is_conservative)
 
     def holds(self, tableau: Tableau) -> bool:
         return oscillator_stability(tableau, self.problem).is_i_stable
@@ -309,15 +413,15 @@ class IStability(StabilityKind):
         return oscillator_stability(tableau, self.problem).stable
 
 
-def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
+def oscillator_curves(step: FamilyStep) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
     """The curves that decide on the oscillator, in x = z² and t.
 
     Returns:
         conditions on the eigenvalues, not negative if these are bounded; and the denominator, the
             trace, the determinant and the off-diagonal entries, whose zeros count.
     """
-    D = plane.denominator
-    (a, b), (c, d) = plane.numerators
+    D = step.denominator
+    (a, b), (c, d) = step.numerators
     # b and c are odd in z, all others even
     z, *_ = D.context().gens()
     others = [D, a + d, a * d - b * c, z * b, z * c]
@@ -377,28 +481,28 @@ class TwoSprings(Frozen):
     greatest: fmpq | None = None
 
 
-class SpringStability(StabilityKind):
-    """All powers of the step matrix on a slow and a fast spring are bounded for all fast
-    frequencies: at one slow frequency the step is a function of x = (hω_f)² and t.
+class SpringStability(Oscillating):
+    """I- and P-stability on a slow and a fast spring for all fast frequencies: at one slow
+    frequency the step is a function of x = (hω_f)² and the parameters.
     """
 
-    def __init__(self, members: Members, tableau: Tableau, wanted: TwoSprings) -> None:
+    def __init__(
+        self, members: Members, tableau: Tableau, wanted: TwoSprings, is_conservative: bool = False
+    ) -> None:
         self.members = members
         self.greatest = wanted.greatest
         self.slow = wanted.slow
         split = self.split = springs(tableau, wanted.fast)
-        self.plane = StepPlane.of(
-            members.line(tableau),
+        self.step = FamilyStep.of(
+            members.flat(tableau),
             unknowns_of(tableau, split),
             lambda method: line_of_determinants(method, split, wanted.slow),
         )
-        D = self.plane.denominator
-        (a, b), (c, d) = self.plane.numerators
+        D = self.poles = self.step.denominator
+        (a, b), (c, d) = self.step.numerators
         self.signs = eigenvalue_conditions(D, a, b, c, d)
-        ends = [x for x in (ZERO, wanted.greatest) if x is not None]
-        self.essential = self.plane.projected([D, *self.signs], ends)
-        deciding = [*self.signs, D, a + d, a * d - b * c, b, c]
-        self.critical = self.plane.projected(deciding, ends)
+        self.others = [D, a + d, a * d - b * c, b, c]
+        self.narrowing = self.narrowed(is_conservative)
 
     def holds(self, tableau: Tableau) -> bool:
         stable = self.stable(tableau)

@@ -16,6 +16,7 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, checked
+from garkcli.design.family_step import FamilyStep, Flat
 from garkcli.design.fewer import step_polynomials
 from garkcli.design.member import (
     MOST_DEGREE,
@@ -40,9 +41,10 @@ from garkcli.design.parts import (
 )
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.stability_kinds import Members, driven
-from garkcli.design.stable_values import StableValues, stable_values
-from garkcli.design.step_plane import Line, StepPlane
+from garkcli.design.stable_set import stable_set
+from garkcli.design.stable_values import StableValues
 from garkcli.errors import NotDecided, ZeroWeight
+from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, between, ends_of, has, sign_of, where
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
@@ -203,10 +205,10 @@ class _PartLine:
         members = self.members
         if self.root is None:
             kind: Any = self.wanted.kind
-            stable_values_found = stable_values(
+            values = stable_set(
                 members.in_coordinate, kind, self.whose, colour=self.wanted.colour, members=members
             )
-            return stable_values_found.found, stable_values_found.undecided
+            return values.found, values.undecided
         stable, undecided = [], []
         for t, _ in real_roots(in_one(self.root)):
             if number_of(t, MOST_DEGREE) is None:
@@ -326,11 +328,12 @@ class PartMembers(Members):
                 )
         raise NotDecided
 
-    def line(self, tableau: Tableau) -> Line:
-        return Line(tableau, Parameters([self.name]))
+    def flat(self, tableau: Tableau) -> Flat:
+        return Flat(tableau, Parameters([self.name]))
 
-    def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
-        return replace(super().plane(tableau, fields), poles=self.poles)
+    def step(self, tableau: Tableau, fields: Sequence[Matrix]) -> FamilyStep:
+        poles = (projection.across(p.coefficients) for p in self.poles)
+        return replace(super().step(tableau, fields), poles=tuple(poles))
 
     def _with(self, value: Any, others: Sequence[fmpq]) -> dict[str, Any]:
         names = [name for name in self.part.ring.names if name != self.name]
@@ -404,10 +407,10 @@ def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, .
     """
     together = []
     for place, same in enumerate(zip(*(x.kinds for x in parts), strict=True)):
-        name = same[0].parameter
+        [name] = same[0].names
         ranged = {key for key, ends in family.ranges.items() if ends != (None, None)} - {name}
         is_apart = bool(ranged or family.positive or family.not_negative)
-        if {x.parameter for x in same} != {name}:
+        if {x.names for x in same} != {(name,)}:
             return ()
         start, end = (
             None if x is None else RealRoot.rational(x)

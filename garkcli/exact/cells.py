@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from flint import ctx, fmpq
 
@@ -18,6 +18,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
 from garkcli.frozen import Frozen
 
+T = TypeVar("T")
 Point: TypeAlias = fmpq | RealRoot
 """A number at which polynomials have signs."""
 
@@ -85,22 +86,51 @@ def where(
     left = None if start is None else RealRoot.rational(start)
     if left is not None:
         roots = [left, *(root for root in roots if root > left)]
-    intervals: list[Interval] = []
-    grown: Interval | None = None
-    for cell in _cells(roots, left is not None):
+    found = pieces(holds, lambda t, *_: holds(t), roots, left is not None)
+    return tuple(cell for cell, is_in in found if is_in)
+
+
+def pieces(
+    inside: Callable[[fmpq], T],
+    at: Callable[[RealRoot, T | None, T], T],
+    roots: Sequence[RealRoot],
+    is_bounded: bool = False,
+) -> list[tuple[Interval, T]]:
+    """A function that is constant between numbers: the intervals of equal values, from left to
+    right.
+
+    Args:
+        inside: its value at a rational number between two of them.
+        at: its value at one of them, also given those to the left and to the right; None if there
+            is nothing to the left.
+        roots: the numbers, in ascending order.
+        is_bounded: whether it begins at the first of them.
+    """
+    opened: list[Interval] = [
+        Interval(left, right) for left, right in pairwise([None, *roots, None])
+    ]
+    values: list[T | None] = []
+    for k, cell in enumerate(opened):
         check_time()
-        # a point of the cell: itself, or a rational number with a small denominator
-        first = cell.start
-        if holds(first if first is not None and cell.is_point else between(first, cell.end)):
-            if grown is not None:  # the cell is next to it
-                cell = Interval(grown.start, cell.end, grown.has_start, cell.has_end)
-            grown = cell
-        elif grown is not None:
-            intervals.append(grown)
-            grown = None
-    if grown is not None:
-        intervals.append(grown)
-    return tuple(intervals)
+        is_outside = is_bounded and not k
+        values.append(None if is_outside else inside(between(cell.start, cell.end)))
+    joined: list[tuple[Interval, T]] = []
+
+    def add(cell: Interval, value: T) -> None:
+        if joined and joined[-1][1] == value:  # the cell is next to it
+            grown = joined.pop()[0]
+            cell = Interval(grown.start, cell.end, grown.has_start, cell.has_end)
+        joined.append((cell, value))
+
+    for k, (cell, value) in enumerate(zip(opened, values, strict=True)):
+        if value is None:
+            continue
+        if k:
+            t = roots[k - 1]
+            check_time()
+            add(Interval(t, t, has_start=True, has_end=True), at(t, values[k - 1], value))
+        add(cell, value)
+    return joined
 
 
 def roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
@@ -110,16 +140,6 @@ def roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
         if p:
             roots.update(root for root, _ in real_roots(p))
     return sorted(roots)
-
-
-def _cells(roots: Sequence[RealRoot], is_bounded: bool) -> Iterator[Interval]:
-    """The open intervals and points between and at the roots, from left to right."""
-    ends: list[RealRoot | None] = [*roots, None]
-    if not is_bounded:
-        yield Interval(None, ends[0])
-    for root, following in zip(roots, ends[1:], strict=True):
-        yield Interval(root, root, has_start=True, has_end=True)
-        yield Interval(root, following)
 
 
 def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:

@@ -8,10 +8,11 @@ Collins 1975). Between two such t every sign in the plane is that of one sample.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
 from math import prod
 from operator import methodcaller
+from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -105,8 +106,12 @@ def _without(
 
 def of_root(t: RealRoot) -> fmpq_mpoly:
     """The polynomial of an algebraic number, in the variable t of the plane."""
-    powers = enumerate(t.polynomial.coeffs())
-    return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
+    return across(t.polynomial.coeffs())
+
+
+def across(coefficients: Iterable[Any]) -> fmpq_mpoly:
+    """The polynomial in the variable t of the plane with these rational coefficients."""
+    return PLANE.from_dict({(0, k): fmpq(a) for k, a in enumerate(coefficients) if a})
 
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:

@@ -18,7 +18,6 @@ from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
 from garkcli.exact.parametric import (
     Parameters,
     Parametric,
-    Rule,
     fraction,
     terms_of_power,
     terms_of_product,
@@ -29,7 +28,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
 from garkcli.methodfile.numbers import Coefficient, Free, Numbers
 from garkcli.methodfile.values import Values
-from garkcli.tableau.family import Radical
+from garkcli.tableau.family import Radical, reducing
 from garkcli.tableau.tableau import Method, Tableau
 
 MAX_DEGREE = 200
@@ -70,17 +69,7 @@ class FamilyValues(Values):
             return tableau
         from garkcli.design.member import member  # few files have such roots
 
-        ring = Parameters(self.domain.ring.names)
-        rules = []
-        for radical in self.domain.radicals:
-            place, relation = ring.names.index(radical.name), radical.relation
-            degree = int(relation.degrees()[place])
-            power = ring.context.gen(place) ** degree
-            leading = relation[power.monoms()[0]]
-            rest = power - relation / leading if leading else power
-            if rest.degrees()[place] < degree:  # no parameter is in a denominator of the radicand
-                rules.append(Rule(place, degree, rest))
-        ring.rules = tuple(rules)
+        ring = reducing(self.domain.ring.names, self.domain.radicals)
         values: Any = {name: ring.parameter(name) for name in ring.names}
         return member(tableau, ring, values)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.api.calls import find_stability
 from garkcli.api.files import path_of
 from garkcli.convergence.result import Convergence
-from garkcli.design.stable_plane import StablePlane
+from garkcli.design.stable_values import StableValues
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
 from garkcli.plots.convergence import errors_scene
@@ -30,7 +30,7 @@ _CURE = "give what converge, long_run, find_stability, run_sweep or stable_value
 
 
 def plot(
-    *results: Convergence | LongRun | Stability | StablePlane | SweepReport,
+    *results: Convergence | LongRun | Stability | StableValues | SweepReport,
     path: str | os.PathLike[str] | None = None,
     names: Sequence[str] = (),
     against: str = "h",
@@ -98,7 +98,7 @@ def _scene(
     (result,) = results
     if isinstance(result, LongRun):
         return energy_scene(result, names[0])
-    if isinstance(result, StablePlane):
+    if isinstance(result, StableValues) and result.is_plane:
         return stable_plane_scene(result, names[0] or result.family.name)
     if isinstance(result, SweepReport):
         if len(result.plan.pareto) < 2:

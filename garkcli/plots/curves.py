@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.design.stable_plane import End, StablePlane, Strip, StripPart
+from garkcli.design.stable_values import End, StableValues, Strip, StripPart
 from garkcli.errors import MethodError
 from garkcli.exact.cells import between
 from garkcli.exact.roots import RealRoot
@@ -181,17 +181,18 @@ _COLUMNS = 120
 """The number of values of the first parameter at which a strip is drawn."""
 
 
-def stable_plane_scene(values: StablePlane, title: str) -> Scene:
-    """Returns the set near the ends of its strips."""
-    x_name, y_name = values.family.ring.names
-    ends = [x for strip in values.strips for x in (strip.base.start, strip.base.end)]
+def stable_plane_scene(values: StableValues, title: str) -> Scene:
+    """Returns the set of two parameters near the ends of its strips."""
+    x_name, y_name = values.names
+    wanted = str(values.stability)
+    ends = [x for strip in values.strips for x in (strip.start, strip.end)]
     x = Axis.around(x_name, _widened([float(end) for end in ends if end is not None]))
     heights = [
         float(end)
         for strip in values.strips
-        if not strip.base.is_point
+        if not strip.is_point
         for part in strip.parts
-        for over in [part.over(RealRoot.rational(between(strip.base.start, strip.base.end)))]
+        for over in [part.over(RealRoot.rational(between(strip.start, strip.end)))]
         if over is not None
         for end in (over.start, over.end)
         if end is not None
@@ -199,15 +200,15 @@ def stable_plane_scene(values: StablePlane, title: str) -> Scene:
     y = Axis.around(y_name, _widened(heights))
     shapes = [_shape(strip, part, x, y) for strip in values.strips for part in strip.parts]
     panel = Panel(
-        "A-stability",
-        f"The values of {x_name} and {y_name} for which the method is A-stable.",
+        wanted.replace("stable", "stability"),
+        f"The values of {x_name} and {y_name} for which the method is {wanted}.",
         x,
         y,
         shapes,
         height=260,
         has_grid=True,
     )
-    return Scene(f"A-stable methods of {title}", [panel])
+    return Scene(f"{wanted} methods of {title}", [panel])
 
 
 def _widened(numbers: Sequence[float]) -> list[float]:
@@ -217,14 +218,13 @@ def _widened(numbers: Sequence[float]) -> list[float]:
 
 def _shape(strip: Strip, part: StripPart, x: Axis, y: Axis) -> Shape:
     """Returns a part over a strip: a region, or a line over a single value."""
-    base = strip.base
-    if base.is_point:
-        assert base.start is not None
-        at = float(base.start)
+    if strip.is_point:
+        assert strip.start is not None
+        at = float(strip.start)
         low, high = (_within(end, y, k) for k, end in enumerate((part.start, part.end)))
         return Curve(0, [(at, low), (at, high)])
-    left = x.low if base.start is None else max(x.low, float(base.start))
-    right = x.high if base.end is None else min(x.high, float(base.end))
+    left = x.low if strip.start is None else max(x.low, float(strip.start))
+    right = x.high if strip.end is None else min(x.high, float(strip.end))
     # beside the ends, where branches may leave
     places = [left + (right - left) * (k + 0.5) / _COLUMNS for k in range(_COLUMNS)]
     lower: list[Point] = []

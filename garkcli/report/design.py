@@ -433,8 +433,6 @@ def stable_rows(x: DesignReport, d: Plain) -> Texts:
         if last.found:  # all real ones, each with its verdict
             return []
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
-        if (last.kind, kinds, len(family.parameters)) == ("every-value", "A-stable", 2):
-            text += ", or ask by --a-stable without --order"
         if last.has_methods is False:
             text = f"{kinds}: no real value of order {last.order} that the file admits"
         return [("stable", d.prose(text))]

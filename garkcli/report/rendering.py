@@ -38,7 +38,6 @@ TOLD_BY = {
     "design.Design": "design",
     "design.DesignWithin": "design_within",
     "design.Minimum": "design",
-    "design.StablePlane": "stable_plane",
     "design.StableValues": "stable_values",
     "longtime.LongRun": "energy",
     "sweep.SweepReport": "sweep",

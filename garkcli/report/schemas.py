@@ -35,7 +35,6 @@ REPORTS = {
     "design-curve": "garkcli.report.design_curve:REPORT",
     "design-stability": "garkcli.report.stable_values:REPORT",
     "design-within": "garkcli.report.design_within:REPORT",
-    "design-plane": "garkcli.report.stable_plane:REPORT",
     "modified": "garkcli.report.modified:REPORT",
     "modified-energy": "garkcli.report.modified_energy:REPORT",
     "converge": "garkcli.report.comparison:schema",

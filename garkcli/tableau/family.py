@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from typing import Any, Self, cast
 
@@ -39,6 +39,25 @@ class Radical(Frozen):
     meant: RealRoot | None = None
     text: str = ""
     latex: str = ""
+
+
+def reducing(names: Sequence[str], radicals: Iterable[Radical]) -> Parameters:
+    """The ring of some unknowns in which powers of roots are reduced, without those whose radicand
+    has a parameter in its denominator.
+    """
+    ring = Parameters(names)
+    rules = []
+    for radical in radicals:
+        relation = radical.relation.project_to_context(ring.context)
+        place = ring.names.index(radical.name)
+        degree = int(relation.degrees()[place])
+        power = ring.context.gen(place) ** degree
+        leading = relation[power.monoms()[0]]
+        rest = power - relation / leading if leading else power
+        if rest.degrees()[place] < degree:
+            rules.append(Rule(place, degree, rest))
+    ring.rules = tuple(rules)
+    return ring
 
 
 OSCILLATING = ("p-stable", "i-stable")

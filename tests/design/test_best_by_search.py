@@ -32,7 +32,7 @@ from garkcli.design.search.goals import objective_on
 from garkcli.design.search.optimum import Optimisation, Optimum
 from garkcli.design.search.search import Search
 from garkcli.design.search.tasks import HIGHEST, Least, Missing
-from garkcli.design.stable_values import stable_values
+from garkcli.design.stable_set import stable_set
 from garkcli.errors import MethodError, MethodFileError, UsageProblem
 from garkcli.exact.display import to_ball
 from garkcli.methodfile.family import FamilyFile, with_values
@@ -622,7 +622,7 @@ def test_stability_with_the_embedded_weights(kind: str, values: list[str]) -> No
     assert found.is_embedded
     assert [str(x.start.exact) for x in found.found if x.start is not None] == values
     alone = EMBEDDED.replace("b: [1/2, 1/2]\nembedded:", "b:").split("design")[0]
-    same = stable_values(loads_family(alone), "a-stable" if kind == "a" else "l-stable")
+    same = stable_set(loads_family(alone), "a-stable" if kind == "a" else "l-stable")
     assert same.found == found.found
 
 

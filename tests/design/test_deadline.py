@@ -34,8 +34,7 @@ from garkcli.design.search.search import Search
 from garkcli.design.solutions import solutions
 from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_parts import stable_part
-from garkcli.design.stable_plane import stable_set
-from garkcli.design.stable_values import stable_values
+from garkcli.design.stable_set import stable_set
 from garkcli.design.steps import Undecided
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import apart, first_of
@@ -140,17 +139,17 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
         "critical point",
         lambda: critical_point_near([fmpq(1), fmpq(1)], [P - 1, Q - 1], [], PAIR),
     )
-    yield "stable values", lambda: stable_values(sdirk, "a-stable")
+    yield "stable values", lambda: stable_set(sdirk, "a-stable")
     two = designed("unknown: {stages: 2, shape: sdirk}\ndesign: {a-stable: true}\n", 2)
     assert two.last.ideal is not None
     [part, *_] = parts_of(two.last.ideal, kept=["gamma"])
     yield "stable parts", lambda: stable_part(two.family, "method", part)
     yield "minimise of stable methods", lambda: minimise(two, "coefficients")
-    yield "stable on the oscillator", lambda: stable_values(split.family, "p-stable")
+    yield "stable on the oscillator", lambda: stable_set(split.family, "p-stable")
     springs, of_pair = loads_family(SPRINGS), find_parameters(loads_family(TRANSFERS), 4, "pair")
     yield (
         "stable on two springs",
-        lambda: stable_values(springs, "p-stable", two_springs=TwoSprings(fmpq(1), 1)),
+        lambda: stable_set(springs, "p-stable", two_springs=TwoSprings(fmpq(1), 1)),
     )
     yield "stable in a plane", lambda: stable_set(loads_family(DIRK2), "a-stable")
     yield "stable in one combination", lambda: stable_set(loads_family(COMBINED), "a-stable")

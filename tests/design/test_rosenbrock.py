@@ -48,7 +48,7 @@ def only(found: Design) -> dict[str, Number]:
 def ends(found: Design) -> list[str]:
     """The stable values of gamma, which are single ones."""
     [values] = found.last.known.stable
-    assert values.parameter == "gamma"
+    assert values.names == ("gamma",)
     assert all(x.is_point for x in values.found)
     return [f"{float(x.start.ball(64).mid()):.10f}" for x in values.found if x.start]
 

@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.design.stability_kinds import Members, SpringStability, TwoSprings
-from garkcli.design.stable_values import StableValues, stable_values
+from garkcli.design.stable_set import stable_set
+from garkcli.design.stable_values import StableValues
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, sign_at
@@ -53,7 +54,7 @@ def small(slow: fmpq, greatest: fmpq | None) -> StableValues:
     """The set for the smallest family."""
     family = loads_family(SMALL.format("free"))
     wanted = TwoSprings(slow, 1, greatest)
-    return stable_values(family, "p-stable", "method", wanted)
+    return stable_set(family, "p-stable", "method", wanted)
 
 
 @in_whole
@@ -129,7 +130,7 @@ def test_the_transfer_without_the_first_resonance() -> None:
     end = 3 * product / slow
     for greatest, is_stable in ((end - fmpq(1, 9), True), (end, False)):
         wanted = TwoSprings(slow, 1, greatest)
-        values = stable_values(family, "p-stable", "method", wanted)
+        values = stable_set(family, "p-stable", "method", wanted)
         assert not values.undecided
         roots = [x.start for x in values.found if x.is_point and x.start]
         assert len(roots) == len(values.found) == (2 if is_stable else 0)

@@ -11,15 +11,19 @@ from flint import fmpq
 
 from garkcli import loads
 from garkcli.design.fewer import step_polynomials
-from garkcli.design.stable_plane import StablePlane, stable_set
-from garkcli.design.stable_values import StableValues
-from garkcli.exact.cells import has
+from garkcli.design.member import TABLEAUS, Whose, is_stable
+from garkcli.design.stable_set import stable_set
+from garkcli.design.stable_values import StableValues, Wanted
+from garkcli.errors import MethodFileError, ZeroWeight
+from garkcli.exact.cells import between, has
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.family import loads_family
 from garkcli.plots.curves import stable_plane_scene
 from garkcli.plots.scene import Area
 from garkcli.stability.linear import is_a_stable, real_and_imaginary, stability_function
+from garkcli.tableau.family import RequiredStability
+from garkcli.tableau.forms import on_linear_problems
 from tests.cli.harness import gark
 from tests.whole import at_most, in_whole, sample
 
@@ -32,27 +36,38 @@ BILINEAR = f"{FREE}A: [[g, d], [1/3, g*d]]\nb: [3/4, 1/4]\n"
 FULL = f"{FREE}A: [[g, d], [1/2, 1/3]]\nb: [3/4, 1/4]\n"
 
 
-def plane(text: str) -> StablePlane:
+def plane(text: str) -> StableValues:
     """The set for a family."""
     found = stable_set(loads_family(text), "a-stable")
-    assert isinstance(found, StablePlane)
+    assert found.is_plane
     return found
 
 
-def contains(values: StablePlane, g: fmpq, d: fmpq) -> bool:
+def contains(values: StableValues, g: fmpq, d: fmpq) -> bool:
     """Whether a pair of rational numbers belongs to the set."""
     root, other = RealRoot.rational(g), RealRoot.rational(d)
     for strip in values.strips:
-        if has([strip.base], root):
+        if has([strip], root):
             over = [part.over(root) for part in strip.parts]
             return any(x is not None and has([x], other) for x in over)
     return False
 
 
-def is_stable(text: str, g: fmpq, d: fmpq) -> bool:
-    """One method by the ordinary engine."""
-    method = loads(text, settings={"g": str(g), "d": str(d)})
-    return is_a_stable(stability_function(method.tableau))
+def is_single_stable(
+    text: str, g: fmpq, d: fmpq, wanted: Wanted = "a-stable", whose: Whose = "method"
+) -> bool:
+    """One method by the ordinary engine; False outside of the ranges, and where there is none."""
+    family = loads_family(text)
+    for name, x in (("g", g), ("d", d)):
+        least, greatest = family.ranges[name]
+        if (least is not None and x < least) or (greatest is not None and greatest < x):
+            return False
+    try:
+        method = loads(text, settings={"g": str(g), "d": str(d)})
+        tableau = on_linear_problems(TABLEAUS[whose](method.tableau))
+    except (MethodFileError, ZeroWeight):
+        return False
+    return is_stable(RequiredStability(wanted), tableau)
 
 
 @pytest.mark.parametrize("text", [DIRK, STIFF, SDIRK, FULL])
@@ -76,15 +91,62 @@ def test_the_step_of_a_family_is_that_of_its_members(text: str) -> None:
         assert found == [x * D(z, g, d) for x in wanted]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [DIRK, THREE, *(pytest.param(x, marks=in_whole) for x in (STIFF, SDIRK, FULL, BILINEAR))],
+ROOTS = DIRK.replace("[1/2, 1/2]", "[sqrt(2)/3, 1 - sqrt(2)/3]")
+CUBIC = DIRK.replace("[1/2, 1/2]", "['root_of(x^3 - x - 1, 1)', '1 - root_of(x^3 - x - 1, 1)']")
+POLES = f"{FREE}A: [[g, 0], [1/(d - 1), d/(g - 1)]]\nb: [1/2, 1/2]\n"
+WEIGHTS = f"{FREE}A: [[g, 0], [1/2, d]]\nb: [1 - g, g]\n"
+BOUNDED = (
+    "parameters: {g: {free: true, range: [1/5, 3/2]}, d: {free: true, range: [1/4, 2]}}\n"
+    + DIRK.removeprefix(FREE)
 )
-def test_random_and_critical_points(text: str) -> None:
+COUPLED = """parameters: {g: free, d: free}
+methods: [{family: lobatto-iiia, stages: 2}, {family: gauss, stages: 1}]
+transfer: {default: collocation, blocks: {"2,1": [[g, d]]}}
+structure: semi-separable
+"""
+PARTITIONED = """parameters: {g: free, d: free}
+prk:
+  q: {A: [[g, 0], [1/2, 1/2]], b: [1/2, 1/2]}
+  p: {A: [[1/2, 0], [d, 0]], b: [1/2, 1/2]}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted", "whose"),
+    [
+        (DIRK, "a-stable", "method"),
+        (THREE, "a-stable", "method"),
+        (SDIRK, "l-stable", "method"),
+        (ROOTS, "a-stable", "method"),
+        (BOUNDED, "l-stable", "method"),
+        (COUPLED, "p-stable", "method"),
+        *(
+            pytest.param(*x, marks=in_whole)
+            for x in (
+                (STIFF, "a-stable", "method"),
+                (STIFF, "l-stable", "method"),
+                (SDIRK, "a-stable", "method"),
+                (FULL, "a-stable", "method"),
+                (FULL, "l-stable", "method"),
+                (BILINEAR, "a-stable", "method"),
+                (ROOTS, "l-stable", "method"),
+                (CUBIC, "a-stable", "method"),
+                (POLES, "a-stable", "method"),
+                (BOUNDED, "a-stable", "method"),
+                (WEIGHTS, "a-stable", "conjugate"),
+                (COUPLED, "i-stable", "method"),
+                (PARTITIONED, "i-stable", "method"),
+                (PARTITIONED, "p-stable", "method"),
+            )
+        ),
+    ],
+)
+def test_random_and_critical_points(text: str, wanted: Wanted, whose: Whose) -> None:
     """Rational points on a grid, at random, and beside the ends over some g: in the set exactly
-    where the single method is A-stable.
+    where the single method is stable.
     """
-    values = plane(text)
+    values = stable_set(loads_family(text).on_linear_problems, wanted, whose)
+    assert values.is_plane
     assert values.undecided == ()
     dice = Random(1)
     points = [
@@ -94,9 +156,11 @@ def test_random_and_critical_points(text: str) -> None:
         (fmpq(dice.randint(-20, 40), 13), fmpq(dice.randint(-30, 60), 17))
         for _ in range(at_most(10, 60))
     ]
-    for g in (fmpq(-1), fmpq(1, 8), fmpq(1, 3), fmpq(3, 4), fmpq(6)):
+    ends = [x.start.exact for x in values.strips if x.start is not None and x.start.exact]
+    inside = [between(x.start, x.end) for x in values.strips if not x.is_point]
+    for g in (fmpq(-1), fmpq(1, 8), fmpq(1, 3), fmpq(3, 4), fmpq(6), *ends, *inside):
         for strip in values.strips:
-            if has([strip.base], RealRoot.rational(g)):
+            if has([strip], RealRoot.rational(g)):
                 for part in strip.parts:
                     x = part.over(RealRoot.rational(g))
                     assert x is not None
@@ -108,8 +172,8 @@ def test_random_and_critical_points(text: str) -> None:
                                 for shift in (-fmpq(1, 10**4), 0, fmpq(1, 10**4))
                                 if shift or end.exact
                             ]
-    found = [is_stable(text, g, d) for g, d in points]
-    assert {*found} == {True, False}
+    found = [is_single_stable(text, g, d, wanted, whose) for g, d in points]
+    assert {*found} == {True, False} or not values.strips
     assert [contains(values, g, d) for g, d in points] == found
 
 
@@ -125,7 +189,7 @@ def test_the_report() -> None:
         "  1 < g        (g - 1)/(4*g - 2) ≤ d",
     ]
     data = json.loads(gark("design", "-", "--a-stable", "--format", "json", stdin=DIRK).out)
-    (part,) = data["strips"][0]["parts"]
+    (part,) = data["set"][0]["parts"]
     assert part["to"] == {
         "function": "(g - 1)/(4*g - 2)",
         "curve": "4*g*d - g - 2*d + 1",
@@ -135,13 +199,40 @@ def test_the_report() -> None:
     assert "g ≤ 0          d = root 2 in d of -2*g*d + 2*g + 2*d^2 - d" in text
 
 
-@in_whole
-def test_the_plane_is_named_where_order_leaves_it_open() -> None:
-    """With an order that every value has, the cure is to ask without it."""
-    text = f"{FREE}A: [[g, 0], [1 - d, d]]\nb: [1/2, 1/2]\n"
-    run = gark("design", "-", "--order", "1", "--a-stable", stdin=text)
-    assert "by --a-stable without --order" in " ".join(run.out.split())
-    assert gark("design", "-", "--a-stable", stdin=text).code == 0
+def test_the_plane_beside_an_order() -> None:
+    """With an order that every value has, the set is that without it."""
+    asked = gark("design", "-", "--order", "1", "--a-stable", "--format", "json", stdin=DIRK)
+    alone = gark("design", "-", "--a-stable", "--format", "json", stdin=DIRK)
+    assert asked.code == alone.code == 0
+    [stable] = json.loads(asked.out)["stable"]
+    assert stable["set"] == json.loads(alone.out)["set"]
+    text = gark("design", "-", "--order", "1", "--a-stable", stdin=DIRK).out
+    assert "A-stable for exactly these g and d" in " ".join(text.split())
+    assert "1 < g        (g - 1)/(4*g - 2) ≤ d" in text
+
+
+def test_a_root_set_beside_two_parameters() -> None:
+    """A number that --set makes irrational is one among the coefficients: R depends on it, and the
+    first strip begins at a number of its field.
+    """
+    text = DIRK.replace("d: free}", "d: free, s: free}").replace("[1/2, 1/2]", "[s, 1 - s]")
+    run = gark("design", "-", "--a-stable", "--set", "s=sqrt(2)/3", stdin=text)
+    assert run.code == 0
+    assert "1 - 3*sqrt(2)/4 ≤ g ≤ 0  d = root 1 in d of -2*g^2 + 4*g" in run.out
+
+
+def test_two_linear_forms_of_three_parameters() -> None:
+    """R depends on t + v and u: with v = 0 the set is that of t and u, and the ends are told in the
+    forms.
+    """
+    text = "parameters: {t: free, u: free, v: free}\nA: [[t + v, 0], [u, t + v]]\nb: [1/2, 1/2]\n"
+    values = stable_set(loads_family(text), "l-stable")
+    assert values.names == ("t + v", "u")
+    fixed = stable_set(loads_family(text, settings={"v": "0"}), "l-stable")
+    assert values.found == fixed.found
+    run = gark("design", "-", "--l-stable", stdin=text)
+    assert "for exactly these t + v and u\n" in run.out
+    assert "u = -2*(t + v)^2 + 2*(t + v)" in run.out
 
 
 def test_no_values_and_explicit_methods() -> None:
@@ -161,7 +252,7 @@ def test_single_irrational_points() -> None:
     """
     values = plane(IRRATIONAL)
     assert values.undecided == ()
-    points = [(strip.base, part) for strip in values.strips for part in strip.parts]
+    points = [(strip, part) for strip in values.strips for part in strip.parts]
     assert len(points) == 2
     for sign, (base, part) in zip((-1, 1), points, strict=True):
         assert base.is_point
@@ -198,7 +289,7 @@ def test_an_irrational_value_beside_a_free_parameter(
     assert line.undecided == ()
     [root] = [x for x, _ in real_roots(p) if abs(float(x) - near) < 1e-9]
     values = plane(text)
-    over = [x.over(root) for s in values.strips if has([s.base], root) for x in s.parts]
+    over = [x.over(root) for s in values.strips if has([s], root) for x in s.parts]
     assert list(line.found) == over
     for d in (fmpq(-1), fmpq(1, 8), fmpq(1, 2), fmpq(7, 5), fmpq(4)):
         method = loads(text, settings={"g": g, "d": str(d)})
@@ -221,10 +312,10 @@ def test_a_curve_past_critical_values_of_degree_8() -> None:
     values = plane(CIRCLE)
     assert values.undecided == ()
     [strip] = values.strips
-    assert strip.base.start is not None
-    assert strip.base.end is not None
-    assert strip.base.start.exact == 1
-    assert float(strip.base.end) == pytest.approx(4.95013386925)
+    assert strip.start is not None
+    assert strip.end is not None
+    assert strip.start.exact == 1
+    assert float(strip.end) == pytest.approx(4.95013386925)
     [part] = strip.parts
     assert part.start == part.end
 
@@ -235,7 +326,7 @@ def test_curves_that_cross_at_irrational_points() -> None:
     the strips beside it are one: no end of a strip is irrational here.
     """
     for text in sample([DIRK, STIFF, SDIRK], 3):
-        ends = [x for strip in plane(text).strips for x in (strip.base.start, strip.base.end)]
+        ends = [x for strip in plane(text).strips for x in (strip.start, strip.end)]
         assert all(x is None or x.exact is not None for x in ends)
 
 

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import loads, pair
-from garkcli.design.stable_plane import stable_set
-from garkcli.design.stable_values import StableValues, Wanted, stable_values
+from garkcli.design.stable_set import stable_set
+from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
@@ -244,9 +244,11 @@ def test_as_a_command(tmp_path: Path) -> None:
     assert (one.code, "not A-stable, which is wanted" in one.out) == (1, True)
     both = gark("design", str(path), "--a-stable", "--emit", str(path) + "x")
     assert (both.code, "use one" in both.err) == (2, True)
-    path.write_text("parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8")
+    path.write_text(
+        "parameters: {t: free, u: free, v: free}\nA: [[t + v^2]]\nb: [u]\n", encoding="utf-8"
+    )
     two = gark("design", str(path), "--l-stable")
-    assert (two.code, "--set u=1/2" in two.err) == (2, True)
+    assert (two.code, "--set v=1/2" in two.err) == (2, True)
     path.write_text("parameters: {t: free}\nA: [[sqrt(t)]]\nb: [1]\n", encoding="utf-8")
     roots = gark("design", str(path), "--a-stable")
     assert (roots.code, "roots among the coefficients" in roots.err) == (2, True)
@@ -390,7 +392,7 @@ def test_one_colour_of_several(
         both = both.replace("b: [1/2, 1/2]", "b: [1, 1]")
         assert texts(found(IMEX, "a-stable")) == texts(found(both, "a-stable"))
         return
-    values = stable_values(loads_family(IMEX), "a-stable", colour=int(options[1]) - 1)
+    values = stable_set(loads_family(IMEX), "a-stable", colour=int(options[1]) - 1)
     assert texts(values) == (texts(found(alone, "a-stable")) if known else [])
     assert run.code == (0 if known else 1)
 
@@ -456,23 +458,25 @@ def test_several_parameters_that_are_one_number(text: str, wanted: Wanted, told:
     report = gark("design", "-", f"--{wanted}", stdin=text)
     assert " ".join(report.out.split()).partition(" 1 - sqrt(2)/2 0.29")[0].endswith(told)
     values = found(text, wanted)
-    form = values.form
-    assert form is not None
+    (form,) = values.forms
     terms = dict(form.terms)
     names = values.family.parameters
     (fixed,) = [name for name in names if name != form.terms[0][0]]
     for value in (fmpq(-2), fmpq(3, 4)):
-        one = stable_values(loads_family(text, settings={fixed: str(value)}), wanted)
+        one = stable_set(loads_family(text, settings={fixed: str(value)}), wanted)
         shift = terms.get(fixed, fmpq(0)) * value
         for t in (fmpq(k, 8) for k in range(-40, 41)):
             assert contains(values, t + shift) == contains(one, t)
 
 
 def test_parameters_that_are_several_numbers() -> None:
-    """Two numbers, ranges and wishes: told to fix all parameters but one."""
+    """Three numbers: told to fix all parameters but two. Ranges and other wants are those of a set
+    in the plane: 1/4 ≤ a - 2b and b ≥ -1.
+    """
     text = "parameters: {g: free, d: free, e: free}\nA: [[g, 0], [1 - d, d]]\nb: [1 - e, e]\n"
     run = gark("design", "-", "--a-stable", stdin=text)
     assert run.code == 2
-    assert "give values to all but" in run.err
+    assert "give values to all but two" in run.err
     ranged = SUM.replace("a: free", "a: {free: true, range: [0, 1]}")
-    assert gark("design", "-", "--a-stable", stdin=ranged).code == 2
+    run = gark("design", "-", "--a-stable", stdin=ranged)
+    assert run.out.splitlines()[1:] == ["  0 ≤ a ≤ 1  b ≤ 1/2*a - 1/8"]

@@ -114,7 +114,6 @@ VALUES = (
     "design.within:ValuesWithin",
     "design.minimise.result:Minimum",
     "design.stable_values:StableValues",
-    "design.stable_plane:StablePlane",
     "design.search.run:SearchResult",
     "bridges.audit:Audited",
     "sources.found:FoundTable",

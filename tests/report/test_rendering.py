@@ -59,7 +59,7 @@ MADE: dict[str, Made] = {
         ("design", FAMILY, "--a-stable"),
         FAMILY,
     ),
-    "StablePlane": (
+    "StableValues of two parameters": (
         lambda: garkcli.stable_values(PLANE, "a-stable"),
         ("design", PLANE, "--a-stable"),
         PLANE,

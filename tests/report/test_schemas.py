@@ -92,12 +92,12 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         (FAMILY, "--order", "2", "--minimise", "error"),
     ],
     "design-within": [("design", "tests/examples/families/rounded-sdirk.gark.yaml")],
-    "design-plane": [("design", PLANE, "--a-stable")],
     "design-stability": [
         ("design", FAMILY, option, *of)
         for option in ("--a-stable", "--l-stable", "--p-stable")
         for of in ((), ("--pair",))
-    ],
+    ]
+    + [("design", PLANE, "--a-stable")],
     "import": [("tests/bridges/sources",)],
     "audit": [("tests/bridges/sources",), ("tests/bridges/texts",)],
     "sweep": [("tests/examples/sweeps/small.yaml", "--rows", os.devnull)],

@@ -8,6 +8,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
+from garkcli.design.family_step import Flat, family_step
 from garkcli.design.minimise.measures import MEASURES
 from garkcli.design.minimise.objective import (
     Either,
@@ -26,7 +27,6 @@ from garkcli.design.minimise.squared_error import (
     squared_error,
 )
 from garkcli.design.stability_kinds import oscillator_curves, squared_modulus
-from garkcli.design.step_plane import Line, over_line, step_plane
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import first_end
 from garkcli.exact.field import ONE
@@ -62,7 +62,7 @@ def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, f
     refuse_partitioned(tableau)
     tableau = on_linear_problems(tableau)
     fields: list[Matrix] = [((ONE,),)] * tableau.size
-    plane = step_plane(Line(tableau, ring), fields)
+    plane = family_step(Flat(tableau, ring), fields)
     return plane.numerators[0][0], plane.denominator
 
 
@@ -173,7 +173,7 @@ def _ssp_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
         message = "-ssp: families by name have no rational entries"
         raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
     size = 2 + sum(space.stages for space in tableau.spaces)
-    return LevelSigns([p for p in over_line(Line(tableau, ring), size, conditions_at) if p])
+    return LevelSigns([p for p in Flat(tableau, ring).polynomials(size, conditions_at) if p])
 
 
 def _real(tableau: Tableau) -> Size:
@@ -220,7 +220,7 @@ def _oscillator_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
     """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
     problem = oscillator_of(tableau)
     fields = [problem.matrix(colour) for colour in tableau.colours]
-    conditions, others = oscillator_curves(step_plane(Line(tableau, ring), fields))
+    conditions, others = oscillator_curves(family_step(Flat(tableau, ring), fields))
     poles, _, _, upper, lower = others
     return LevelSigns(
         [poles, *conditions, upper, lower], _is_bounded, is_closed=False, common=others
