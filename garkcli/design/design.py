@@ -9,7 +9,7 @@ from functools import partial
 from time import monotonic
 from typing import Any, cast, get_args
 
-from flint import fmpq_mpoly, fmpz_mpoly
+from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.conditions import FamilyCondition, FamilyConditions
@@ -194,7 +194,8 @@ class _Finding(Frozen):
             step: Step
             try:
                 with until(first):
-                    step = self._step(k, steps[-1].ideal if steps else None)
+                    lower = steps[-1] if steps else None
+                    step = self._none_of(k, lower) or self._step(k, lower.ideal if lower else None)
             except NotDecided as error:
                 step = Undecided(wanted or k, None, error.is_late)
                 if first is not None:
@@ -207,6 +208,25 @@ class _Finding(Frozen):
             if not steps[-1].may_have_methods or step.order == wanted:
                 break
         return _with_lower(steps)
+
+    def _none_of(self, order: int, lower: Step | None) -> NoValue | None:
+        """The answer that none of finitely many values has one order more; None for another.
+
+        Raises:
+            NotDecided: the time limit has passed.
+        """
+        if not isinstance(lower, Solutions) or self.criterion is not None or not lower.is_all:
+            return None
+        left = [x.solution.values for x in lower.found]
+        if not left or any(x.order is None or x.order.order >= order for x in lower.found):
+            return None
+        for condition in self.conditions.of_order(order):
+            polynomial = condition.polynomial
+            left = [x for x in left if not value_of(polynomial, self.family.ring, x)]
+            if not left:
+                nothing = self._start().with_zeros([self.family.ring.constant(fmpq(1))])
+                return NoValue(order, nothing, witness=condition.tree)
+        return None
 
     def _start(self) -> Ideal:
         """The ideal of the equations for all parameters."""

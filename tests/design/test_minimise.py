@@ -926,7 +926,7 @@ tableau:
     [
         ("g", "h", "", "all", lambda g, h: (g, h)),
         ("g - 1", "h^3 + g^2", "", "all", lambda g, h: (g - 1, h**3 + g * g)),
-        ("g", "g*h", "", "critical-points", lambda g, h: (g, g * h)),
+        ("g", "g*h", "", "all", lambda g, h: (g, g * h)),
         (
             "g",
             "h",
@@ -943,8 +943,7 @@ def test_a_sum_of_squares_over_a_closed_curve(
     extent: str,
     entries: Callable[[float, float], tuple[float, float]],
 ) -> None:
-    """Order 1 asks for the circle of radius 1 about (2, 1). Where g and h are bounded as the sum
-    is, and all limits are methods, the least critical point is the minimum; a grid of the circle
+    """Order 1 asks for the circle of radius 1 about (2, 1), which bounds g and h. Where all limits are methods, the least critical point is the minimum; a grid of the circle
     has none less.
     """
     text = CIRCLE.format(first, second) + further
@@ -971,3 +970,17 @@ def test_the_help_names_every_objective() -> None:
     text = gark("design", "--help").out.partition("--minimise WHAT")[2].partition("--choose")[0]
     words = set(re.findall(r"[\w-]+", re.sub(r"-\s+", "-", text)))
     assert set(OBJECTIVES) - words == set()
+
+
+def test_a_bounded_set_has_a_least_value() -> None:
+    """Order 1 is a circle: its equation bounds both unknowns, so that the smaller of two critical
+    values of the error is the least of all methods, as points of the circle in floats say.
+    """
+    minimum = least(CIRCLE.format("g", "h"), "error", 1)
+    assert (minimum.extent, root_text(minimum.value)) == ("all", "4 - sqrt(10)")
+    errors = []
+    for k in range(360):
+        g, h = 2 + cos(k * pi / 180), 1 + sin(k * pi / 180)
+        # trees of order 2: b1 (g, h) - 1/2 for both children of colour 1, -1/2 for those of colour 2
+        errors.append((g - 0.5) ** 2 + (h - 0.5) ** 2 + 2 * 0.5**2)
+    assert 0 <= min(errors) - float(minimum.value) < 1e-3

@@ -18,6 +18,7 @@ from garkcli import find_order, loads
 from garkcli.design.design import find_parameters
 from garkcli.design.groebner import leading
 from garkcli.design.ideal import Ideal
+from garkcli.design.steps import NoValue
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from garkcli.problems.draw import Draw
@@ -221,7 +222,8 @@ def test_points_without_the_unit(seed: int) -> None:
 
 def test_many_points_of_two_unknowns() -> None:
     """Order 3 of three stages whose entries have denominators: 21 solutions, three of them real;
-    elimination by weights did not end in a minute.
+    elimination by weights did not end in a minute. None of them has order 4, which the solutions
+    say, each by its certificate.
     """
     text = """
 parameters: {g: free, h: free}
@@ -232,8 +234,14 @@ A:
      -1/4, h]
 b: [0, 2*g, 1 - 2*g]
 """
-    (found,) = find_parameters(loads_family(text), 3).last.found
+    *_, third, fourth = find_parameters(loads_family(text)).steps
+    (found,) = third.found
     assert (found.solution.degree, len(found.accepted)) == (21, 3)
+    assert found.order is not None
+    assert found.order.order == 3
+    assert found.order.witness is not None
+    assert isinstance(fourth, NoValue)
+    assert fourth.witness == found.order.witness.tree
 
 
 @in_whole

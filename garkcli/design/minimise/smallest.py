@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cmp_to_key
 from itertools import combinations
 from typing import cast
 
-from flint import fmpq, fmpq_mat, fmpq_mpoly
+from flint import fmpq, fmpq_mat, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, checked, until
 from garkcli.design.critical import minors, slopes
@@ -164,26 +164,53 @@ CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 """Values of coordinates at which methods are sought."""
 
 
-def are_bounded(ring: Parameters, numbers: Iterable[object]) -> bool:
-    """Whether bounds on polynomials imply bounds on all unknowns: without the terms in unknowns
-    already bounded, one of them is a multiple of a power of the next unknown.
+def are_bounded(
+    ring: Parameters, numbers: Iterable[object], zeros: Sequence[fmpq_mpoly | fmpz_mpoly] = ()
+) -> bool:
+    """Whether bounds on numbers, and polynomials that are zero, imply bounds on all unknowns:
+    without the terms in unknowns already bounded, one of them is a multiple of a power of the next
+    unknown, or quadratic and definite in the next ones.
 
     >>> ring = Parameters(["x", "y"])
     >>> x, y = map(ring.parameter, ring.names)
     >>> are_bounded(ring, [x - 1, x * x + 2 * y]), are_bounded(ring, [x * y, y])
     (True, False)
+    >>> are_bounded(ring, [x * x + y * y - 4 * x]), are_bounded(ring, [x * x + 2 * x * y + y * y])
+    (True, False)
     """
-    polynomials = [p for p, q in (fraction(x, ring) for x in numbers) if q.is_constant()]
-    terms = [[tuple(map(int, e)) for e in p.monoms()] for p in polynomials]
+    fractions = (fraction(x, ring) for x in numbers)
+    polynomials = [*(p for p, q in fractions if q.is_constant()), *zeros]
+    tables = [{tuple(map(int, e)): fmpq(a) for e, a in p.to_dict().items()} for p in polynomials]
     bounded: set[int] = set()
     while True:
         before = len(bounded)
-        for exponents in terms:
-            left = [e for e in exponents if any(k and i not in bounded for i, k in enumerate(e))]
-            if len(left) == 1 and max(left[0]) == sum(left[0]):
-                bounded.add(left[0].index(max(left[0])))
+        for terms in tables:
+            left = {e: a for e, a in terms.items() if any(e[i] for i in {*range(len(e))} - bounded)}
+            if len(left) == 1:
+                bounded |= {i for e in left for i, k in enumerate(e) if k and k == sum(e)}
+            bounded |= _bounded_by_quadratic(left, bounded)
         if len(bounded) == before:
             return before == len(ring.names)
+
+
+def _bounded_by_quadratic(terms: Mapping[tuple[int, ...], fmpq], bounded: set[int]) -> set[int]:
+    """The unknowns of a polynomial that is quadratic in those not bounded yet, if its quadratic
+    part is definite.
+    """
+    unknowns = sorted({i for e in terms for i, k in enumerate(e) if k} - bounded)
+    second = fmpq_mat(len(unknowns), len(unknowns))
+    for e, a in terms.items():
+        powers = [(place, e[i]) for place, i in enumerate(unknowns) if e[i]]
+        degree = sum(k for _, k in powers)
+        if degree > 2 or (degree == 2 and sum(e) > 2):
+            return set()
+        if degree == 2:
+            i, j = powers[0][0], powers[-1][0]
+            second[i, j] += a
+            second[j, i] += a
+    signs = second.charpoly().coeffs()[::-1]
+    is_definite = any(all(x * sign**k > 0 for k, x in enumerate(signs)) for sign in (1, -1))
+    return set(unknowns) if is_definite else set()
 
 
 SLACK = fmpq(1, 10**9)
@@ -241,10 +268,9 @@ class Smallest(Minimisation):
         """Whether the methods with a value below any bound are in a bounded closed set: then one of
         them has the least value, and it is a critical point of its part.
         """
-        family = self.design.family
-        return self._is_closed and are_bounded(
-            family.ring, self.objective.bounded(self.design.tableau)
-        )
+        ring = self.design.family.ring
+        numbers = self.objective.bounded(self.design.tableau)
+        return self._is_closed and are_bounded(ring, numbers, self.step.polynomials)
 
     @property
     def _is_closed(self) -> bool:
