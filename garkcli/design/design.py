@@ -30,7 +30,14 @@ from garkcli.design.pairs import PairConditions, pair_conditions
 from garkcli.design.parts import Part, Pieces, diagonal_unknowns, nodes_as_coordinates, parts_of
 from garkcli.design.real_points import has_methods, has_point, without_complex
 from garkcli.design.solutions import Solution, solutions
-from garkcli.design.stable_parts import has_stable_method, joined, stable_part
+from garkcli.design.stable_parts import (
+    StablePart,
+    has_stable_method,
+    has_values_of_all,
+    joined,
+    on_charts,
+    stable_part,
+)
 from garkcli.design.stable_set import BEYOND, stable_set
 from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted
@@ -448,15 +455,28 @@ class _Finding(Frozen):
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
-        decided = []
+        decided: list[StablePart] = []
+        sets: list[tuple[StableValues, ...]] = []
+        is_complete = True
         for part in parts:
-            with suppress(NotDecided):
+            try:
                 decided.append(stable_part(self.family, self.whose, part))
+            except NotDecided:
+                try:
+                    sets += on_charts(self.family, self.whose, part)
+                except NotDecided:
+                    is_complete = False
         is_real = has_stable_method(self.family, self.whose, decided)
-        is_complete = len(decided) == len(parts)
-        stable = joined(self.family, decided) if is_complete else ()
-        if is_real is not True and not is_complete:
+        verdicts = [*map(has_values_of_all, sets), is_real]
+        if True in verdicts:
+            is_real = True
+        elif None in verdicts or not is_complete:
             is_real = None
+        stable: tuple[StableValues, ...] = ()
+        if is_complete and not sets:
+            stable = joined(self.family, decided)
+        elif is_complete and not decided and len(sets) == 1:
+            [stable] = sets
         if is_real is None and any(not x.found and not x.undecided for x in stable):
             is_real = False
         return replace(known, is_real=is_real, stable=stable)

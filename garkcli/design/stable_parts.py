@@ -27,6 +27,8 @@ from garkcli.design.member import (
     is_in,
     is_stable,
     member,
+    not_negative,
+    value_of,
 )
 from garkcli.design.parts import (
     Part,
@@ -41,9 +43,9 @@ from garkcli.design.parts import (
 )
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.stability_kinds import Members, driven
-from garkcli.design.stable_set import stable_set
+from garkcli.design.stable_set import BEYOND, stable_set
 from garkcli.design.stable_values import StableValues
-from garkcli.errors import NotDecided, ZeroWeight
+from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, between, ends_of, has, sign_of, where
 from garkcli.exact.matrix import Matrix
@@ -51,7 +53,7 @@ from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, real_roots
 from garkcli.frozen import Frozen, replace
-from garkcli.tableau.family import Family, RequiredStability
+from garkcli.tableau.family import Family, Radical, RequiredStability
 from garkcli.tableau.tableau import Tableau
 
 VALUES = [
@@ -455,3 +457,109 @@ def has_stable_method(family: Family, whose: Whose, parts: Sequence[StablePart])
         return True
     is_none = all(x.is_decided and not all(y.found for y in x.kinds) for x in parts)
     return False if is_none else None
+
+
+def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValues, ...]]:
+    """The stable values of at most two free coordinates of a part, for each wanted kind of
+    stability, at each admissible value of a coordinate with an equation, if there is one.
+
+    Raises:
+        NotDecided: there are other equations or more coordinates, or the time limit has passed.
+        UsageProblem: a kind of stability is not applicable.
+    """
+    found = charts(part)
+    if not found:
+        raise NotDecided
+    sets = []
+    for chart in found:
+        if _is_meant(family, part, chart):
+            kinds = []
+            for wanted in dict.fromkeys(family.stable):
+                values = _on_chart(family.tested(wanted), whose, part, chart, wanted)
+                kinds += [] if values is None else [values]
+            sets += [tuple(kinds)] if kinds else []
+    return sets
+
+
+def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
+    """Whether the roots among the coefficients are those that the file means.
+
+    Raises:
+        NotDecided: one depends on free coordinates.
+    """
+    for radical in family.radicals:
+        over, under = fraction(part.values[radical.name], part.ring)
+        if any(p.degrees()[part.ring.names.index(x)] for p in (over, under) for x in chart.names):
+            raise NotDecided
+        values = {**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))}
+        number = value_of(over, part.ring, values) / value_of(under, part.ring, values)
+        if radical.meant not in (None, value_at(number, chart.one.real[chart.index])):
+            return False
+    return True
+
+
+def _on_chart(
+    family: Family, whose: Whose, part: Part, chart: RationalChart, wanted: RequiredStability
+) -> StableValues | None:
+    """The stable values of the free coordinates of a chart; None if none is admissible."""
+    ring = Parameters([*chart.names, *chart.one.values])
+    coordinates: Any = {x: ring.parameter(x) for x in ring.names}
+    root = chart.one.real[chart.index]
+    radicals = tuple(
+        Radical(name, in_context(root.polynomial.coeffs(), ring, name), meant=root)
+        for name in chart.one.values
+    )
+
+    def moved(p: fmpq_mpoly) -> fmpq_mpoly:
+        return fraction(value_of(p, part.ring, coordinates), ring)[0]
+
+    def expressed(p: fmpq_mpoly) -> fmpq_mpoly:
+        over, under = fraction(part.expressed(p, family.ring), part.ring)
+        return moved(over * under)
+
+    wishes = {1: [*map(expressed, family.positive)], 0: [*map(expressed, not_negative(family))]}
+    for least, polynomials in wishes.items():
+        for p in polynomials:
+            is_fixed = not any(p.degrees()[: len(chart.names)])
+            if is_fixed and sign_of(in_one(p, len(ring.names) - 1), root) < least:
+                return None
+    is_free = {
+        k: [p for p in found if any(p.degrees()[: len(chart.names)])] for k, found in wishes.items()
+    }
+    values: Any = part.values
+    on_chart = Family(
+        name=family.name,
+        tableau=member(member(family.tableau, family.ring, values), part.ring, coordinates),
+        ring=ring,
+        parameters=chart.names,
+        ranges=dict.fromkeys(chart.names, (None, None)),
+        radicals=radicals,
+        nonzero=tuple(map(moved, part.nonzero)),
+        positive=tuple(is_free[1]),
+        not_negative=tuple(is_free[0]),
+    )
+    kind: Any = wanted.kind
+    try:
+        found_values = stable_set(on_chart, kind, whose, colour=wanted.colour)
+    except UsageProblem as error:
+        if error.code in BEYOND:
+            raise NotDecided from None
+        raise
+    # that a part leaves out others is not a want of the file
+    return replace(_told_of(found_values, wanted), family=replace(found_values.family, nonzero=()))
+
+
+def has_values_of_all(kinds: Sequence[StableValues]) -> bool | None:
+    """Whether some method has all kinds of stability; None if undecided, as with values of several
+    kinds.
+    """
+    verdicts = [x.has_values for x in kinds]
+    if False in verdicts:
+        return False
+    return True if verdicts == [True] else None
+
+
+def in_context(coefficients: Sequence[Any], ring: Parameters, name: str) -> fmpq_mpoly:
+    """A polynomial in one unknown of a ring from its rational coefficients."""
+    x = ring.context.gen(ring.names.index(name))
+    return sum((x**k * fmpq(a) for k, a in enumerate(coefficients)), x * 0)

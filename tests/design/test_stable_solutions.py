@@ -13,14 +13,14 @@ from garkcli import minimise, render
 from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters, stable_sets
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import Whose
+from garkcli.design.member import Whose, is_stable
 from garkcli.design.minimise.line import Within
 from garkcli.design.parts import Part
 from garkcli.design.stable_parts import StablePart, joined, point_of
 from garkcli.design.stable_set import stable_set
-from garkcli.design.stable_values import StableValues
+from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodFileError
-from garkcli.exact.cells import Interval, where
+from garkcli.exact.cells import Interval, has, where
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import NumberField
 from garkcli.exact.polynomial import Polynomial
@@ -30,6 +30,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.report.schemas import report_schema
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
+from garkcli.tableau.family import RequiredStability
 from tests.cli.harness import gark
 from tests.whole import in_whole
 
@@ -467,3 +468,44 @@ def test_a_point_beside_a_line(is_stable: bool, on_line: bool | None) -> None:
         assert told == ()
     else:
         assert told[0].found == (Interval(one, None, has_start=is_stable),)
+
+
+WEIGHED = """parameters: {g: free, d: free, s: free}
+A: [[g, 0], [1 - d, d]]
+b: [s, 1 - s]
+"""
+
+
+@pytest.mark.parametrize(
+    ("weight", "kind"),
+    [
+        ("sqrt(2)", "a-stable"),
+        pytest.param("sqrt(2)", "l-stable", marks=in_whole),
+        ("root_of(x^3 - x - 1, 1)", "a-stable"),
+    ],
+)
+def test_methods_of_an_order_with_an_irrational_number(weight: str, kind: Wanted) -> None:
+    """Order 2 asks for g s + 1 - s = 1/2: one g for the weight s that is meant, irrational beside
+    the free d. The set of d is that of single methods.
+    """
+    family = loads_family(WEIGHED + f"design: {{{kind}: true}}\n", settings={"s": weight})
+    step = find_parameters(family, 2).last
+    [values] = step.known.stable
+    assert values.names == ("d",)
+    assert step.has_methods is values.has_values
+    g = f"1 - 1/(2*({weight}))"
+    for d in (fmpq(k, 8) for k in range(-16, 25)):
+        method = loads(WEIGHED, settings={"s": weight, "g": g, "d": str(d)})
+        assert has(values.found, d) is is_stable(RequiredStability(kind), method.tableau)
+
+
+def test_the_two_coordinates_of_a_family_of_an_order() -> None:
+    """A solution set with two free coordinates on which the step depends has the plane of the file
+    that is written in them.
+    """
+    text = "parameters: {g: free, d: free, e: free}\nA: [[g, 0], [1 - d, d]]\nb: [e, 1/2]\n"
+    step = find_parameters(loads_family(text + "design: {a-stable: true}\n"), 1).last
+    [values] = step.known.stable
+    plane = stable_set(loads_family(text, settings={"e": "1/2"}), "a-stable")
+    assert (values.names, values.found) == (plane.names, plane.found)
+    assert step.has_methods is True
