@@ -130,6 +130,7 @@ class Evaluator:
 
     Attributes:
         lost: reasons why scopes are not read, by their kinds and lines.
+        functions: the functions of the source by name, if only one has the name.
     """
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
@@ -162,9 +163,11 @@ class Evaluator:
         self._owner = ""
         self._of_cases: dict[str, dict[str, Value]] = {}
         self._gives: dict[str, Value | None] = {}
+        self.functions: Mapping[str, ir.Scope] = {}
 
     def module(self, body: ir.Body) -> None:
         """Walks over the whole source."""
+        self.functions = _functions(body)
         self._walked(ir.Scope("module", "", body, 1), Space())
 
     def array(self, items: Iterable[Value]) -> Array:
@@ -827,6 +830,15 @@ class Evaluator:
         at = 0 if name in {"pushfirst!", "prepend!"} else len(box.items)
         box.items[at:at] = map(copied, values)
         return box
+
+
+def _functions(body: ir.Body) -> Mapping[str, ir.Scope]:
+    """The functions of a source by their names, without those with equal names."""
+    found: dict[str, list[ir.Scope]] = {}
+    for x in ir.statements(body):
+        if isinstance(x, ir.Scope) and x.kind == "function":
+            found.setdefault(x.name.rpartition("::")[2], []).append(x)
+    return {name: of[0] for name, of in found.items() if len(of) == 1}
 
 
 def _is_unset(value: Value) -> bool:

@@ -45,7 +45,8 @@ from garkcli.sources.signatures import (
     Signature,
     other_kind,
 )
-from garkcli.sources.steps import NoStep, splitting_of, step_of
+from garkcli.sources.stages import NoStep
+from garkcli.sources.steps import splitting_of, steps_of
 from garkcli.sources.values import (
     NULL,
     Array,
@@ -520,16 +521,16 @@ class TableFinder(Harvester):
         """
         if scope.kind not in {"function", "module"}:
             return False
+        signature = NAMED
         try:
-            roles = step_of(scope.body, space, self, scope.kind == "function")
-            signature = NAMED
+            found = steps_of(scope.body, space, self, scope.kind == "function")
         except NoStep as error:
             try:
-                roles, signature = splitting_of(scope.body, space, self), DRIFT_FIRST
+                found, signature = [splitting_of(scope.body, space, self)], DRIFT_FIRST
             except NoStep:
                 return error.looks_like
         place = self._place(scope.title, scope.line, notes=(STEP,))
-        self._meant.append(Meant(place, roles, signature, maker=A_STEP))
+        self._meant += [Meant(place, roles, signature, maker=A_STEP) for roles in found]
         return False
 
     def _place(self, name: str, line: int, **told: Any) -> FoundTable:

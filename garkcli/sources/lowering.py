@@ -134,7 +134,10 @@ class Lowering(ABC):
             case "passed":
                 yield ir.Do(unmeant(node), line)
             case "tried":
-                yield from (ir.Do(unmeant(node), line), *self.block(inside))
+                first, *others = inside or [node]
+                yield from self.block(self.children(first))
+                if any(map(self.children, others)):
+                    yield ir.Branch(tuple(self.block(self.children(x)) for x in others), line)
             case "loop":
                 yield self.loop(node)
             case "giving":
@@ -344,9 +347,9 @@ def kinds(**nodes: str) -> Mapping[str, str]:
     Statements are a ``block``, ``assignment``, ``loop`` without name and range, ``giving`` for
     returns, ``branch``, ``switch`` with ``case`` and, unless it is a field, its ``label``,
     ``record`` for declarations of records, ``passed`` for statements that change values in unknown
-    ways, and ``tried`` for such statements with a block. Expressions are a ``name``, ``number``,
-    ``nothing``, ``text``, ``list``, ``unary``, ``binary``, ``field``, ``index``, ``call``,
-    ``range``, ``transposed``, or ``inside`` of brackets.
+    ways, and ``tried`` for a block with handlers of its errors. Expressions are a ``name``,
+    ``number``, ``nothing``, ``text``, ``list``, ``unary``, ``binary``, ``field``, ``index``,
+    ``call``, ``range``, ``transposed``, or ``inside`` of brackets.
     """
     return _KINDS | {node: kind for kind, text in nodes.items() for node in text.split()}
 

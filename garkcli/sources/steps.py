@@ -10,15 +10,24 @@ that does not fit gives no table.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import islice, pairwise
+from itertools import pairwise
 from typing import Any, TypeGuard
 
-from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
-from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of, shown
+from garkcli.sources.evaluate import (
+    MAX_INLINED,
+    Evaluator,
+    Made,
+    OutOfSteps,
+    Space,
+    names_of,
+    shown,
+)
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
+from garkcli.sources.stages import NEAR, NoStep, Roles, Slope, step_in, terms_of
 from garkcli.sources.values import (
+    NULL,
     ONE,
     ZERO,
     Array,
@@ -29,6 +38,7 @@ from garkcli.sources.values import (
     Unknown,
     Value,
     computed,
+    copied,
     is_zero,
     items_of,
     near,
@@ -37,56 +47,47 @@ from garkcli.sources.values import (
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
 """Most paths through a function."""
+MAX_NUMBERS = 8
+"""Most numbers tried as the step."""
 FEWEST_TURNS = 5
 """Fewest alternating calls of a splitting."""
-NEAR = 1e-3
-"""Sums that differ by less are equal."""
-Roles = dict[str, Value]
 Place = tuple[str, ...]
 
 
-class NoStep(Exception):
-    """The computation is no step of a Runge–Kutta method.
-
-    Args:
-        looks_like: whether it looks like one: f is evaluated at ``x + h*k`` with another value k of
-            f.
-    """
-
-    def __init__(self, looks_like: bool = False) -> None:
-        super().__init__()
-        self.looks_like = looks_like
-
-
-class _Slope(Frozen):
-    """An evaluation of f: its name in polynomials, the callee and its arguments."""
-
-    name: str
-    callee: ir.Expr
-    args: tuple[Terms | None, ...]
-
-
-def step_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = True) -> Roles:
-    """A, b, c and the error of the step of a function, or of a loop in it over time.
+def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = True) -> list[Roles]:
+    """A, b, c and the error of the distinct steps of a function: of all of it, or of the branches
+    and the loops over time in it.
 
     Args:
         body: of the function.
         space: the names around it.
         like: an evaluator of its language.
-        is_function: whether all of it may be a step, not only the loops.
+        is_function: whether all of it may be a step, not only the parts.
 
     Raises:
         NoStep: there is none.
     """
-    try:
-        if not is_function:
-            raise NoStep
-        return _by_every_way(body, space, like)
-    except NoStep as error:
-        of_loops = list(_in_loops(body, space, like))
-        if len({shown(SourceRecord("", x)) for x in of_loops}) != 1:
-            raise NoStep(error.looks_like or bool(of_loops)) from None
-        return of_loops[0]
+    looks_like = False
+    for symbol in ("", *_numbers_in(body, space)):
+        # the step may be a number that is set around it
+        own = Space(space)
+        own.update({symbol: Form({(symbol,): ONE})} if symbol else {})
+        for is_inlined in (False, True):
+            reader = _Reader(own, like, is_inlined)
+            try:
+                if is_function:
+                    return [reader.by_every_way(body)]
+            except NoStep as error:
+                looks_like |= error.looks_like
+            distinct = {shown(SourceRecord("", x)): x for x in reader.in_parts(body)}
+            looks_like |= reader.looks_like
+            if distinct:
+                return [*distinct.values()]
+            if not like.functions:
+                break
+        if not looks_like and not symbol and not _has_calls(body):
+            break
+    raise NoStep(looks_like)
 
 
 def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
@@ -101,7 +102,7 @@ def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     for statement in body:
         match statement:
             case ir.Do(value=ir.Call(callee, (part,), ())) if name := _name(callee):
-                form = _terms(follower.value(part, names)) or {}
+                form = terms_of(follower.value(part, names)) or {}
                 turns += [(name, at, x) for at, x in form.items() if at and len(form) == 1]
     callees = list(dict.fromkeys(name for name, _, _ in turns))
     are_in_turns = all(x[0] != y[0] for x, y in pairwise(turns))
@@ -116,54 +117,100 @@ def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     return {"drifts": Array([*drifts]), "kicks": Array([*kicks])}
 
 
-def _by_every_way(
-    body: ir.Body, space: Space, like: Evaluator, counters: Sequence[str] = ()
-) -> Roles:
-    """The common step of all paths through some statements.
+class _Reader:
+    """Reads the steps of statements.
 
-    Raises:
-        NoStep: there is none.
+    Args:
+        space: the names around them.
+        like: an evaluator of their language.
+        is_inlined: whether calls of functions of the source are followed.
+
+    Attributes:
+        looks_like: whether a part of them looks like a step.
     """
-    by_content: dict[object, Roles] = {}
-    is_lost = False
-    for way in reversed(_ways(body)):
-        follower = Follower(like, way, counters)
-        try:
+
+    def __init__(self, space: Space, like: Evaluator, is_inlined: bool) -> None:
+        self._space = space
+        self._like = like
+        self._is_inlined = is_inlined
+        self.looks_like = False
+
+    def by_every_way(self, body: ir.Body, counters: Sequence[str] = ()) -> Roles:
+        """The common step of all paths through some statements that are steps.
+
+        Raises:
+            NoStep: there is none.
+        """
+        by_content: dict[object, Roles] = {}
+        for way in reversed(_ways(body)):
+            follower = self._follower(way, counters)
             try:
-                roles = follower.roles(Space(space))
-            except NoStep:
-                if not follower.has_others:
+                try:
+                    roles = follower.roles(Space(self._space))
+                except NoStep:
+                    if not follower.has_others:
+                        raise
+                    follower = self._follower(way, counters, ignores_others=True)
+                    roles = follower.roles(Space(self._space))
+            except NoStep as error:
+                if error.looks_like:
                     raise
-                roles = Follower(like, way, counters, ignores_others=True).roles(Space(space))
-        except NoStep as error:
-            if error.looks_like:
-                raise
-            is_lost = True
-        else:
-            by_content[shown(SourceRecord("", roles))] = roles
-    if is_lost or len(by_content) != 1:
-        raise NoStep(looks_like=bool(by_content))
-    return by_content.popitem()[1]
+            else:
+                by_content[shown(SourceRecord("", roles))] = roles
+        if len(by_content) != 1:
+            raise NoStep(looks_like=bool(by_content))
+        return by_content.popitem()[1]
+
+    def _follower(
+        self, way: Sequence[ir.Statement], counters: Sequence[str], ignores_others: bool = False
+    ) -> Follower:
+        return Follower(self._like, way, counters, ignores_others, self._is_inlined)
+
+    def in_parts(self, body: ir.Body, counters: Sequence[str] = ()) -> Iterator[Roles]:
+        """The steps with several stages in branches and in loops over time."""
+        for statement in body:
+            parts: Iterable[tuple[ir.Body, Sequence[str]]] = ()
+            if isinstance(statement, ir.Branch):
+                parts = ((_plain(arm), counters) for arm in statement.arms)
+            elif isinstance(statement, ir.Loop):
+                parts = [(statement.body, (*counters, *_counted(statement)))]
+            for inside, names in parts:
+                try:
+                    roles = self.by_every_way(inside, names)
+                except NoStep as error:
+                    found = [*self.in_parts(inside, names)]
+                    self.looks_like |= error.looks_like and not found
+                    yield from found
+                else:
+                    if len(items_of(roles["b"])) > 1:
+                        yield roles
 
 
-def _in_loops(
-    body: ir.Body, space: Space, like: Evaluator, counters: Sequence[str] = ()
-) -> Iterator[Roles]:
-    """The steps with several stages in loops over time."""
-    for statement in body:
-        arms = statement.arms if isinstance(statement, ir.Branch) else ()
-        for arm in arms:
-            yield from _in_loops(arm, space, like, counters)
-        if not isinstance(statement, ir.Loop):
-            continue
-        names = (*counters, *_counted(statement))
-        try:
-            roles = _by_every_way(statement.body, space, like, names)
-        except NoStep:
-            yield from _in_loops(statement.body, space, like, names)
-        else:
-            if len(items_of(roles["b"])) > 1:
-                yield roles
+def _plain(arm: ir.Body) -> ir.Body:
+    """The statements of an arm, also of a case of a switch."""
+    return arm[0].body if len(arm) == 1 and isinstance(arm[0], ir.Scope) else arm
+
+
+def _numbers_in(body: ir.Body, space: Space) -> list[str]:
+    """Names of numbers that are factors in some statements."""
+    names: dict[str, None] = {}
+    for statement in ir.statements(body):
+        for x in ir.inside(getattr(statement, "value", None)):
+            match x:
+                case ir.Binary("*" | "/" as sign, left, right):
+                    names |= {y.name: None for y in (left, right) if isinstance(y, ir.Name)}
+                    del sign
+    found = [x for x in names if isinstance(space.find(x), Number)]
+    return found if len(found) <= MAX_NUMBERS else []
+
+
+def _has_calls(body: ir.Body) -> bool:
+    """Whether something is called with sums, as f is."""
+    return any(
+        isinstance(x, ir.Call) and any(isinstance(y, ir.Binary) for y in x.args)
+        for statement in ir.statements(body)
+        for x in ir.inside(getattr(statement, "value", None))
+    )
 
 
 def _counted(loop: ir.Loop) -> Iterator[str]:
@@ -187,7 +234,8 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
     for statement in body:
         arms: list[list[ir.Statement]] = [[statement]]
         if isinstance(statement, ir.Branch):
-            staying = [x for x in statement.arms if not (x and isinstance(x[-1], ir.Return))]
+            inside = (_plain(x) for x in statement.arms)
+            staying = [x for x in inside if not (x and isinstance(x[-1], ir.Return))]
             arms = [way for arm in staying for way in _ways(arm)]
             if not statement.is_total:
                 arms.append([])
@@ -243,8 +291,12 @@ class Follower(Evaluator):
         way: Sequence[ir.Statement],
         counters: Sequence[str] = (),
         ignores_others: bool = False,
+        is_inlined: bool = False,
     ) -> None:
         super().__init__(like.base, like.allowance, has_whole_quotients=like.has_whole_quotients)
+        self.functions = like.functions
+        self._is_inlined = is_inlined
+        self._opaque: dict[object, str] = {}
         # in languages with arrays from 0 functions may return a status
         self._way = _for_effect(way) if like.base == 0 else way
         self._counters = counters
@@ -253,10 +305,9 @@ class Follower(Evaluator):
         calls = [x.value for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
         callees = [x.callee for x in calls]
         self._f = max(callees, key=callees.count, default=None)
-        self._place = _place_changed([x for x in calls if x.callee == self._f], self._way)
+        self._place = _place_changed(self._f, self._way)
         self._has_step_inside = False
-        self._slopes: list[_Slope] = []
-        self._values = 0
+        self._slopes: list[Slope] = []
         self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
@@ -267,12 +318,16 @@ class Follower(Evaluator):
         match statement:
             case ir.Do(value=ir.Call() as call):
                 self._changing(call, space)
+            case ir.Do(value=ir.Opaque(reason=reason)) if reason not in _CHANGING:
+                pass
             case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module"):
                 self._is_lost = True
             case ir.Assign(value=None) | ir.Do() | ir.Scope():
                 pass
             case ir.Branch():
                 self._lose([statement], space)
+            case ir.Return(value=value) if self._inlined:
+                space.returned = self.value(value, space)
             case ir.Return(value=value):
                 for i, x in enumerate(value.items if isinstance(value, ir.Items) else [value]):
                     name = x.name if isinstance(x, ir.Name) else f"value {i} of the function"
@@ -288,6 +343,12 @@ class Follower(Evaluator):
             self._components.append(loop.name)
             self._run(loop.body, space)
             self._components.pop()
+            return
+        stages = items_of(self.value(loop.over, space)) if loop.name else []
+        if stages and len(stages) <= MAX_STAGES and not _has_branches(loop.body):
+            for stage in stages:
+                space[loop.name] = stage
+                self._run(loop.body, space)
             return
         self._lose(loop.body, space)
         # one step after the other
@@ -313,7 +374,8 @@ class Follower(Evaluator):
                 target = args.pop(0 if _name(callee).endswith("!") else place)
                 values = [self.value(x, space) for x in args]
                 for x, value in zip(args, values, strict=True):
-                    if callee != self._f and any(" " in x for x in _symbols([_terms(value) or {}])):
+                    names = _symbols([terms_of(value) or {}])
+                    if callee != self._f and any(" " in name for name in names):
                         # slopes may have changed
                         self.spoil(x, space, "changed elsewhere", self.line)
                 self._store(target, self._slope(callee, values), space, self.line)
@@ -326,7 +388,7 @@ class Follower(Evaluator):
     def _is_ignored(self, call: ir.Call, space: Space) -> bool:
         """Whether a call changes nothing that matters: it gets no slope, only values of y."""
         of = [call.callee.of] if isinstance(call.callee, ir.Field) else []
-        forms = [_terms(self.value(x, space)) or {} for x in (*call.args, *of) if _is_place(x)]
+        forms = [terms_of(self.value(x, space)) or {} for x in (*call.args, *of) if _is_place(x)]
         has_slope = any(
             any(" " in name for at in form for name in at)
             and not any(len(at) == 1 and " " not in at[0] for at in form)
@@ -371,10 +433,13 @@ class Follower(Evaluator):
         space.update(dict.fromkeys(names_of(target), Unknown(reason, line)))
 
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
-        target = self._array_behind(target)
+        target = self._place_of(self._array_behind(target), space)
         if isinstance(target, ir.Name):
             # names are in the order of their last assignments
             space.pop(target.name, None)
+            if isinstance(value, Unknown):
+                # any value, or an array that is filled later
+                value = Unknown("never assigned", line)
         super()._store(target, value, space, line)
 
     def _places(self, target: ir.Expr, space: Space) -> list[tuple[Any, Any]]:
@@ -383,16 +448,28 @@ class Follower(Evaluator):
             space.setdefault(target.name, self.unknown("never assigned"))
         return super()._places(target, space)
 
+    def _changed(self, of: ir.Expr, space: Space, made: Made) -> Made | None:
+        if isinstance(made, Array) and made.fill is None:
+            made.fill = self.unknown("never assigned")
+        return super()._changed(of, space, made)
+
     def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
-        if isinstance(value, Array) or any(name in space for name in names_of(target)):
+        if len(target.items) == 1 and not isinstance(value, Array):
+            self._store(target.items[0], value, space, line)
+        elif isinstance(value, Array) or any(name in space for name in names_of(target)):
             super()._taken_apart(target, value, space, line)
 
     # values
 
     def _named(self, name: str, space: Space) -> Value:
         if name in space:
-            return space[name]
+            named_value = space[name]
+            if isinstance(named_value, Unknown):
+                return Form({(f"{name}'{named_value.line}",): ONE})
+            return named_value
         named_value = super()._named(name, space)
+        if isinstance(named_value, Form):
+            return named_value
         has_numbers = any(isinstance(x, Number) for x in Array([named_value]).flat())
         return named_value if has_numbers else Form({(name,): ONE})
 
@@ -403,20 +480,69 @@ class Follower(Evaluator):
             of = self.value(expr.of, space)
             if isinstance(of, Form) and of.terms.keys() == {(getattr(expr.of, "name", ""),)}:
                 return self._slope(expr.of, [self.value(x, space) for x in expr.at])
-        if whole is expr:
-            return super()._entry(expr, space)
-        entry = self.value(whole, space)
-        return self.unknown("an entry") if isinstance(entry, Array) else entry
+        if whole is not expr:
+            entry = self.value(whole, space)
+            return self.unknown("an entry") if isinstance(entry, Array) else entry
+        if (place := self._place_of(expr, space)) is not expr:
+            return self.value(place, space)
+        return self._or_opaque(super()._entry(expr, space), expr, space)
+
+    def _field(self, expr: ir.Field, space: Space) -> Value:
+        if (place := self._place_of(expr, space)) is not expr:
+            return self.value(place, space)
+        return self._or_opaque(super()._field(expr, space), expr, space)
+
+    def _or_opaque(self, value: Value, expr: ir.Expr, space: Space) -> Value:
+        """A value; for an unknown entry or field of an unknown value its name."""
+        if not isinstance(value, Unknown):
+            return value
+        at: list[object] = []
+        root = expr
+        while isinstance(root, ir.Index | ir.Field):
+            at.append(root.name if isinstance(root, ir.Field) else root.at)
+            root = root.of
+        of = terms_of(self.value(root, space)) if isinstance(root, ir.Name) else None
+        if any(" " in name for name in _symbols([of or {}])):
+            # an entry of a slope
+            return value
+        return self._named_by((tuple(of or ()), *(at or [root])))
+
+    def _named_by(self, key: object) -> Form:
+        """A value that is unknown, but equal for equal keys."""
+        return Form({(self._opaque.setdefault(key, f"value{len(self._opaque)}"),): ONE})
+
+    def _place_of(self, expr: ir.Expr, space: Space) -> ir.Expr:
+        """The name of an entry at an unknown index, ``y[n + 1]`` or ``y[n].x``; otherwise the
+        place.
+        """
+        root: ir.Expr = expr
+        at: list[object] = []
+        is_known = True
+        while isinstance(root, ir.Index | ir.Field):
+            if isinstance(root, ir.Field):
+                at.append(root.name)
+            else:
+                forms = [terms_of(self.value(x, space)) for x in root.at]
+                is_known &= not any(form and any(form) for form in forms)
+                at += [tuple(sorted((y, shown(z)) for y, z in (x or {}).items())) for x in forms]
+            root = root.of
+        of = self._named(root.name, space) if isinstance(root, ir.Name) else NULL
+        if is_known or not isinstance(root, ir.Name) or isinstance(of, Array):
+            return expr
+        if isinstance(of, Form) and len(of.terms) > 1:
+            # an entry of a sum
+            return expr
+        return ir.Name(self._opaque.setdefault((root.name, *at), f"entry{len(self._opaque)}"))
 
     def _array_behind(self, expr: ir.Expr) -> ir.Expr:
         """The array behind an entry that a loop over components takes, or a thread its own one."""
         names = {*self._components, *self._counters}
-        if isinstance(expr, ir.Index):
-            unknown = (x for x, value in self._space.items() if isinstance(value, Unknown))
-            names.update(islice(unknown, 1))
-        while isinstance(expr, ir.Index) and all(
-            isinstance(x, ir.Name) and x.name in names for x in expr.at
-        ):
+        while isinstance(expr, ir.Index):
+            at = tuple(x for x in expr.at if not (isinstance(x, ir.Name) and x.name in names))
+            if len(at) == len(expr.at):
+                break
+            if at:
+                return ir.Index(expr.of, at)
             expr = expr.of
         return self._at_a_time(expr) if self._counters else expr
 
@@ -433,16 +559,24 @@ class Follower(Evaluator):
         return ir.Name(expr.of.name + (f"@{steps[0]}" if steps[0] else ""))
 
     def _called(self, call: ir.Call, space: Space) -> Value:
-        if call.named:
-            return self.unknown("a call with names")
         whole = self._array_behind(ir.Index(call.callee, call.args))
         if isinstance(whole, ir.Name) and (self._components or self._counters):
             # k1(i), entries of classes in C++
             return self.value(whole, space)
-        args = [self.value(x, space) for x in call.args]
-        match call:
-            case ir.Call(ir.Name(name=name), (_,)) if name in CONVERSIONS:
-                return args[0]
+        args = [self.value(x, space) for x in (*call.args, *(x for _, x in call.named))]
+        name = _name(call.callee)
+        if name in CONVERSIONS and len(args) == 1:
+            return args[0]
+        of = [self.value(call.callee.of, space)] if isinstance(call.callee, ir.Field) else []
+        pair = args if len(args) == 2 else [*of, *args]
+        if (
+            name in _OPERATIONS
+            and len(pair) == 2
+            and all(isinstance(x, Form | Number) for x in pair)
+        ):
+            return self.combined(_OPERATIONS[name], *pair)
+        if (followed := self._followed(call, args)) is not None:
+            return followed
         if any(isinstance(x, Form) for x in args):
             return self._slope(call.callee, args)
         called_value = super()._called(call, space)
@@ -450,17 +584,36 @@ class Follower(Evaluator):
             isinstance(x, Unknown | Array) for x in args
         ):
             # y = state(): a value independent of the step
-            self._values += 1
-            return Form({(f"value{self._values}",): ONE})
+            return self._named_by(call)
         return called_value
+
+    def _followed(self, call: ir.Call, args: Sequence[Value]) -> Value | None:
+        """The value of a function of the source that computes with slopes or evaluates f; None for
+        others.
+        """
+        callee = call.callee
+        function = (
+            self.functions.get(callee.name) if isinstance(callee, ir.Name | ir.Field) else None
+        )
+        if not self._is_inlined or function is None or self._inlined >= MAX_INLINED:
+            return None
+        names = [x for x in function.parameters if x not in {"self", "this"}]
+        if len(names) != len(args) or not (any(map(_is_of_slopes, args)) or _evaluates(function)):
+            return None
+        inner = Space(self._space.up)
+        inner.update(zip(names, map(copied, args), strict=True))
+        self._inlined += 1
+        self._run(function.body, inner)
+        self._inlined -= 1
+        return inner.returned
 
     def _slope(self, callee: ir.Expr, args: Sequence[Value]) -> Value:
         """An evaluation of f; unknown for other calls."""
-        forms = tuple(map(_terms, args))
-        if self._components or not any(form and any(form) for form in forms):
+        forms = tuple(map(terms_of, args))
+        if not any(form and any(form) for form in forms):
             return self.unknown("a call")
         slope = f"slope {len(self._slopes)}"
-        self._slopes.append(_Slope(slope, callee, forms))
+        self._slopes.append(Slope(slope, callee, forms))
         return Form({(slope,): ONE})
 
     def negated(self, value: Value) -> Value:
@@ -471,7 +624,7 @@ class Follower(Evaluator):
     def combined(self, sign: str, x: Value, y: Value) -> Value:
         """An operation, on polynomials term by term."""
         sign = sign.removeprefix(".")
-        left, right = _terms(x), _terms(y)
+        left, right = terms_of(x), terms_of(y)
         if sign == "-" and (name := _difference(left, right)):
             return Form({(name,): ONE})
         if not isinstance(x, Form) and not isinstance(y, Form):
@@ -510,43 +663,17 @@ class Follower(Evaluator):
             NoStep: there is none.
         """
         self.follow(space)
-        callees = {x.callee: 0 for x in self._slopes if _name(x.callee) not in _MATHEMATICS}
-        for callee in () if self._is_lost or len(self._slopes) > MAX_STAGES else callees:
-            try:
-                return self._of([x for x in self._slopes if x.callee == callee])
-            except NoStep:
-                continue
+        slopes = [x for x in self._slopes if _name(x.callee) not in _MATHEMATICS]
+        if self._is_lost or not 0 < len(slopes) <= MAX_STAGES:
+            raise NoStep(self.looks_like)
         try:
-            return self._of_system([[x for x in self._slopes if x.callee == y] for y in callees])
+            roles = step_in(slopes, space, self._returned)
         except NoStep:
             raise NoStep(self.looks_like) from None
-
-    def _of_system(self, each: Sequence[Sequence[_Slope]]) -> Roles:
-        """The roles if several functions make the slopes of several values, ``x' = f(x, v)`` and
-        ``v' = g(x, v)``, with the same coefficients.
-        """
-        known = [x.args for slopes in each for x in slopes]
-        if self._is_lost or len(each) < 2 or len({(len(x), len(x[0].args)) for x in each}) > 1:
-            raise NoStep
-        columns = [[args[i] or {} for args in known] for i in range(len(known[0]))]
-        own: list[int] = []
-        for slopes in each:
-            names = {x.name for x in slopes}
-            own += [i for i, forms in enumerate(columns) if names & _symbols(forms)]
-        if len({*own}) != len(own) or len(own) != len(each):
-            raise NoStep
-        by_content: dict[object, Roles] = {}
-        for slopes, at in zip(each, own, strict=True):
-            others = {*own} - {at}
-            separate = [
-                replace(x, args=tuple(y for i, y in enumerate(x.args) if i not in others))
-                for x in slopes
-            ]
-            roles = self._of(separate, is_system=True)
-            by_content[shown(SourceRecord("", roles))] = roles
-        if len(by_content) != 1:
-            raise NoStep
-        return by_content.popitem()[1]
+        if self._ignores_others and len(items_of(roles["b"])) < len(slopes):
+            # a slope that nothing uses may have changed
+            raise NoStep(self.looks_like)
+        return roles
 
     @property
     def looks_like(self) -> bool:
@@ -564,92 +691,6 @@ class Follower(Evaluator):
             for name in at
             if len(at) == 2
         )
-
-    def _of(self, slopes: Sequence[_Slope], is_system: bool = False) -> Roles:
-        """The roles for the evaluations of f, or of one of several such functions."""
-        names = [x.name for x in slopes]
-        width = len(slopes[0].args)
-        if any(len(x.args) != width for x in slopes):
-            raise NoStep
-        columns = [_known_forms(x.args[i] for x in slopes) for i in range(width)]
-        seen = [i for i, forms in enumerate(columns) if set(names) & _symbols(forms)]
-        values = columns.pop(seen[0] if seen else min(1, width - 1))
-        starts = [at[0] for at, x in (values or [{}])[0].items() if len(at) == 1 and _is_one(x)]
-        if len(starts) != 1:
-            raise NoStep
-        start = starts[0]
-        if (start,) not in (_terms(self._space.get(start, Form({(start,): ONE}))) or ()):
-            # its last value is another one
-            raise NoStep
-        result, form, second = self._result(start, values)
-        step = _step(form, set(names))
-        others = {x.name for x in self._slopes} - set(names)
-        forms = [_terms(x) or {} for x in self._space.values()]
-        if others and not is_system and (len(names) == 1 or others & _besides(forms, step)):
-            # values of another function take part in the step
-            raise NoStep
-        nodes = _nodes(columns, step)
-        given = _besides((*values, form), step) - {step, start, *names}
-        is_elsewhere = all(len(x) > 1 for x in values)
-        if len(given) == 1 and nodes and is_elsewhere and not any(" " in x for x in given):
-            # the first slope is an argument; if f is also evaluated at the start, it is a slope of
-            # another step
-            names, values, nodes = [*given, *names], [{(start,): ONE}, *values], [ZERO, *nodes]
-        if not nodes and len(names) < 2:
-            raise NoStep
-        places = [(x,) for x in names]
-        A = [_before(x, (start,), step, places) for x in values]
-        b = _before(form, (start,), step, places)
-        if abs(near(*b) - 1) > NEAR or not all(isinstance(x, Number) for x in (*b, *nodes)):
-            raise NoStep
-        unused = [all(is_zero(row[j]) for row in (*A, b)) for j in range(len(b))]
-        if self._ignores_others and any(unused):
-            raise NoStep
-        error: list[Value] = []
-        for name in reversed(self._space):
-            of_error = _terms(self._space[name])
-            if of_error and name != result and _is_error(of_error, step, set(names)):
-                error = _before({**of_error, (start,): ONE}, (start,), step, places)
-                if result not in self._returned and _are_apart(b, A[-1], error):
-                    # either value may be the step
-                    raise NoStep
-                break
-        low = _before(second, (start,), step, places) if second and not error else []
-        while len(b) > 1 and all(is_zero(row[-1]) for row in (*A, b, error, low) if row):
-            # evaluations for the next step
-            A, b, nodes = [x[:-1] for x in A[:-1]], b[:-1], nodes[:-1]
-            error, low = error[:-1], low[:-1]
-        roles: Roles = {"A": Array([Array(row) for row in A]), "b": Array(b)}
-        rows = {"c": nodes, "error": error, "embedded": low}
-        return roles | {role: Array(row) for role, row in rows.items() if row}
-
-    def _result(self, start: str, values: Sequence[Terms]) -> tuple[str, Terms, Terms]:
-        """The result of the step with its name: the returned value, or the last computed one; for a
-        pair the first of its two results, which are no stage values, and the second.
-
-        Raises:
-            NoStep: there is no result, or more than two.
-        """
-        names = [x for x in self._returned if self._ends(x, start)]
-        names = names or [x for x in reversed(self._space) if self._ends(x, start)]
-        forms = {x: form for x in names if (form := _terms(self._space[x])) is not None}
-        others = {
-            str(sorted((at, shown(x)) for at, x in form.items())): name
-            for name, form in forms.items()
-            if form not in values and _is_one_in_all(form)
-        }
-        if not forms or len(others) > 2:
-            raise NoStep
-        if len(others) == 2:
-            # the last computed value comes first, returned values keep their order
-            first, second = [*others.values()][:: 1 if names[0] in self._returned else -1]
-            return first, forms[first], forms[second]
-        name, form = next(iter(forms.items()))
-        return name, form, {}
-
-    def _ends(self, name: str, start: str) -> bool:
-        form = _terms(self._space.get(name))
-        return form is not None and (start,) in form and len(form) > 1
 
 
 def _steps_from(at: ir.Expr, counters: Sequence[str]) -> int | None:
@@ -675,92 +716,36 @@ def _difference(x: Terms | None, y: Terms | None) -> str:
     return f"step@{heads[0][0]}" if is_next and are_plain else ""
 
 
-def _terms(value: Value | None) -> Terms | None:
-    """A value as a polynomial; None for other values."""
-    if isinstance(value, Number):
-        return {(): value}
-    return value.terms if isinstance(value, Form) else None
-
-
-def _known_forms(forms: Iterator[Terms | None]) -> list[Terms]:
-    """The polynomials of an argument of f; empty if one is unknown."""
-    known = list(forms)
-    return [] if None in known else [x for x in known if x is not None]
-
-
 def _symbols(forms: Iterable[Terms]) -> set[str]:
     return {name for form in forms for at in form for name in at}
 
 
-def _besides(forms: Iterable[Terms], step: str) -> set[str]:
-    """The names in terms with the step."""
-    return {name for form in forms for at in form if step in at for name in at}
+def _is_of_slopes(value: Value) -> bool:
+    """Whether it is a multiple of slopes, or an array with such ones, unlike an argument of f."""
+    if isinstance(value, Array):
+        return any(map(_is_of_slopes, value.flat()))
+    form = terms_of(value)
+    return bool(form) and all(any(" " in name for name in at) for at in form)
 
 
-def _step(form: Terms, names: set[str]) -> str:
-    """The name of the step."""
-    others = {x for at in form if names & set(at) for x in at if x not in names}
-    if len(others) != 1:
-        raise NoStep
-    return others.pop()
+def _evaluates(function: ir.Scope) -> bool:
+    """Whether a function calls another one that is given to it, or that is a field."""
+    for statement in ir.statements(function.body):
+        for x in ir.inside(getattr(statement, "value", None)):
+            match x:
+                case ir.Call(ir.Name(name)) if name in function.parameters:
+                    return True
+                case ir.Call(ir.Field(), (_, _, *_)):
+                    return True
+    return False
 
 
-def _nodes(columns: Sequence[Sequence[Terms]], step: str) -> list[Value]:
-    """The nodes from the time argument; empty if there is none.
-
-    Raises:
-        NoStep: another argument differs between slopes.
-    """
-    nodes: list[Value] = []
-    for forms in columns:
-        if len({tuple(sorted(form)) for form in forms}) > 1 or step in _symbols(forms):
-            times = {at for form in forms for at in form if at != (step,)}
-            if len(times) != 1:
-                raise NoStep
-            (time,) = times
-            nodes = [_before(form, time, step, [()])[0] for form in forms]
-    is_single = any(len(forms) == 1 for forms in columns)
-    return nodes or [ZERO] * is_single
-
-
-def _is_one_in_all(form: Terms) -> bool:
-    """Whether the slopes times the step have the sum 1, unlike partial sums."""
-    return abs(near(*(x for at, x in form.items() if len(at) == 2)) - 1) < NEAR
+def _has_branches(body: ir.Body) -> bool:
+    return any(isinstance(x, ir.Branch) for x in ir.statements(body))
 
 
 def _is_one(value: Value) -> bool:
     return isinstance(value, Number) and abs(value.near - 1) < NEAR
-
-
-def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value]) -> bool:
-    """Whether two rows differ by plus or minus an error."""
-    return any(
-        all(
-            abs(near(x) - near(y) + sign * near(z)) < NEAR
-            for x, y, z in zip(b, row, error, strict=False)
-        )
-        for sign in (1, -1)
-    )
-
-
-def _is_error(form: Terms, step: str, names: set[str]) -> bool:
-    """Whether it is a sum of slopes times the step with coefficients that cancel."""
-    is_sum = all(len(at) == 2 and step in at and names & set(at) for at in form)
-    return len(form) > 1 and is_sum and abs(near(*form.values())) < NEAR
-
-
-def _before(form: Terms, base: Place, step: str, places: Sequence[Place]) -> list[Value]:
-    """The coefficients of the step times each of some names, in a polynomial ``base`` + ….
-
-    Raises:
-        NoStep: there are other terms.
-    """
-    rest = {at: x for at, x in form.items() if not is_zero(x)}
-    is_based = _is_one(rest.pop(base, ZERO))
-    row = [rest.pop(tuple(sorted((*x, step))), ZERO) for x in places]
-    if rest or not is_based:
-        raise NoStep
-    return row
 
 
 def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
@@ -782,20 +767,34 @@ def _is_place(expr: ir.Expr) -> bool:
     return isinstance(of, ir.Name)
 
 
-def _place_changed(calls: Sequence[ir.Call], way: Iterable[ir.Statement]) -> int:
-    """The argument that a function changes: the last one with values that are used elsewhere,
-    otherwise the last one.
+def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
+    """The argument that a function changes: the last one with values that are used elsewhere, and
+    no sum before, unlike arguments of f; otherwise the last one.
     """
-    if not any(_is_place(x) for call in calls for x in call.args[1:-1]):
+    assigned = [x for x in ir.statements(way) if isinstance(x, ir.Assign)]
+    used = {y for x in assigned for y in ir.inside(x.value) if isinstance(y, ir.Name)}
+    sums: set[str] = set()
+    changed: list[list[bool]] = []
+    for x in ir.statements(way):
+        match x:
+            case ir.Assign(target, value) if any(map(_is_sum, ir.inside(value))):
+                sums |= {*names_of(target)}
+            case ir.Do(ir.Call(of, args)) if of == callee:
+                names = [{y for y in ir.inside(z) if isinstance(y, ir.Name)} for z in args]
+                changed.append(
+                    [
+                        _is_place(arg) and bool(own & used) and sums.isdisjoint(y.name for y in own)
+                        for arg, own in zip(args, names, strict=True)
+                    ]
+                )
+    if len({*map(len, changed)}) != 1:
         return -1
-    assigned = (x.value for x in ir.statements(way) if isinstance(x, ir.Assign))
-    used = {y for x in assigned for y in ir.inside(x) if isinstance(y, ir.Name)}
-    counts = {len(x.args) for x in calls}
-    for i in reversed(range(1, counts.pop())) if len(counts) == 1 else ():
-        arguments = [x.args[i] for x in calls]
-        if all(map(_is_place, arguments)) and used & {y for x in arguments for y in ir.inside(x)}:
-            return i
-    return -1
+    places = [i for i, of in enumerate(zip(*changed, strict=True)) if all(of)]
+    return places[-1] if places else -1
+
+
+def _is_sum(expr: object) -> bool:
+    return isinstance(expr, ir.Binary) and expr.sign in {"+", "-", ".+", ".-"}
 
 
 def _is_over_components(name: str, body: ir.Body) -> bool:
@@ -820,8 +819,20 @@ _TELLING = {
     *("push!", "emplace_back", "write", "writeln"),
 }
 """Functions that store or print their arguments without changing them."""
-_COPIES = {"memcpy", "dbl_memcpy", "copyto!"}
+_COPIES = {"memcpy", "dbl_memcpy", "copyto!", "set", "copy", "assign"}
 """Functions that assign their second argument to their first."""
+_OPERATIONS = {
+    **dict.fromkeys(("add", "plus", "sum", "vec_add", "vadd", "add_vectors", "vector_add"), "+"),
+    **dict.fromkeys(("sub", "subtract", "minus"), "-"),
+    **dict.fromkeys(("mul", "multiply", "times", "scale", "scaled", "mult_scalar", "mult"), "*"),
+    **dict.fromkeys(("divide", "div"), "/"),
+}
+"""Functions and methods that are operations on vectors."""
+_CHANGING = {
+    *("match statement", "where statement", "forall statement", "goto statement"),
+    *("select type statement", "select rank statement"),
+}
+"""Statements that change values in ways that are not followed."""
 _SUMS = {
     (name, len(roles.split())): roles
     for name, roles in (

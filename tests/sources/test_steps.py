@@ -380,13 +380,7 @@ def test_what_is_no_step(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "between",
-    [
-        "    project(k1)",
-        "    try:\n        k1 = 3*k1\n    except ValueError:\n        pass",
-        "    match m:\n        case 1:\n            k1 = 3*k1",
-        "    if m:\n        project(k1)",
-    ],
+    "between", ["    project(k1)", "    match m:\n        case 1:\n            k1 = 3*k1"]
 )
 def test_a_slope_that_may_have_changed_makes_no_step(between: str) -> None:
     """What is done to it in place, or where it is not followed."""
@@ -394,6 +388,20 @@ def test_a_slope_that_may_have_changed_makes_no_step(between: str) -> None:
     text += "    return x + h*k2\n"
     assert [x.trouble for x in python.find(text.format("    print(m)"), "x")] == [""]
     assert not any(x.b for x in python.find(text.format(between), "x"))
+
+
+@pytest.mark.parametrize(
+    ("between", "entry"),
+    [
+        ("    if m:\n        project(k1)", "1/2"),
+        ("    try:\n        k1 = 3*k1\n    except ValueError:\n        pass", "3/2"),
+    ],
+)
+def test_the_way_that_is_followed(between: str, entry: str) -> None:
+    """Without what a branch does to a slope; with what is tried."""
+    text = "def step(f, t, x, h, m):\n    k1 = f(t, x)\n{}\n    k2 = f(t + h/2, x + h/2*k1)\n"
+    (table,) = python.find(text.format(between) + "    return x + h*k2\n", "x")
+    assert table.A == (((("0", "0"), (entry, "0")),),)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,378 @@
+"""The coefficients of a step, from the polynomials that a program evaluates f at.
+
+The arguments of f are sums: a base plus the step times multiples of slopes. A base whose value
+after the step is such a sum, too, is a component of the solution; its slopes are its stages. All
+components have the same coefficients, or there is no step.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence, Set
+
+from garkcli.frozen import Frozen
+from garkcli.sources import ir
+from garkcli.sources.values import ZERO, Array, Form, Number, Terms, Value, computed, is_zero, near
+
+NEAR = 1e-3
+"""Sums that differ by less are equal."""
+CLOSE = 1e-9
+"""Coefficients that differ by less are equal."""
+Roles = dict[str, Value]
+
+
+class NoStep(Exception):
+    """The computation is no step of a Runge–Kutta method.
+
+    Args:
+        looks_like: whether it looks like one: f is evaluated at ``x + h*k`` with another value k of
+            f.
+    """
+
+    def __init__(self, looks_like: bool = False) -> None:
+        super().__init__()
+        self.looks_like = looks_like
+
+
+class Slope(Frozen):
+    """An evaluation of f: its name in polynomials, the callee and its arguments."""
+
+    name: str
+    callee: ir.Expr
+    args: tuple[Terms | None, ...]
+
+
+class _Sum(Frozen):
+    """A base plus the step times a number or multiples of slopes."""
+
+    base: str
+    node: Value
+    row: Mapping[str, Value]
+
+
+class _Component(Frozen):
+    """A base with its slopes in order, its value after the step, a second value, an error."""
+
+    slopes: tuple[str, ...]
+    result: Mapping[str, Value]
+    second: Mapping[str, Value]
+    error: Mapping[str, Value]
+
+
+def terms_of(value: Value | None) -> Terms | None:
+    """A value as a polynomial; None for other values."""
+    if isinstance(value, Number):
+        return {(): value}
+    return value.terms if isinstance(value, Form) else None
+
+
+def step_in(slopes: Sequence[Slope], values: Mapping[str, Value], returned: Sequence[str]) -> Roles:
+    """A, b, c, the error and the embedded weights of a step.
+
+    Args:
+        slopes: all evaluations of functions, in order.
+        values: at the end, in the order of their last assignments.
+        returned: the names of the returned values.
+
+    Raises:
+        NoStep: there is none.
+    """
+    return _Step(slopes, values, returned).roles()
+
+
+class _Step:
+    """The parts of a step."""
+
+    def __init__(
+        self, slopes: Sequence[Slope], values: Mapping[str, Value], returned: Sequence[str]
+    ) -> None:
+        self._slopes = slopes
+        self._names = {x.name for x in slopes}
+        self._values = values
+        self._forms = {x: form for x, value in values.items() if (form := terms_of(value))}
+        self._returned = returned
+        self._h = self._step()
+        args = {x.name: [self._sum(form) for form in x.args] for x in slopes}
+        stages = {x.callee for x in slopes if any(y and y.row for y in args[x.name])}
+        # others, such as the size of a vector, are no slopes
+        self._args = {
+            x.name: args[x.name] if not stages or x.callee in stages else [] for x in slopes
+        }
+        self._places = {x.name: i for i, x in enumerate(slopes)}
+        self._given = ""
+
+    def roles(self) -> Roles:
+        """The coefficients of all components, which are the same."""
+        components = self._components()
+        counts = {len(x.slopes) for x in components.values()}
+        slopes = [name for x in components.values() for name in x.slopes]
+        if len(counts) != 1 or len({*slopes}) != len(slopes):
+            raise NoStep
+        stages = counts.pop()
+        A = [self._row(i, components) for i in range(stages)]
+        nodes = self._nodes(components, A)
+        if not nodes and stages < 2 and not self._has_constants(components):
+            raise NoStep
+        every = [self._weights(x) for x in components.values()]
+        if any(not _agree(every[0]["b"], x["b"]) for x in every[1:]):
+            raise NoStep
+        rows = {**every[0], "c": nodes}
+        error = rows.get("error")
+        main = next(iter(components.values()))
+        if error and not self._is_returned(main) and _are_apart(rows["b"], A[-1], error):
+            # either value may be the step
+            raise NoStep
+        roles: Roles = {"A": Array([Array(row) for row in A])}
+        return roles | {role: Array([*row]) for role, row in rows.items() if row}
+
+    # the sums
+
+    def _step(self) -> str:
+        """The name of the step: the factor of the slopes.
+
+        Raises:
+            NoStep: there is none.
+        """
+        factors: Counter[str] = Counter()
+        for form in (*self._forms.values(), *(y for x in self._slopes for y in x.args if y)):
+            for at in form:
+                if len(at) == 2 and len(self._names.intersection(at)) == 1:
+                    factors.update(x for x in at if x not in self._names)
+        if not factors:
+            raise NoStep
+        return factors.most_common(1)[0][0]
+
+    def _sum(self, form: Terms | None) -> _Sum | None:
+        """A polynomial as a sum; None for others."""
+        bases: list[str] = []
+        row: dict[str, Value] = {}
+        node: Value = ZERO
+        for at, x in (form or {}).items():
+            others = list(at)
+            if is_zero(x):
+                continue
+            if self._h in others:
+                others.remove(self._h)
+                if len(others) > 1:
+                    return None
+                if others:
+                    row[others[0]] = x
+                else:
+                    node = x
+            elif len(others) == 1 and isinstance(x, Number) and abs(x.near - 1) < NEAR:
+                bases += others
+            elif not others:
+                bases.append(f"{near(x)}")
+            else:
+                return None
+        if len(bases) != 1 or (row and not is_zero(node)):
+            return None
+        return _Sum(bases[0], node, row)
+
+    # the components
+
+    def _components(self) -> Mapping[str, _Component]:
+        """The components by their bases.
+
+        Raises:
+            NoStep: there is none.
+        """
+        sums = {name: x for name, form in self._forms.items() if (x := self._sum(form)) and x.row}
+        bases = dict.fromkeys(x.base for x in sums.values() if _is_whole(x.row))
+        components: dict[str, _Component] = {}
+        for base in bases:
+            own = [x for of in self._args.values() for x in of if x and x.base == base]
+            if not own:
+                # no argument of f
+                continue
+            result, second = self._result(base, sums, own)
+            names = {name for x in (result, second, *(x.row for x in own)) for name in x}
+            error = self._error(names)
+            names |= set(error)
+            others = names - self._names
+            if len(others) == 1 and all(x.row for x in own) and [*bases] == [base] != [*others]:
+                # the first slope is an argument; if f is also evaluated at the start, it is a slope
+                # of another step
+                (self._given,) = others
+            elif others:
+                raise NoStep
+            callees = {self._slopes[self._places[x]].callee for x in names - {self._given}}
+            if len(callees) > 1:
+                raise NoStep
+            ordered = sorted(names, key=lambda x: self._places.get(x, -1))
+            components[base] = _Component(tuple(ordered), result, second, error)
+        if not components:
+            raise NoStep
+        return components
+
+    def _result(
+        self, base: str, sums: Mapping[str, _Sum], own: Sequence[_Sum]
+    ) -> tuple[Mapping[str, Value], Mapping[str, Value]]:
+        """The result of the step: the returned value, or the last computed one; for a pair the
+        first of its two results, which are no stage values, and the second.
+
+        Raises:
+            NoStep: there are more than two.
+        """
+        of_base = {name: x.row for name, x in sums.items() if x.base == base}
+        names = [x for x in self._returned if x in of_base] or [*reversed(of_base)]
+        stages = [x.row for x in own]
+        others: list[Mapping[str, Value]] = []
+        for name in names:
+            row = of_base[name]
+            if _is_whole(row) and not any(_are_equal(row, x) for x in (*stages, *others)):
+                others.append(row)
+        if len(others) > 2:
+            raise NoStep
+        if len(others) == 2:
+            # the last computed value comes first, returned values keep their order
+            first, second = others[:: 1 if names[0] in self._returned else -1]
+            return first, second
+        is_lost = base in self._values and (base,) not in self._forms.get(base, ())
+        if not _is_whole(of_base[names[0]]) or is_lost:
+            # its last value is another one
+            raise NoStep
+        return of_base[names[0]], {}
+
+    def _is_returned(self, component: _Component) -> bool:
+        sums = (self._sum(self._forms.get(name)) for name in self._returned)
+        return any(x is not None and _are_equal(x.row, component.result) for x in sums)
+
+    def _error(self, names: Set[str]) -> Mapping[str, Value]:
+        """The last value that is the step times slopes, some of the given ones, with the sum 0."""
+        for form in reversed(self._forms.values()):
+            rows = [at for at in form if len(at) == 2 and self._h in at]
+            of = {x: form[at] for at in rows for x in at if x != self._h}
+            is_sum = len(rows) == len(form) > 1 and of.keys() <= self._names | names
+            if is_sum and abs(near(*of.values())) < NEAR and of.keys() & names:
+                return of
+        return {}
+
+    # the coefficients
+
+    def _row(self, i: int, components: Mapping[str, _Component]) -> list[Value]:
+        """The row of a stage, from all arguments that are components."""
+        rows: list[list[Value]] = []
+        is_doubtful = False
+        for component in components.values():
+            name = component.slopes[i]
+            if name == self._given:
+                return [ZERO] * len(component.slopes)
+            slope = self._slopes[self._places[name]]
+            for form, x in zip(slope.args, self._args[name], strict=False):
+                if x is None:
+                    is_doubtful |= self._is_bad(form, slope, components)
+                elif x.base in components:
+                    slopes = components[x.base].slopes
+                    if not x.row.keys() <= {*slopes}:
+                        raise NoStep
+                    rows.append([x.row.get(y, ZERO) for y in slopes])
+                elif x.row:
+                    raise NoStep
+        if not rows or is_doubtful or not all(_agree(rows[0], x) for x in rows[1:]):
+            raise NoStep
+        return rows[0]
+
+    def _is_bad(
+        self, form: Terms | None, slope: Slope, components: Mapping[str, _Component]
+    ) -> bool:
+        """Whether an argument is unknown, and differs from that of other evaluations; a position
+        whose derivative is a velocity has no slopes of its own.
+        """
+        if form is None:
+            return True
+        bases = [at[0] for at in form if len(at) == 1 and at[0] != self._h]
+        if any(self._names.intersection(at) for at in form):
+            others = [at for at in form if self._h not in at]
+            return len(bases) != 1 or len(others) != 1 or bases[0] in components
+        same = [x.args for x in self._slopes if x.callee == slope.callee]
+        return not all(any(_are_terms(form, y) for y in args) for args in same)
+
+    def _nodes(
+        self, components: Mapping[str, _Component], A: Sequence[Sequence[Value]]
+    ) -> list[Value]:
+        """The nodes from the arguments that are times; empty if there is none.
+
+        Raises:
+            NoStep: another argument differs between slopes.
+        """
+        nodes: dict[int, Value] = {}
+        times: dict[tuple[ir.Expr, int], set[str]] = {}
+        for component in components.values():
+            for i, name in enumerate(component.slopes):
+                if name == self._given:
+                    nodes.setdefault(i, ZERO)
+                    continue
+                slope = self._slopes[self._places[name]]
+                for j, x in enumerate(self._args[name]):
+                    if x is None or x.base in components:
+                        times.setdefault((slope.callee, j), set()).add("")
+                        continue
+                    times.setdefault((slope.callee, j), set()).add(x.base)
+                    column = [
+                        y.node
+                        for z in self._slopes
+                        if z.callee == slope.callee and j < len(self._args[z.name])
+                        for y in [self._args[z.name][j]]
+                        if y
+                    ]
+                    if all(map(is_zero, column)):
+                        continue
+                    if not _agree([nodes.setdefault(i, x.node)], [x.node]):
+                        raise NoStep
+        if any(len(x) > 1 for x in times.values()):
+            raise NoStep
+        if len(nodes) < len(A):
+            return []
+        ordered = [nodes[i] for i in range(len(A))]
+        off = [near(x) - near(*row) for x, row in zip(ordered, A, strict=True)]
+        if len(off) > 1 and abs(off[0]) > NEAR and max(off) - min(off) < CLOSE:
+            # the time is that of the end of the step
+            ordered = [computed("-", x, ordered[0], 0) for x in ordered]
+        return ordered
+
+    def _has_constants(self, components: Mapping[str, _Component]) -> bool:
+        """Whether an argument is the same in all evaluations, as a time may be."""
+        args = (x for of in self._args.values() for x in of)
+        return any(x is not None and x.base not in components and not x.row for x in args)
+
+    def _weights(self, component: _Component) -> dict[str, list[Value]]:
+        """The weights of a component by their roles."""
+        rows = {"b": component.result, "error": component.error}
+        if not component.error:
+            rows["embedded"] = component.second
+        of = {role: [x.get(y, ZERO) for y in component.slopes] for role, x in rows.items() if x}
+        if not all(isinstance(x, Number) for row in of.values() for x in row):
+            raise NoStep
+        return of
+
+
+def _is_whole(row: Mapping[str, Value]) -> bool:
+    """Whether the slopes times the step have the sum 1, unlike partial sums."""
+    return abs(near(*row.values()) - 1) < NEAR
+
+
+def _are_equal(x: Mapping[str, Value], y: Mapping[str, Value]) -> bool:
+    return x.keys() == y.keys() and _agree([*x.values()], [y[name] for name in x])
+
+
+def _are_terms(x: Terms, y: Terms | None) -> bool:
+    """Whether two polynomials are the same."""
+    return y is not None and x.keys() == y.keys() and _agree([*x.values()], [y[at] for at in x])
+
+
+def _agree(x: Sequence[Value], y: Sequence[Value]) -> bool:
+    return len(x) == len(y) and all(
+        abs(near(a) - near(b)) < CLOSE for a, b in zip(x, y, strict=True)
+    )
+
+
+def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value]) -> bool:
+    """Whether two rows differ by plus or minus an error."""
+    return any(
+        all(
+            abs(near(x) - near(y) + sign * near(z)) < NEAR
+            for x, y, z in zip(b, row, error, strict=False)
+        )
+        for sign in (1, -1)
+    )
