@@ -131,6 +131,7 @@ class Evaluator:
     Attributes:
         lost: reasons why scopes are not read, by their kinds and lines.
         functions: the functions of the source by name, if only one has the name.
+        followed: the lines of those that are parts of steps.
     """
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
@@ -164,6 +165,7 @@ class Evaluator:
         self._of_cases: dict[str, dict[str, Value]] = {}
         self._gives: dict[str, Value | None] = {}
         self.functions: Mapping[str, ir.Scope] = {}
+        self.followed: set[int] = set()
 
     def module(self, body: ir.Body) -> None:
         """Walks over the whole source."""

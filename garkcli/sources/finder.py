@@ -178,7 +178,8 @@ class TableFinder(Harvester):
         # a call that takes the arrays of another table
         by_content = {key: x for key, x in by_content.items() if doubtful.get(key) not in read}
         lines_of_tables = [x.line for x in (*by_content.values(), *self._other.values())]
-        for scope in overlooked(body, text, self.source, lines_of_tables, used, self.lost):
+        lost = {place: why for place, why in self.lost.items() if place[1] not in self.followed}
+        for scope in overlooked(body, text, self.source, lines_of_tables, used, lost):
             trouble = self.lost.get((scope.kind, scope.line), UNRECOGNISED)
             self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
         # after a branch that assigns the nodes there is the table without them

@@ -66,27 +66,38 @@ def terms_of(value: Value | None) -> Terms | None:
     return value.terms if isinstance(value, Form) else None
 
 
-def step_in(slopes: Sequence[Slope], values: Mapping[str, Value], returned: Sequence[str]) -> Roles:
+def step_in(
+    slopes: Sequence[Slope],
+    values: Mapping[str, Value],
+    returned: Sequence[str],
+    counters: Sequence[str],
+) -> Roles:
     """A, b, c, the error and the embedded weights of a step.
 
     Args:
         slopes: all evaluations of functions, in order.
         values: at the end, in the order of their last assignments.
         returned: the names of the returned values.
+        counters: the names that count steps.
 
     Raises:
         NoStep: there is none.
     """
-    return _Step(slopes, values, returned).roles()
+    return _Step(slopes, values, returned, counters).roles()
 
 
 class _Step:
     """The parts of a step."""
 
     def __init__(
-        self, slopes: Sequence[Slope], values: Mapping[str, Value], returned: Sequence[str]
+        self,
+        slopes: Sequence[Slope],
+        values: Mapping[str, Value],
+        returned: Sequence[str],
+        counters: Sequence[str],
     ) -> None:
         self._slopes = slopes
+        self._counters = counters
         self._names = {x.name for x in slopes}
         self._values = values
         self._forms = {x: form for x, value in values.items() if (form := terms_of(value))}
@@ -117,9 +128,10 @@ class _Step:
         if any(not _agree(every[0]["b"], x["b"]) for x in every[1:]):
             raise NoStep
         rows = {**every[0], "c": nodes}
-        error = rows.get("error")
+        error = rows.get("error", [])
         main = next(iter(components.values()))
-        if error and not self._is_returned(main) and _are_apart(rows["b"], A[-1], error):
+        is_clear = not error or self._is_returned(main) or not self._is_kept(main, A[-1])
+        if not is_clear and _are_apart(rows["b"], A[-1], error):
             # either value may be the step
             raise NoStep
         roles: Roles = {"A": Array([Array(row) for row in A])}
@@ -137,7 +149,7 @@ class _Step:
         for form in (*self._forms.values(), *(y for x in self._slopes for y in x.args if y)):
             for at in form:
                 if len(at) == 2 and len(self._names.intersection(at)) == 1:
-                    factors.update(x for x in at if x not in self._names)
+                    factors.update(x for x in at if x not in {*self._names, *self._counters})
         if not factors:
             raise NoStep
         return factors.most_common(1)[0][0]
@@ -145,6 +157,7 @@ class _Step:
     def _sum(self, form: Terms | None) -> _Sum | None:
         """A polynomial as a sum; None for others."""
         bases: list[str] = []
+        counted = ""
         row: dict[str, Value] = {}
         node: Value = ZERO
         for at, x in (form or {}).items():
@@ -155,7 +168,10 @@ class _Step:
                 others.remove(self._h)
                 if len(others) > 1:
                     return None
-                if others:
+                if others and others[0] in self._counters:
+                    # t + n*h
+                    counted = f" + {near(x)} {others[0]}"
+                elif others:
                     row[others[0]] = x
                 else:
                     node = x
@@ -167,7 +183,7 @@ class _Step:
                 return None
         if len(bases) != 1 or (row and not is_zero(node)):
             return None
-        return _Sum(bases[0], node, row)
+        return _Sum(bases[0] + counted, node, row)
 
     # the components
 
@@ -179,6 +195,9 @@ class _Step:
         """
         sums = {name: x for name, form in self._forms.items() if (x := self._sum(form)) and x.row}
         bases = dict.fromkeys(x.base for x in sums.values() if _is_whole(x.row))
+        if not bases:
+            sums |= self._increments()
+            bases = dict.fromkeys(x.base for x in sums.values() if _is_whole(x.row))
         components: dict[str, _Component] = {}
         for base in bases:
             own = [x for of in self._args.values() for x in of if x and x.base == base]
@@ -205,6 +224,18 @@ class _Step:
             raise NoStep
         return components
 
+    def _increments(self) -> Mapping[str, _Sum]:
+        """The values that a caller adds to the solution, with the step or without it."""
+        bases = {x.base for of in self._args.values() for x in of if x and x.row}
+        found: dict[str, _Sum] = {}
+        for name, form in self._forms.items() if len(bases) == 1 else ():
+            rows = {x: form[at] for at in form for x in at if x in self._names}
+            others = {tuple(x for x in at if x not in self._names) for at in form}
+            is_sum = others in ({(self._h,)}, {()}) and len(rows) == len(form)
+            if is_sum and _is_whole(rows) and (len(rows) > 1 or name in self._returned):
+                found[name] = _Sum(min(bases), ZERO, rows)
+        return found
+
     def _result(
         self, base: str, sums: Mapping[str, _Sum], own: Sequence[_Sum]
     ) -> tuple[Mapping[str, Value], Mapping[str, Value]]:
@@ -222,13 +253,16 @@ class _Step:
             row = of_base[name]
             if _is_whole(row) and not any(_are_equal(row, x) for x in (*stages, *others)):
                 others.append(row)
+        is_returned = names[0] in self._returned
         if len(others) > 2:
             raise NoStep
         if len(others) == 2:
-            # the last computed value comes first, returned values keep their order
-            first, second = others[:: 1 if names[0] in self._returned else -1]
+            # returned values keep their order, a copied value is the result
+            is_copied = sum(_are_equal(x, others[0]) for x in of_base.values()) > 1
+            first, second = others[:: 1 if is_returned or is_copied else -1]
             return first, second
         is_lost = base in self._values and (base,) not in self._forms.get(base, ())
+        is_lost &= names[0] not in self._returned
         if not _is_whole(of_base[names[0]]) or is_lost:
             # its last value is another one
             raise NoStep
@@ -237,6 +271,12 @@ class _Step:
     def _is_returned(self, component: _Component) -> bool:
         sums = (self._sum(self._forms.get(name)) for name in self._returned)
         return any(x is not None and _are_equal(x.row, component.result) for x in sums)
+
+    def _is_kept(self, component: _Component, row: Sequence[Value]) -> bool:
+        """Whether a stage value is still there at the end."""
+        of = {x: y for x, y in zip(component.slopes, row, strict=True) if not is_zero(y)}
+        sums = map(self._sum, self._forms.values())
+        return any(x is not None and _are_equal(x.row, of) for x in sums)
 
     def _error(self, names: Set[str]) -> Mapping[str, Value]:
         """The last value that is the step times slopes, some of the given ones, with the sum 0."""
@@ -294,7 +334,7 @@ class _Step:
         """The nodes from the arguments that are times; empty if there is none.
 
         Raises:
-            NoStep: another argument differs between slopes.
+            NoStep: an argument is a component in some slopes.
         """
         nodes: dict[int, Value] = {}
         times: dict[tuple[ir.Expr, int], set[str]] = {}
@@ -320,13 +360,14 @@ class _Step:
                         continue
                     if not _agree([nodes.setdefault(i, x.node)], [x.node]):
                         raise NoStep
-        if any(len(x) > 1 for x in times.values()):
+        if any(len(x) > 1 and "" in x for x in times.values()):
             raise NoStep
-        if len(nodes) < len(A):
+        if len(nodes) < len(A) or any(len(x) > 1 for x in times.values()):
+            # the end of the step may be an argument, too
             return []
         ordered = [nodes[i] for i in range(len(A))]
         off = [near(x) - near(*row) for x, row in zip(ordered, A, strict=True)]
-        if len(off) > 1 and abs(off[0]) > NEAR and max(off) - min(off) < CLOSE:
+        if off[0] < -NEAR and max(off) - min(off) < CLOSE:
             # the time is that of the end of the step
             ordered = [computed("-", x, ordered[0], 0) for x in ordered]
         return ordered

@@ -9,7 +9,7 @@ that does not fit gives no table.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any, TypeGuard
 
@@ -136,12 +136,14 @@ class _Reader:
         self.looks_like = False
 
     def by_every_way(self, body: ir.Body, counters: Sequence[str] = ()) -> Roles:
-        """The common step of all paths through some statements that are steps.
+        """The common step of all paths through some statements; a path that is none counts only if
+        branches have sums.
 
         Raises:
             NoStep: there is none.
         """
         by_content: dict[object, Roles] = {}
+        is_lost = False
         for way in reversed(_ways(body)):
             follower = self._follower(way, counters)
             try:
@@ -155,11 +157,17 @@ class _Reader:
             except NoStep as error:
                 if error.looks_like:
                     raise
+                is_lost = True
             else:
                 by_content[shown(SourceRecord("", roles))] = roles
-        if len(by_content) != 1:
+                self._like.followed |= follower.followed
+        arms = (arm for x in body if isinstance(x, ir.Branch) for arm in x.arms)
+        if len(by_content) != 1 or (is_lost and any(map(_has_sums, arms))):
             raise NoStep(looks_like=bool(by_content))
-        return by_content.popitem()[1]
+        _, roles = by_content.popitem()
+        if is_lost and len(items_of(roles["b"])) < 2:
+            raise NoStep
+        return roles
 
     def _follower(
         self, way: Sequence[ir.Statement], counters: Sequence[str], ignores_others: bool = False
@@ -297,6 +305,8 @@ class Follower(Evaluator):
         self.functions = like.functions
         self._is_inlined = is_inlined
         self._opaque: dict[object, str] = {}
+        self._once: dict[object, Value] = {}
+        self._later: dict[str, Form] = {}
         # in languages with arrays from 0 functions may return a status
         self._way = _for_effect(way) if like.base == 0 else way
         self._counters = counters
@@ -462,6 +472,8 @@ class Follower(Evaluator):
     # values
 
     def _named(self, name: str, space: Space) -> Value:
+        if name in self._later:
+            return self._later[name]
         if name in space:
             named_value = space[name]
             if isinstance(named_value, Unknown):
@@ -522,9 +534,9 @@ class Follower(Evaluator):
             if isinstance(root, ir.Field):
                 at.append(root.name)
             else:
-                forms = [terms_of(self.value(x, space)) for x in root.at]
-                is_known &= not any(form and any(form) for form in forms)
-                at += [tuple(sorted((y, shown(z)) for y, z in (x or {}).items())) for x in forms]
+                forms = [terms_of(self.value(x, space)) or {} for x in root.at]
+                is_known &= not any(map(any, forms))
+                at += map(_key, forms)
             root = root.of
         of = self._named(root.name, space) if isinstance(root, ir.Name) else NULL
         if is_known or not isinstance(root, ir.Name) or isinstance(of, Array):
@@ -532,6 +544,12 @@ class Follower(Evaluator):
         if isinstance(of, Form) and len(of.terms) > 1:
             # an entry of a sum
             return expr
+        first, *others = at
+        match dict(first) if isinstance(first, tuple) and not others else {}:
+            case {} as form if len(form) < 3 and (by := _shift(form)) is not None:
+                # y[n], y[n + 1]
+                head = next(name for (name,) in filter(None, form))
+                return ir.Name(f"{root.name}[{head}]" + (f"@{by}" if by else ""))
         return ir.Name(self._opaque.setdefault((root.name, *at), f"entry{len(self._opaque)}"))
 
     def _array_behind(self, expr: ir.Expr) -> ir.Expr:
@@ -560,11 +578,13 @@ class Follower(Evaluator):
 
     def _called(self, call: ir.Call, space: Space) -> Value:
         whole = self._array_behind(ir.Index(call.callee, call.args))
-        if isinstance(whole, ir.Name) and (self._components or self._counters):
+        name = _name(call.callee)
+        is_entry = isinstance(whole, ir.Name) and name not in CONVERSIONS
+        if is_entry and (self._components or self._counters):
             # k1(i), entries of classes in C++
             return self.value(whole, space)
-        args = [self.value(x, space) for x in (*call.args, *(x for _, x in call.named))]
-        name = _name(call.callee)
+        args = [self.value(x, space) for x in call.args]
+        args += [x for _, y in call.named if isinstance(x := self.value(y, space), Form)]
         if name in CONVERSIONS and len(args) == 1:
             return args[0]
         of = [self.value(call.callee.of, space)] if isinstance(call.callee, ir.Field) else []
@@ -578,7 +598,14 @@ class Follower(Evaluator):
         if (followed := self._followed(call, args)) is not None:
             return followed
         if any(isinstance(x, Form) for x in args):
-            return self._slope(call.callee, args)
+            forms = [x for x in map(terms_of, args) if x is not None]
+            if any(" " in x for x in _symbols(forms)) or len(forms) < len(args):
+                return self._slope(call.callee, args)
+            # what depends on no slope is the same each time
+            key = (call.callee, *map(_key, forms))
+            if key not in self._once:
+                self._once[key] = self._slope(call.callee, args)
+            return self._once[key]
         called_value = super()._called(call, space)
         if isinstance(called_value, Unknown) and not any(
             isinstance(x, Unknown | Array) for x in args
@@ -602,6 +629,7 @@ class Follower(Evaluator):
             return None
         inner = Space(self._space.up)
         inner.update(zip(names, map(copied, args), strict=True))
+        self.followed.add(function.line)
         self._inlined += 1
         self._run(function.body, inner)
         self._inlined -= 1
@@ -626,7 +654,9 @@ class Follower(Evaluator):
         sign = sign.removeprefix(".")
         left, right = terms_of(x), terms_of(y)
         if sign == "-" and (name := _difference(left, right)):
-            return Form({(name,): ONE})
+            head, step = name.removeprefix("step@"), Form({(name,): ONE})
+            self._later[f"{head}@1"] = Form({(head,): ONE, (name,): ONE})
+            return step
         if not isinstance(x, Form) and not isinstance(y, Form):
             return super().combined(sign, x, y)
         if left is None or right is None or len(left) * len(right) > MAX_TERMS:
@@ -667,7 +697,7 @@ class Follower(Evaluator):
         if self._is_lost or not 0 < len(slopes) <= MAX_STAGES:
             raise NoStep(self.looks_like)
         try:
-            roles = step_in(slopes, space, self._returned)
+            roles = step_in(slopes, space, self._returned, self._counters)
         except NoStep:
             raise NoStep(self.looks_like) from None
         if self._ignores_others and len(items_of(roles["b"])) < len(slopes):
@@ -720,11 +750,24 @@ def _symbols(forms: Iterable[Terms]) -> set[str]:
     return {name for form in forms for at in form for name in at}
 
 
+def _shift(form: Mapping[Place, str]) -> int | None:
+    """The integer added to a name; None for other indices."""
+    rest = {at: x for at, x in form.items() if at}
+    by = form.get((), "0")
+    is_name = [*rest.values()] == ["1"] and all(len(at) == 1 for at in rest)
+    return int(by) if is_name and by.lstrip("-").isdigit() else None
+
+
+def _key(form: Terms) -> object:
+    """A key that is equal for equal polynomials."""
+    return tuple(sorted((at, str(shown(x))) for at, x in form.items()))
+
+
 def _is_of_slopes(value: Value) -> bool:
     """Whether it is a multiple of slopes, or an array with such ones, unlike an argument of f."""
     if isinstance(value, Array):
         return any(map(_is_of_slopes, value.flat()))
-    form = terms_of(value)
+    form = terms_of(value) or {}
     return bool(form) and all(any(" " in name for name in at) for at in form)
 
 
@@ -738,6 +781,14 @@ def _evaluates(function: ir.Scope) -> bool:
                 case ir.Call(ir.Field(), (_, _, *_)):
                     return True
     return False
+
+
+def _has_sums(body: ir.Body) -> bool:
+    return any(
+        _is_sum(x)
+        for statement in ir.statements(body)
+        for x in ir.inside(getattr(statement, "value", None))
+    )
 
 
 def _has_branches(body: ir.Body) -> bool:

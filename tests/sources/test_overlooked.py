@@ -50,15 +50,6 @@ PACKED = """
 /* a triangle of Runge-Kutta in one row */
 static const double a_packed[6] = {1.0/2, 0, 3.0/4, 2.0/9, 1.0/3, 5.0/7};
 """
-NAMED = """
-def rk4_step_of_func(func, time, step, value, perturbation=None, has_to_perturb=False):
-    half_step = step*0.5
-    k1 = func(time, value, perturb=Perturb.NEXT if has_to_perturb else Perturb.NONE)
-    k2 = func(time + half_step, value + half_step*k1)
-    k3 = func(time + half_step, value + half_step*k2)
-    k4 = func(time + step, value + step*k3, perturb=Perturb.LAST if has_to_perturb else None)
-    return (k1 + 2*(k2 + k3) + k4)*step*one_sixth
-"""
 ENTRIES = """
 subroutine dirk(i, a)
   integer :: i
@@ -79,7 +70,6 @@ end subroutine
         (c.find, PACKED, "x"),
         (c.find, ROSENBROCK, "default_rosenbrock_coefficients"),
         (julia.find, ARGUMENTS, "ImKG"),
-        (python.find, NAMED, "rk4_step_of_func"),
         (fortran.find, ENTRIES, "dirk"),
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 
 from garkcli.bridges.audit import audit
 from garkcli.frozen import replace
-from garkcli.sources.languages import c, fortran, julia, matlab, python
+from garkcli.sources.languages import c, fortran, java, julia, matlab, python
 
 KUTTA = """
 subroutine rk4(me, t, x, h, xf)
@@ -178,7 +178,99 @@ function step!(f!, u, k1, k2, tmp, p, t, dt)
     @. u = u + dt*k2
 end
 """
+INCREMENT = """
+def rk4_step_of_func(func, time, step, value, perturbation=None, has_to_perturb=False):
+    half_step = step*0.5
+    k1 = func(time, value, perturb=Perturb.NEXT if has_to_perturb else Perturb.NONE)
+    k2 = func(time + half_step, value + half_step*k1)
+    k3 = func(time + half_step, value + half_step*k2)
+    k4 = func(time + step, value + step*k3, perturb=Perturb.LAST if has_to_perturb else None)
+    return (k1 + 2*(k2 + k3) + k4)*step*one_sixth
+"""
+HELPERS = """
+class Solver {
+double[] slopes(double h, double t, double[] x, Function f) {
+    double[] k = new double[4];
+    k[0] = f.apply(t, x);
+    k[1] = f.apply(t + h/2, shifted(x, h/2, k[0]));
+    k[2] = f.apply(t + h/2, shifted(x, h/2, k[1]));
+    k[3] = f.apply(t + h, shifted(x, h, k[2]));
+    return k;
+}
+double[] shifted(double[] x, double h, double[] k) {
+    double[] y = new double[x.length];
+    for (int i = 0; i < x.length; i++) { y[i] = x[i] + h*k[i]; }
+    return y;
+}
+double[] step(double h, double t, double[] x, Function f) {
+    double[] k = slopes(h, t, x, f);
+    double[] y = new double[x.length];
+    for (int i = 0; i < x.length; i++) {
+        y[i] = x[i] + h*(k[0][i] + 2*k[1][i] + 2*k[2][i] + k[3][i])/6;
+    }
+    return y;
+}
+}
+"""
+END = """
+double step(double t) {
+    try {
+        double k1 = rhs(y(0), t - dt, x);
+        double k2 = rhs(y(0) + dt*k1/2, t - dt/2, x);
+        return y(0) + dt*k2;
+    } catch (Error e) { throw e; }
+}
+"""
+SIR = """
+def step(s, i, r, dt):
+    s1, i1, r1 = dt*fs(s, i), dt*fi(s, i), dt*fr(i)
+    s2 = dt*fs(s + s1/2, i + i1/2)
+    i2 = dt*fi(s + s1/2, i + i1/2)
+    r2 = dt*fr(i + i1/2)
+    return s + s2, i + i2, r + r2
+"""
+NUMBER = """
+h = 0.1
+def run(f, t, y):
+    while t < 1:
+        k1 = h*f(t, y)
+        k2 = h*f(t + h/2, y + k1/2)
+        y += k2
+        t += h
+"""
+POINTS = """
+void solve(double h, int n) {
+    for (int i = 0; i < n; ++i) {
+        k[0] = f(p[i].x, p[i].y);
+        k[1] = f(p[i].x + h/2, p[i].y + h*k[0]/2);
+        p[i + 1].y = p[i].y + h*k[1];
+    }
+}
+"""
+TIMES = """
+def advance(self):
+    u, f, n, t = self.u, self.f, self.n, self.t
+    dt = t[n+1] - t[n]
+    star = u[n] + dt*f(u[n], t[n])
+    return u[n] + 0.5*dt*(f(u[n], t[n]) + f(star, t[n+1]))
+"""
+FIRST = """
+void advance(Vector &v, double t, double dt) {
+    eq->equation(k1, v, t);
+    for (int i = 0; i < n; i++) tmp[i] = v[i] + dt/2*k1[i];
+    eq->equation(k2, tmp, t + dt/2);
+    for (int i = 0; i < n; i++) v[i] += dt*k2[i];
+}
+"""
 STEPS = {
+    "increments": (python.find, INCREMENT, 4, None),
+    "functions that evaluate f and add slopes": (java.find, HELPERS, 4, None),
+    "times before the end of the step": (c.find, END, 2, None),
+    "functions of some of the values": (python.find, SIR, 2, None),
+    "a number for the step": (python.find, NUMBER, 2, None),
+    "fields of entries": (c.find, POINTS, 2, None),
+    "entries at unknown indices": (python.find, TIMES, 2, None),
+    "slopes in the first argument": (c.find, FIRST, 2, None),
     "sums of vectors": (c.find, VECTORS, 4, None),
     "a function of Fortran": (fortran.find, FUNCTION, 2, None),
     "slopes in place": (julia.find, IN_PLACE, 2, None),
@@ -401,7 +493,7 @@ def test_the_way_that_is_followed(between: str, entry: str) -> None:
     """Without what a branch does to a slope; with what is tried."""
     text = "def step(f, t, x, h, m):\n    k1 = f(t, x)\n{}\n    k2 = f(t + h/2, x + h/2*k1)\n"
     (table,) = python.find(text.format(between) + "    return x + h*k2\n", "x")
-    assert table.A == (((("0", "0"), (entry, "0")),),)
+    assert (((("0", "0"), (entry, "0")),),) == table.A
 
 
 @pytest.mark.parametrize(

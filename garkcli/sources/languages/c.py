@@ -62,6 +62,7 @@ class CLowering(Lowering):
         loop="do_statement for_range_loop",
         switch="switch_statement",
         case="case_statement",
+        tried="try_statement",
         name="identifier field_identifier type_identifier this true false qualified_identifier"
         " primitive_type template_method template_type",
         number="number_literal",
