@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Collection, Iterable, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from garkcli.sources import ir
 from garkcli.sources.evaluate import names_of
@@ -18,6 +19,9 @@ from garkcli.sources.values import Number, literal
 _STEPS = re.compile(r"step|advance|attempt", re.IGNORECASE)
 _SLOPES = re.compile(r"(?<![^\W_])(?:k_?[12]|h|dt)(?!\w)|[sS]tep")
 """Names in steps."""
+_MEMBER = re.compile(r"(?P<stem>(?:[a-zA-Z]*_)?[kKfl]\w{0,2}?)_?(?P<number>[1-7])")
+_SLOPE = re.compile(r"\w{0,3}[kKfF]\w{0,2}|\w*(?:slope|stage)s?")
+"""Names of slopes with numbers, and of arrays of slopes."""
 OTHERS = re.compile(
     r"interp|dense|distch|plot|test|control|error|rhs|jac|size|example|demo|main$|(?:^|_)oc_|_obj$",
     re.IGNORECASE,
@@ -82,7 +86,7 @@ def _placed(
 
 
 def _is_method(
-    scope: ir.Scope, own: Iterable[ir.Statement], words: str, used: Collection[str], is_lost: bool
+    scope: ir.Scope, own: Sequence[ir.Statement], words: str, used: Collection[str], is_lost: bool
 ) -> bool:
     """Whether a scope may be a method, by its numbers and names, and words around them."""
     named: dict[str, set[str]] = {}
@@ -94,7 +98,7 @@ def _is_method(
             named.setdefault(family_of(name), set()).update(y for y in sizes if y not in used)
     named.pop("", None)
     unused = [x for x in numbers if x not in used]
-    if 2 * len(unused) < len(numbers):
+    if 2 * len(unused) < len(numbers) or not own:
         return False
     maker = CONSTRUCTOR.fullmatch(scope.name)
     title = maker or speaks(scope.title)
@@ -107,8 +111,30 @@ def _is_method(
     )
     if is_lost and (len(named) > 1 or _SLOPES.search(words)):
         return True
-    is_method = is_lost or has_names or (are_many and is_named)
+    is_method = is_lost or has_names or (are_many and is_named) or _adds_stages(own, bool(title))
     return bool(is_method and (title or speaks(words)))
+
+
+def _adds_stages(own: Iterable[ir.Statement], is_titled: bool) -> bool:
+    """Whether a sum has several members of a family: ``k1 + 2*k2``, ``k[0] + k[1]``."""
+    least = 2 if is_titled else 3
+    for statement in own:
+        for x in ir.inside(getattr(statement, "value", None)):
+            if isinstance(x, ir.Binary) and x.sign in {"+", ".+"}:
+                families = Counter(stem for stem, _ in {*_members(x)})
+                if max(families.values(), default=0) >= least:
+                    return True
+    return False
+
+
+def _members(expr: ir.Expr) -> Iterator[tuple[str, str]]:
+    """The names with numbers in an expression, as stems and numbers."""
+    for x in ir.inside(expr):
+        match x:
+            case ir.Name(name) | ir.Field(name=name) if match := _MEMBER.fullmatch(name):
+                yield match["stem"], match["number"]
+            case ir.Index(ir.Name(name), (ir.Literal(number), *_)) if _SLOPE.fullmatch(name):
+                yield name, number
 
 
 def sized(x: float) -> str:
