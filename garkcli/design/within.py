@@ -20,13 +20,7 @@ from garkcli.design.rounded_conditions import GenericWeights, RoundedConditions
 from garkcli.design.rounded_system import RoundedSystem, Solved
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.search import Search
-from garkcli.errors import (
-    MethodError,
-    MethodFileError,
-    NotDecided,
-    VanishingDenominator,
-    ZeroWeight,
-)
+from garkcli.errors import MethodError, MethodFileError, NotDecided
 from garkcli.exact.display import to_float
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.rounding import in_decimals
@@ -372,11 +366,11 @@ class _ValueSearch:
             try:
                 filled = self.rounding.filled(parameters, self.digits, width)
                 rounded = self._derived(filled)
-            except (MethodFileError, MethodError, ZeroWeight):
+                if rounded.search.order_of(rounded.name, order)[0] < order:
+                    continue
+                recovered = self._at(filled, rounded, values, order)
+            except (MethodFileError, MethodError):
                 return None
-            if rounded.search.order_of(rounded.name, order)[0] < order:
-                continue
-            recovered = self._at(filled, rounded, values, order)
             if recovered is not None:
                 return recovered
         return None
@@ -397,6 +391,9 @@ class _ValueSearch:
     ) -> ValuesWithin | None:
         """The solution of the conditions at the numbers of one method; None if they contradict each
         other.
+
+        Raises:
+            VanishingDenominator: a coefficient has a pole there.
         """
         search = rounded.search
         search.settled  # noqa: B018 -- it moves to a method with all wants
@@ -415,10 +412,7 @@ class _ValueSearch:
         }
         points = {names[k]: midpoint(x) for k, x in enumerate(solved.point)}
         grain = search.grain * GRAINS
-        try:
-            method_order, embedded = conditions.orders(points, grain)
-        except VanishingDenominator:
-            return None
+        method_order, embedded = conditions.orders(points, grain)
         return ValuesWithin(
             values=points,
             directions=directions,
@@ -445,5 +439,5 @@ class _ValueSearch:
             rounded = self._derived(self.rounding.filled(parameters, self.digits, self.tolerance))
             unexplained = (x for x in trees if weights.are_known(x) and not rounded.explains(x))
             return next(unexplained, None)
-        except (MethodFileError, MethodError, ZeroWeight):
+        except (MethodFileError, MethodError):
             return None

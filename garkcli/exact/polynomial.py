@@ -307,21 +307,20 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
         return Polynomial.from_flint(a.to_flint().gcd(b.to_flint())).monic()
     if not a or not b:
         return (a or b).monic()
-    if _are_coprime_modulo_a_prime(a, b):
-        return Polynomial([1])
     field = a.field or b.field
     assert field is not None
+    if _are_coprime_modulo_a_prime(a, b, field):
+        return Polynomial([1])
     over, under = ([poly_of(x) for x in p.coefficients] for p in (a, b))
     found = (Polynomial(map(field.element, g)) for g in candidates(over, under, field))
     return next(g for g in found if not a % g and not b % g)
 
 
-def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial) -> bool:
+def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial, field: NumberField) -> bool:
     """Whether two polynomials are coprime modulo a prime, which proves them coprime: a monic
     divisor of both would have degree ≥ 1 there too. Much shorter numbers than over the field.
     """
-    field = a.field or b.field
-    if field is None or field.place is None:
+    if field.place is None:
         return False
     p, root = field.place
     try:

@@ -965,6 +965,18 @@ def test_a_denominator_leaves_values_near_its_zeros_open() -> None:
     assert found.extent == "critical-points"
 
 
+def test_a_curve_may_come_nearer_than_its_critical_points() -> None:
+    """Order 1 asks for u²(1 + h²) = 3, where the error of order 2 is a multiple of u². It is critical
+    at u² = 3 alone, and as small as one likes for large h.
+    """
+    text = """parameters: {u: free, h: free}
+A: [["1/2 + u", 0], [0, 0]]
+b: [1, "u^2*(1 + h^2) - 3"]
+"""
+    found = minimise(find_parameters(loads_family(text), 1), "error")
+    assert (found.value, found.extent) == (RealRoot.rational(fmpq(3)), "critical-points")
+
+
 def test_the_help_names_every_objective() -> None:
     """``gark design --help`` lists what --minimise takes."""
     text = gark("design", "--help").out.partition("--minimise WHAT")[2].partition("--choose")[0]

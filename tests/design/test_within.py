@@ -272,6 +272,11 @@ compose: {of: {A: [[0, 0, 0], [t, 0, 0], [0.2, 0.8, 0]], b: [0.2, 0.8, 0]}, step
 design: {order: 2}
 """
     assert within(text).reaches(2) is None
+    # b c = 0.32 ≠ 1/2 without the unknown proves nothing of it either
+    other = "[[0, 0, 0, 0], [0.4, 0, 0, 0], [t, 0, 0, 0], [0.2, 0.8, 0, 0]], b: [0.2, 0.8, 0, 0]"
+    known = text.replace("[[0, 0, 0], [t, 0, 0], [0.2, 0.8, 0]], b: [0.2, 0.8, 0]", other)
+    assert known != text
+    assert within(known).reaches(2) is None
 
 
 def values_at(t: int, is_admitted: bool, free: tuple[str, ...] = ()) -> ValuesWithin:
@@ -304,3 +309,11 @@ def test_a_family_is_kept_in_place_of_single_solutions() -> None:
     assert kept(outside, wide) == kept(wide, outside) == [wide]
     assert kept(wide, lone) == kept(lone, wide) == [lone]
     assert kept(wide, family) == kept(outside, lone, wide, family) == [family]
+
+
+def test_values_at_which_embedded_weights_divide_by_zero_are_no_method() -> None:
+    """Order 2 asks for x = 1/2, where b̂ = (1/(x − 1/2), 1) is none: order 1 is the highest."""
+    text = "tolerance: 1e-8\nparameters: {x: free}\nA: [[0, 0], [1.0, 0]]\nb: [1 - x, x]\n"
+    assert only(within(text)).order == 2
+    found = within(f'{text}embedded: ["1/(x - 1/2)", 1]\n')
+    assert (found.reaches(1), found.reaches(2)) == (True, None)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from flint import fmpq, fmpq_mpoly
+from flint import arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.exact.fibre import Fibre
 from garkcli.exact.parametric import factors
@@ -102,3 +102,14 @@ def test_what_fails_at_once() -> None:
     """Behind 0 already."""
     fibre = Fibre(QUINTIC, factors([Y - T]))
     assert fibre.first_failure([Y - T], lambda signs: min(signs) >= 0) == fmpq(0)
+
+
+def test_roots_that_first_balls_do_not_separate() -> None:
+    """Those of (y − 1)² = 2⁻²⁰¹, at every line: 1 ± 2⁻¹⁰⁰·⁵."""
+    fibre = Fibre(RealRoot.rational(fmpq(3, 2)), [(Y - 1) ** 2 - fmpq(1, 2**201)])
+    low, high = fibre.roots
+    assert low.high < 1 < high.low
+    with ctx.workprec(400):
+        for root, sign in ((low, -1), (high, 1)):
+            shift = (root.ball(300) - 1) * 2**100
+            assert abs(shift - sign * arb("0.5").sqrt()) < arb("1e-20")

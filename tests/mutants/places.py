@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = ("exact", "ntrees", "order", "tableau", "properties", "stability", "design", "backward")
@@ -239,12 +240,27 @@ def last_line(node: ast.AST) -> int:
     return node.body[-1].end_lineno if isinstance(node, ast.match_case) else node.end_lineno
 
 
-def known(key: str = "survivor") -> list[dict[str, str]]:
-    """Survivors with a reason: file, was, why, and where it matters becomes and after; or kinds of
-    lines: pattern, why.
+def known(key: str = "survivor") -> list[dict[str, Any]]:
+    """Survivors with a reason: file, was, why, and where it matters becomes and after; kinds of
+    lines: pattern, why; or proposals: file, why, and names where it is not all of the file.
     """
-    entries: list[dict[str, str]] = tomllib.loads(KNOWN.read_text("utf-8"))[key]
+    entries: list[dict[str, Any]] = tomllib.loads(KNOWN.read_text("utf-8"))[key]
     return entries
+
+
+def reason_of_proposal(path: str, line: int) -> str | None:
+    """Why a survivor there changes no verdict: what the code proposes is decided elsewhere."""
+    around = {
+        node.name
+        for node in ast.walk(ast.parse(source(path)))
+        if isinstance(node, ast.FunctionDef | ast.ClassDef)
+        and node.lineno <= line <= last_line(node)
+    }
+    for entry in known("proposal"):
+        names = entry.get("names")
+        if entry["file"] == path and (names is None or around.intersection(names)):
+            return str(entry["why"])
+    return None
 
 
 def reason_of_kind(line: str) -> str | None:
@@ -265,5 +281,5 @@ def reason(mutation: Mutation) -> str | None:
         change = mutation.path, was, becomes, before[-1:]
         after = [entry["after"]] if "after" in entry else before[-1:]
         if (entry["file"], entry["was"], entry.get("becomes", becomes), after) == change:
-            return entry["why"]
+            return str(entry["why"])
     return None

@@ -26,7 +26,16 @@ from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
-from tests.mutants.places import ROOMS, ROOT, Mutation, lines_of_statement, reason, sample, source
+from tests.mutants.places import (
+    ROOMS,
+    ROOT,
+    Mutation,
+    lines_of_statement,
+    reason,
+    reason_of_proposal,
+    sample,
+    source,
+)
 
 CACHE = ROOT / ".mutants"
 """Copies, the record and results; ignored by git, and safe to delete."""
@@ -48,6 +57,8 @@ PROCESSES = 2
 """Copies in which tests run at the same time."""
 MOST_SECONDS = 120.0
 """Tests of other rooms are run for so long, by what the record says."""
+PROPOSES = "only proposed"
+"""The fate of a survivor that no verdict hangs on."""
 FORGIVEN = 0.05
 """The share of mutants that may survive without a reason."""
 T = TypeVar("T")
@@ -88,7 +99,8 @@ class Outcome:
 
     Attributes:
         mutation: the change.
-        fate: killed, killed by a limit, survived, or known to survive.
+        fate: killed, killed by a limit, survived, known to survive, or or survived where code
+            proposes.
         tests: how many tests run its line.
         seconds: how long it took.
     """
@@ -109,7 +121,7 @@ def told(mutation: Mutation, said: str = "") -> str:
     lines = [f"{mutation.path}:{mutation.at[0]}{said}"]
     lines += [f"  - {line}" for line in was.splitlines()]
     lines += [f"  + {line}" for line in becomes.splitlines()]
-    why = reason(mutation)
+    why = reason(mutation) or reason_of_proposal(mutation.path, mutation.at[0])
     return "\n".join([*lines, *([f"  {why}"] if why else [])])
 
 
@@ -225,6 +237,8 @@ def judge(mutation: Mutation, record: Record, tree: Path, now: Iterator[int]) ->
                 fate = run_tests(tree, tests, files, record)
     finally:
         put(original, file, next(now))
+    if fate == "survived" and reason_of_proposal(mutation.path, mutation.at[0]):
+        fate = PROPOSES
     count = len(record.tests_of(mutation))
     return Outcome(mutation, fate, count, time.monotonic() - start)
 
@@ -277,7 +291,7 @@ def judged(mutations: Sequence[Mutation], record: Record) -> list[Outcome]:
     def one(mutation: Mutation, tree: Path) -> None:
         outcome = judge(mutation, record, tree, now)
         outcomes.append(outcome)
-        if outcome.fate == "survived":
+        if outcome.fate in {"survived", PROPOSES}:
             print(outcome, flush=True)
 
     side_by_side(one, unknown, [copy(str(number)) for number in range(PROCESSES)])

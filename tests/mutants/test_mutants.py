@@ -16,6 +16,7 @@ from tests.mutants.places import (
     known,
     lines_of_statement,
     reason_of_kind,
+    reason_of_proposal,
     source,
     span,
     without_meaning,
@@ -132,21 +133,44 @@ def test_every_room_exists() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "word"), [("MOST_FIELD = 6", "limit"), ("_MAX_ROWS: int = 7", "limit")]
+    ("line", "word"),
+    [
+        ("MOST_FIELD = 6", "limit"),
+        ("_MAX_ROWS: int = 7", "limit"),
+        ("FIRST_BITS = 64", "precision"),
+        ("CHUNK = 1 << 16", "at a time"),
+        ("STARTS = 100", "how many"),
+        ("FINE = (10**3, 10**6, 10**9)", "which"),
+    ],
 )
 def test_kinds_of_lines_have_a_reason(line: str, word: str) -> None:
-    """Named limits; the pattern is that of lines in the rooms."""
+    """Named limits, precisions and trials; the pattern is that of lines in the rooms."""
     why = reason_of_kind(line)
     assert why
     assert word in why
 
 
 @pytest.mark.parametrize(
-    "line", ["with ctx.workprec(2 * bits):", "MOSTLY = 3", "if n > MOST_TREES:"]
+    "line", ["with ctx.workprec(2 * bits):", "MOSTLY = 3", "if n > MOST_TREES:", "STEPS_BITS = 2"]
 )
 def test_other_lines_are_of_no_kind(line: str) -> None:
     """Where a limit is compared a test sees it."""
     assert reason_of_kind(line) is None
+
+
+def test_proposals_are_files_or_functions_in_them() -> None:
+    """Each exists; a line outside of the named functions is none."""
+    for entry in known("proposal"):
+        nodes = ast.walk(ast.parse(source(entry["file"])))
+        names = {x.name for x in nodes if isinstance(x, ast.FunctionDef | ast.ClassDef)}
+        assert names.issuperset(entry.get("names", ()))
+        assert len(entry["why"]) > 10
+    path = "garkcli/order/bounded.py"
+    lines = source(path).splitlines()
+    inside = lines.index("    for _ in range(12):") + 1
+    proof = lines.index("    return bool(centre > (slope + lost) * (1 + UNIT))") + 1
+    assert reason_of_proposal(path, inside)
+    assert reason_of_proposal(path, proof) is None
 
 
 def test_known_survivors_are_still_there() -> None:

@@ -174,3 +174,4 @@ def test_the_largest_trees_within_the_limits() -> None:
         assert format_tree(u, colours=False) == text
         assert condition_text(u).startswith("b{1}ᵀ")
         assert format_latex(u).endswith("^{[1]}")
+    assert parse_tree("[]".ljust(MAX_LENGTH)).order == 1

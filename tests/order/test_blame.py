@@ -10,7 +10,7 @@ from flint import fmpq
 from garkcli import Tableau, conjugate, find_order, load, loads
 from garkcli.check.check_file import check_file
 from garkcli.frozen import replace
-from garkcli.order.blame import MissedOrder, blame_of, count_entries
+from garkcli.order.blame import MissedOrder, blame_of, count_entries, slip_of
 from garkcli.order.repair import Repair
 from garkcli.order.tolerance import within
 from tests.whole import in_whole
@@ -192,3 +192,16 @@ def test_a_colour_that_sees_nothing_hides_no_wrong_entry(tmp_path: Path) -> None
     assert [(x.l, x.m, x.i, x.j, x.new) for x in blame.repairs] == [(1, 1, 1, 0, fmpq(3, 4))]
     file.write_text(text.format("3/4"))
     assert check_file(str(file)).blame is None
+
+
+def test_without_a_claim_an_explicit_method_misses_no_diagonal_entry() -> None:
+    """a₂₂ = 1/3 makes Radau I of order 3 of it, which is no slip of one who writes an explicit
+    method; where a claim is missed it is named.
+    """
+    tableau = loads("A: [[0, 0], [1/3, 0]]\nb: [1/4, 3/4]\n").tableau
+    found = find_order(tableau)
+    assert found.order == 1
+    assert slip_of(tableau, MissedOrder(0, 0), found) is None
+    blame = blame_of(tableau, MissedOrder(2, 3))
+    assert blame is not None
+    assert Repair(0, 0, 1, 1, fmpq(0), fmpq(1, 3)) in blame.repairs

@@ -12,10 +12,13 @@ from flint import arb, ctx, fmpq
 from garkcli.check.analysis import analyse
 from garkcli.exact.affine import Affine, Forms
 from garkcli.methodfile.load import load, loads
+from garkcli.order.deciding import order_of
 from garkcli.order.existence import has_zero, is_proved_to_exist
-from garkcli.order.meant import as_meant
+from garkcli.order.meant import as_meant, meant
 from garkcli.order.nearness import EntryAddress, Nearness, far_alone
+from garkcli.order.repair import Repair
 from garkcli.order.rounded import RoundedTableau
+from garkcli.order.suspects import suspects
 from tests.cli.harness import gark
 from tests.whole import in_whole, sample
 
@@ -153,3 +156,21 @@ def test_the_proof_is_one() -> None:
         assert not has_zero(Forms.of([fmpq(0)], 1), free)
         x = Affine(arb(fmpq(1, 10)), {0: 1.0})
         assert not has_zero(Forms.of([x * x + fmpq(1, 1000)], 1), free)  # to first order there is
+
+
+def test_a_root_hides_no_wrong_number() -> None:
+    """Σ b c = 1/2 holds with a₂₁ = 1/2 for 3/5; either root of the last row needs a smaller change,
+    but no print is wrong there.
+    """
+    text = 'A: [[], [3/5], ["1/2 - sqrt(2)/4", "sqrt(2)/4"]]\nb: [0, 1/4, 3/4]\n'
+    method = RoundedTableau.within(loads(text).tableau, fmpq(1, 10**9))
+    assert suspects(method, 2) == {Repair(0, 0, 1, 0, fmpq(3, 5), fmpq(1, 2)): 2}
+
+
+def test_a_number_printed_once_moves_once() -> None:
+    """Order 2 asks for g = 1 − √2/2, which is 0.0029 away; five numbers within 0.0025 have it."""
+    tolerance = fmpq(25, 10000)
+    once = loads("parameters: {g: 0.29}\nA: [[g, 0], [1 - g, g]]\nb: [1 - g, g]\n")
+    each = loads("A: [[0.29, 0], [0.71, 0.29]]\nb: [0.71, 0.29]\n")
+    orders = [order_of(meant(x.tableau, tolerance), 5).order for x in (once, each)]
+    assert orders == [1, 2]

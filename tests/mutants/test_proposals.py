@@ -1,0 +1,143 @@
+"""Wrong proposals of the code that `make mutants` excuses as such: no verdict follows them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import fmpq
+
+from garkcli import find_parameters, loads, loads_family, minimise, search_methods
+from garkcli.design.search.least_squares import Minima
+from garkcli.design.search.optimum import Optimum
+from garkcli.exact.display import to_float
+from garkcli.exact.roots import RealRoot
+from garkcli.ntrees.table import TreeTable
+from garkcli.order.conditions import conditions, coupling_graph
+from garkcli.order.meant import as_meant
+from garkcli.order.rounded import find_order_within
+from garkcli.tableau.pointwise import numeric_entries
+from garkcli.tableau.tableau import Tableau
+
+EXPLICIT = """parameters: {c: free, a: free, b: free, d: free}
+A: [[0, 0, 0], [c, 0, 0], [d - a, a, 0]]
+b: [1 - b - 1/4, b, 1/4]
+"""
+SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+RNG = np.random.default_rng(5)
+
+
+def astray(x: Any) -> Any:
+    """A point, or points, some way off."""
+    return np.asarray(x, float) + RNG.normal(0.0, 0.3, np.shape(x))
+
+
+def any_points(_system: object, starts: Any, *_: object, **__: object) -> Minima:
+    """Points that solve nothing, as solutions."""
+    return Minima(astray(starts), np.ones(starts.shape[1], bool))
+
+
+def far_snapped(original: Callable[..., Any]) -> Callable[..., Any]:
+    """A system with short numbers, and a point that is no solution of it."""
+
+    def snapped(*arguments: Any) -> Any:
+        system, x = original(*arguments)
+        return system, astray(x)
+
+    return snapped
+
+
+def assert_order(tableau: Tableau, order: int) -> None:
+    """All conditions hold, to the digits of the numbers."""
+    table = TreeTable.of(coupling_graph(tableau), order)
+    for condition in conditions(tableau, map(table.tree, range(len(table)))):
+        assert abs(to_float(condition.residual)) < 1e-30
+
+
+@pytest.mark.parametrize("text", [SDIRK, EXPLICIT], ids=["sdirk", "explicit"])
+@pytest.mark.parametrize("name", ["least_squares", "snapped"])
+def test_points_that_solve_nothing(name: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each method of a search has the order that is told of it, whatever points it comes from."""
+    from garkcli.design.search import search
+
+    wrong = any_points if name == "least_squares" else far_snapped(search.snapped)
+    monkeypatch.setattr(search, name, wrong)
+    found = search_methods(loads_family(text), 3, starts=12)
+    for method in found.methods:
+        assert method.order >= 3
+        assert_order(loads(text, settings=dict(method.values)).tableau, method.order)
+    assert found.methods or name == "least_squares"
+
+
+@pytest.mark.parametrize("name", ["descended", "settled", "shortened"])
+def test_better_methods_that_are_none(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Values of objectives are those of the methods told, not those that the optimiser thinks."""
+    from garkcli.design.search import optimum
+
+    if name == "descended":
+        monkeypatch.setattr(optimum, name, lambda _task, _equations, x: astray(x))
+    else:
+        original = getattr(optimum.Optimisation, name)
+
+        def changed(self: Any, *arguments: Any) -> Any:
+            found = original(self, *arguments)
+            if name == "settled":
+                return Optimum(found.value - 1, tuple(astray(found.point)))
+            system, near = found
+            return system, Optimum(near.value - 1, tuple(astray(near.point)))
+
+        monkeypatch.setattr(optimum.Optimisation, name, changed)
+    found = search_methods(loads_family(EXPLICIT), 2, starts=6, objective="coefficients")
+    assert found.methods
+    for method in found.methods:
+        tableau = loads(EXPLICIT, settings=dict(method.values)).tableau
+        assert method.order >= 2
+        assert_order(tableau, method.order)
+        entries = numeric_entries(tableau)
+        squares = [float(x) ** 2 for row in entries.A[0][0] or () for x in row]
+        squares += [float(x) ** 2 for x in entries.b[0]]
+        assert float(method.objective or 0) == pytest.approx(sum(squares), rel=1e-5)
+
+
+def test_a_bad_point_by_trial(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It has its own value, and is called found."""
+    from garkcli.design.minimise import comparison, smallest
+
+    monkeypatch.setattr(comparison, "climbed", lambda _rank, n: (fmpq(5, 7),) * n)
+    monkeypatch.setattr(smallest, "MOST_COORDINATES", 0)
+    monkeypatch.setattr(smallest, "critical_point_near", lambda *_: None)
+    text = "parameters: {c: free, d: free}\nA: [[0, 0], [c, 0]]\nb: [1 - d**2 - c, d**2 + c]\n"
+    found = minimise(find_parameters(loads_family(text), 1), "coefficients")
+    value = fmpq(5, 7) ** 2 + (1 - fmpq(60, 49)) ** 2 + fmpq(60, 49) ** 2
+    assert (found.extent, found.value) == ("found", RealRoot.rational(value))
+
+
+ROUNDED = """tolerance: 1e-8
+A: [[0, 0, 0, 0], [{}, 0, 0, 0], [-0.33333333, 1, 0, 0], [1, -1, 1, 0]]
+b: [0.125, 0.375, 0.375, 0.125]
+"""
+
+
+@pytest.mark.parametrize("name", ["nearest", "bounded_least_squares", "compromise"])
+@pytest.mark.parametrize(("entry", "order"), [("0.33333333", 4), ("0.33333433", 1)])
+def test_shifts_that_meet_nothing(
+    name: str, entry: str, order: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No order is recovered that rounding does not explain."""
+    from garkcli.order import bounded, existence, recovering, shape
+
+    size = {"nearest": 1, "bounded_least_squares": 1, "compromise": 0}[name]
+
+    def anything(J: Any, *_: object) -> Any:
+        return RNG.uniform(-1, 1, J.shape[size])
+
+    for module in (bounded, existence, recovering, shape):
+        if hasattr(module, name):
+            monkeypatch.setattr(module, name, anything)
+    method: Any = as_meant(loads(ROUNDED.format(entry)))
+    found = find_order_within(method, 6)
+    assert found.order <= order
+    if found.order < order:
+        assert not found.is_proved
