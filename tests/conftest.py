@@ -26,7 +26,7 @@ IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
 settings.register_profile(
     "gark",
     deadline=None,
-    max_examples=at_most(10, 25),
+    max_examples=at_most(10, 200),
     derandomize=not IS_RANDOM,
     print_blob=IS_RANDOM,
 )

@@ -242,7 +242,7 @@ def last_line(node: ast.AST) -> int:
 
 def known(key: str = "survivor") -> list[dict[str, Any]]:
     """Survivors with a reason: file, was, why, and where it matters becomes and after; kinds of
-    lines: pattern, why; or proposals: file, why, and names where it is not all of the file.
+    lines: pattern, why, and where it matters apart; or proposals: file, why, and names where it is not all of the file.
     """
     entries: list[dict[str, Any]] = tomllib.loads(KNOWN.read_text("utf-8"))[key]
     return entries
@@ -263,16 +263,23 @@ def reason_of_proposal(path: str, line: int) -> str | None:
     return None
 
 
-def reason_of_kind(line: str) -> str | None:
-    """Why no change of such a line need be killed; None for lines of no kind."""
-    kinds = known("kind")
-    return next((x["why"] for x in kinds if re.match(x["pattern"], line)), None)
+def reason_of_kind(was: str, becomes: str) -> str | None:
+    """Why a change of such a line need not be killed; None for lines of no kind.
+
+    A kind with ``apart`` has changes of what that pattern matches alone.
+    """
+    for kind in known("kind"):
+        apart = kind.get("apart")
+        is_such = apart is None or re.sub(apart, "", was) == re.sub(apart, "", becomes)
+        if re.match(kind["pattern"], was) and is_such:
+            return str(kind["why"])
+    return None
 
 
 def reason(mutation: Mutation) -> str | None:
     """Why a mutation need not be killed."""
     was, becomes = mutation.difference
-    why = reason_of_kind(was)
+    why = reason_of_kind(was, becomes)
     if why:
         return why
     line, _ = mutation.at

@@ -145,7 +145,7 @@ def test_every_room_exists() -> None:
 )
 def test_kinds_of_lines_have_a_reason(line: str, word: str) -> None:
     """Named limits, precisions and trials; the pattern is that of lines in the rooms."""
-    why = reason_of_kind(line)
+    why = reason_of_kind(line, "")
     assert why
     assert word in why
 
@@ -155,7 +155,27 @@ def test_kinds_of_lines_have_a_reason(line: str, word: str) -> None:
 )
 def test_other_lines_are_of_no_kind(line: str) -> None:
     """Where a limit is compared a test sees it."""
-    assert reason_of_kind(line) is None
+    assert reason_of_kind(line, "") is None
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "is_known"),
+    [
+        ("if n > MOST_TREES:", "if n >= MOST_TREES:", True),
+        ("if n >= MOST_TREES:", "if n > MOST_TREES:", True),
+        ("while not n <= MAX:", "while not n < MAX:", True),
+        ("if n > MOST_TREES:", "if n <= MOST_TREES:", False),
+        ("if n > MOST_TREES:", "if n < MOST_TREES:", False),
+        ("if n > 0 and m > MOST:", "if n >= 0 and m > MOST:", False),
+        ("if n > MOST or not m:", "if n > MOST and not m:", False),
+        ("with ctx.workprec(bits + 32):", "with ctx.workprec(bits +  33):", True),
+        ("with ctx.workprec(bits + 32):", "with ctx.workprec(bits - 32):", False),
+        ("with ctx.workprec(2 * bits + 64):", "with ctx.workprec( 1 * bits + 64):", False),
+    ],
+)
+def test_changes_by_one_of_limits_and_spare_bits(was: str, becomes: str, is_known: bool) -> None:
+    """The edge of a comparison with a limit, a spare bit; no other change of such a line."""
+    assert (reason_of_kind(was, becomes) is not None) == is_known
 
 
 def test_proposals_are_files_or_functions_in_them() -> None:

@@ -30,6 +30,7 @@ from garkcli.stability.algebraic import negative_pivot
 from garkcli.stability.linear import stability_function
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
 from tests.whole import at_most
@@ -166,6 +167,18 @@ def test_a_stage_written_twice_is_found(
     assert reduced(smaller) == smaller
     assert find_order(smaller, 8).order == find_order(tableau_of(A, b), 8).order
     assert stability_function(smaller) == stability_function(tableau_of(A, b))
+
+
+def test_a_colour_that_no_step_depends_on_keeps_one_stage_of_zeros() -> None:
+    """Rows, node and weight, whatever its stages were."""
+    A = "[[[[0, 0], [1, 0]], [[0, 0], [0, 0]]], [[[1, 0], [2, 0]], [[1/3, 0], [1/2, 1/4]]]]"
+    smaller = reduced(loads(f"tableau: {{A: {A}, b: [[1/2, 1/2], [0, 0]]}}").tableau)
+    assert smaller is not None
+    zero = fmpq(0)
+    assert smaller.spaces == (PointSpace((zero, fmpq(1))), PointSpace((zero,)))
+    idle = smaller.colours[1]
+    assert (idle.b, idle.c) == ((zero,), (zero,))
+    assert (smaller.block(1, 0), smaller.block(1, 1)) == (((zero, zero),), ((zero,),))
 
 
 @pytest.mark.parametrize(
