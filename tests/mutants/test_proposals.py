@@ -9,11 +9,21 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from garkcli import find_parameters, loads, loads_family, minimise, search_methods
+from garkcli import (
+    find_order,
+    find_parameters,
+    find_property,
+    loads,
+    loads_family,
+    minimise,
+    search_methods,
+)
 from garkcli.design.search.least_squares import Minima
 from garkcli.design.search.optimum import Optimum
 from garkcli.exact.display import to_float
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import replace
 from garkcli.ntrees.table import TreeTable
 from garkcli.order.conditions import conditions, coupling_graph
 from garkcli.order.meant import as_meant
@@ -99,6 +109,75 @@ def test_better_methods_that_are_none(name: str, monkeypatch: pytest.MonkeyPatch
         squares = [float(x) ** 2 for row in entries.A[0][0] or () for x in row]
         squares += [float(x) ** 2 for x in entries.b[0]]
         assert float(method.objective or 0) == pytest.approx(sum(squares), rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda numbers: replace(numbers, values={k: x + 1 for k, x in numbers.values.items()}),
+        lambda numbers: replace(numbers, values={k: fmpq(1, 3) for k in numbers.values}),
+        lambda numbers: replace(
+            numbers, root=real_roots(Polynomial.from_flint(numbers.modulus))[0][0]
+        ),
+        lambda _: None,
+    ],
+)
+@pytest.mark.parametrize("text", [SDIRK, EXPLICIT], ids=["sdirk", "explicit"])
+def test_wrong_guesses_of_numbers(
+    text: str, wrong: Callable[[Any], Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A method is exact with numbers that have the order alone; else it is one in digits."""
+    from garkcli.design.search import search
+
+    original = search.recognised
+
+    def guessed(*arguments: Any) -> Any:
+        numbers = original(*arguments)
+        return numbers and wrong(numbers)
+
+    monkeypatch.setattr(search, "recognised", guessed)
+    found = search_methods(loads_family(text), 3, starts=6)
+    assert found.methods
+    for method in found.methods:
+        tableau = loads(text, settings=dict(method.values)).tableau
+        assert_order(tableau, 3)
+        if method.proof == "exact":
+            assert find_order(tableau).order == method.order
+
+
+@pytest.mark.parametrize(
+    ("curve", "has_methods"), [("x**2 + y**2 - 3", True), ("x**2 + y**2 + 3", False)]
+)
+@pytest.mark.parametrize("far", [fmpq(1, 10**6), fmpq(1000)])
+def test_samples_where_nothing_is(
+    curve: str, has_methods: bool, far: fmpq, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where no sample is a method, the cells of the plane decide, or it stays open."""
+    from garkcli.design import real_points
+
+    monkeypatch.setattr(real_points._MethodSearch, "_sample", lambda *_: far)
+    entry = f"A: [[0, 0], [0, 0]]\nb: [x, '1 - x + {curve}']\n"
+    two = loads_family(f"parameters: {{x: free, y: free}}\n{entry}")
+    assert find_parameters(two, 1).last.has_methods is has_methods
+    three = entry.replace(curve, f"{curve} + z**4 - z")
+    found = find_parameters(loads_family(f"parameters: {{x: free, y: free, z: free}}\n{three}"), 1)
+    assert found.last.has_methods in ({True, None} if has_methods else {False, None})
+
+
+def test_a_goal_that_is_no_stability(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A-stable methods are wanted; the optimiser is told that all are, and unstable ones go."""
+    from garkcli.design.search import goals, optimum
+
+    for module in (goals, optimum):
+        monkeypatch.setattr(
+            module.AStable, "at", lambda _self, x: (np.ones(3), np.zeros((3, len(x))))
+        )
+    text = f"{SDIRK}design: {{a-stable: true}}\n"
+    found = search_methods(loads_family(text), 2, starts=8, objective="error")
+    assert found.methods or found.unstable
+    for method in found.methods:
+        tableau = loads(SDIRK, settings=dict(method.values)).tableau
+        assert find_property(tableau, "a-stable").value is True
 
 
 def test_a_bad_point_by_trial(monkeypatch: pytest.MonkeyPatch) -> None:
