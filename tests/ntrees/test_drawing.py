@@ -5,7 +5,7 @@ from itertools import pairwise
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from garkcli.ntrees.drawing import PALETTE, draw_svg_sheet, draw_text, layout, tikz
@@ -96,6 +96,112 @@ def test_svg_sheet() -> None:
     texts = [text.text for text in picture.iter(f"{space}text")]
     assert texts.count("a < b & c") == len(PICTURES)
     assert "σ = 2, γ = 3" in texts
+
+
+SPACE = "{http://www.w3.org/2000/svg}"
+PIXEL = 0.11
+"""Lengths are written to a tenth of a pixel."""
+
+
+def parts_of_sheet(picture: ET.Element, sheet: list[Tree], lines: int) -> list[list[ET.Element]]:
+    """The elements of each tree: edges, dots with or without numbers, captions."""
+    elements = list(picture)[1:]
+    has_numbers = any(v.root for u in sheet for v in u.vertices())
+    parts = []
+    for u in sheet:
+        count = 1 + u.order * (2 if has_numbers else 1) + lines
+        parts.append(elements[:count])
+        elements = elements[count:]
+    assert not elements
+    return parts
+
+
+def number(element: ET.Element, key: str) -> float:
+    """A length."""
+    return float(element.attrib[key])
+
+
+@example([Tree(0)] * 9, 0, True)
+@example([Tree(0)] * 13, 0, False)
+@given(st.lists(trees, min_size=1, max_size=11), st.integers(0, 5), st.booleans())
+def test_a_sheet_is_a_grid_of_layouts(sheet: list[Tree], columns: int, has_captions: bool) -> None:
+    """Each tree is its layout, 30 and 36 pixels a unit, centred above its captions; edges end at
+    dots; the roots of a row are on one line, neighbours apart, and the frame encloses all.
+    """
+    captions = [f"tree {k}" for k in range(len(sheet))] if has_captions else None
+    picture = ET.fromstring(draw_svg_sheet(sheet, captions, columns))
+    lines = 2 if has_captions else 1
+    in_row = min(columns or (3 if len(sheet) <= 9 else 6), len(sheet))
+    width, height = number(picture, "width"), number(picture, "height")
+    assert picture.attrib["viewBox"] == f"0 0 {width:.0f} {height:.0f}"
+    boxes: list[tuple[float, float, float, float]] = []
+    for k, (u, elements) in enumerate(
+        zip(sheet, parts_of_sheet(picture, sheet, lines), strict=True)
+    ):
+        dots = [x for x in elements if x.tag == f"{SPACE}circle"]
+        texts = [x for x in elements if x.tag == f"{SPACE}text"]
+        told, labels = texts[-lines:], texts[:-lines]
+        assert told[-1].text == f"σ = {u.symmetry}, γ = {u.density}"
+        assert not captions or told[0].text == captions[k]
+        placed = layout(u)
+        root = dots[0]
+        for v, dot in zip(placed, dots, strict=True):
+            shift = number(dot, "cx") - number(root, "cx"), number(root, "cy") - number(dot, "cy")
+            assert shift == pytest.approx((30 * (v.x - placed[0].x), 36 * v.y), abs=2 * PIXEL)
+            if labels:
+                assert dot.attrib["fill"] == PALETTE[v.colour % len(PALETTE)][0]
+        assert [x.text for x in labels] == ([str(v.colour + 1) for v in placed] if labels else [])
+        for label, dot in zip(labels, dots, strict=False):
+            assert number(label, "x") == number(dot, "cx")
+            assert 3 < number(label, "y") - number(dot, "cy") < 6
+        ends = []
+        for v, dot in zip(placed[1:], dots[1:], strict=True):
+            start = dots[v.parent]
+            ends.append(tuple(x.attrib[y] for x in (start, dot) for y in ("cx", "cy")))
+        edges = [tuple(x.attrib[y] for y in ("x1", "y1", "x2", "y2")) for x in elements[0]]
+        assert edges == ends
+        # centred, captions below
+        xs = [number(x, "cx") for x in dots]
+        middle = (min(xs) + max(xs)) / 2
+        assert all(number(x, "x") == pytest.approx(middle, abs=2 * PIXEL) for x in told)
+        ys = [number(x, "y") for x in told]
+        assert ys == pytest.approx([number(root, "cy") + 11 + 19 + 17 * i for i in range(lines)])
+        half = max(max(map(len, (x.text or "" for x in told))) * 7, max(xs) - min(xs) + 22) / 2
+        top = min(number(x, "cy") for x in dots) - 11
+        boxes.append((middle - half, top, middle + half, ys[-1]))
+    for k, (left, top, right, bottom) in enumerate(boxes):
+        assert left >= 16 - PIXEL
+        assert right <= width - 16 + 1
+        assert top >= 16 - PIXEL
+        assert bottom <= height - 10
+        row, column = divmod(k, in_row)
+        if column:
+            assert left - boxes[k - 1][2] >= 30
+            assert boxes[k - 1][3] == pytest.approx(bottom)
+        if row:
+            above = max(box[3] for box in boxes[(row - 1) * in_row : row * in_row])
+            gap = min(box[1] for box in boxes[row * in_row : (row + 1) * in_row]) - above
+            assert 24 <= gap <= 60
+    assert min(box[1] for box in boxes[:in_row]) == pytest.approx(16, abs=PIXEL)
+    assert height - boxes[-1][3] < 40
+
+
+@given(trees, st.booleans())
+def test_tikz_has_the_layout(tree: Tree, colours: bool) -> None:
+    """Coordinates, colours, edges from parents, and half the scale for plain dots."""
+    text = tikz(tree, 0.8, colours)
+    unit = "0.8" if colours else "0.4"
+    assert text.startswith(rf"\begin{{tikzpicture}}[x={unit}cm,y={unit}cm,baseline=(v0.base)]")
+    nodes = re.findall(r"\(v(\d+)\) at \(([\d.]+),(\d+)\) \{(\d*)\};", text)
+    placed = layout(tree)
+    assert [(int(k), int(y)) for k, _, y, _ in nodes] == [(k, v.y) for k, v in enumerate(placed)]
+    assert [float(x) for _, x, *_ in nodes] == pytest.approx([v.x for v in placed], abs=1e-4)
+    assert [x for *_, x in nodes] == [str(v.colour + 1) if colours else "" for v in placed]
+    edges = re.findall(r"\\draw \(v(\d+)\) -- \(v(\d+)\);", text)
+    assert edges == [(str(v.parent), str(k)) for k, v in enumerate(placed) if k]
+    for v, line in zip(placed, text.splitlines()[1:], strict=False):
+        red = int(PALETTE[v.colour % len(PALETTE)][0][1:3], 16)
+        assert (f"fill={{rgb,255:red,{red};" in line) == colours
 
 
 def test_svg_sheet_of_nothing() -> None:
