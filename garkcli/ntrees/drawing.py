@@ -267,7 +267,7 @@ def draw_svg_sheet(
     columns = columns or (FEW_COLUMNS if count <= FEW else COLUMNS)
     columns = max(1, min(columns, count))
     widths, heights = _grid(placed, lines, columns)
-    foot = CAPTION_STEP * max(map(len, lines), default=0) + 2 * MARGIN + ROW_GAP
+    foot = CAPTION_STEP * (2 if captions else 1) + 2 * MARGIN + ROW_GAP
     body: list[str] = []
     for k, vertices in enumerate(placed):
         row, column = divmod(k, columns)

@@ -211,7 +211,7 @@ COEFFICIENTS = st.integers(0, 10**9).map(_random_coefficients)
 
 
 @given(COEFFICIENTS)
-@settings(max_examples=at_most(8, 20), deadline=None)
+@settings(max_examples=at_most(8, 160), deadline=None)
 def test_logarithm_and_exponential(b: list[fmpq]) -> None:
     """They undo each other."""
     assert logarithm(FOREST, exponential(b)) == b
@@ -219,7 +219,7 @@ def test_logarithm_and_exponential(b: list[fmpq]) -> None:
 
 
 @given(COEFFICIENTS, COEFFICIENTS, COEFFICIENTS)
-@settings(max_examples=at_most(8, 20), deadline=None)
+@settings(max_examples=at_most(8, 160), deadline=None)
 def test_the_product_is_pre_lie(a: list[fmpq], b: list[fmpq], c: list[fmpq]) -> None:
     """(a ◁ b) ◁ c − a ◁ (b ◁ c) is symmetric in b and c: the second derivative of a field along two
     others.
@@ -234,7 +234,7 @@ def test_the_product_is_pre_lie(a: list[fmpq], b: list[fmpq], c: list[fmpq]) -> 
 
 
 @given(COEFFICIENTS, COEFFICIENTS)
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=at_most(10, 80), deadline=None)
 def test_transport_and_back(b: list[fmpq], c: list[fmpq]) -> None:
     """A change of coordinates and its inverse cancel, and it keeps brackets."""
     back = [-x for x in c]

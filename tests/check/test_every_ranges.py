@@ -100,7 +100,7 @@ NUMBERS = st.integers(-3, 3)
 ENDS = st.tuples(st.none() | st.integers(-4, -1), st.none() | st.integers(1, 4))
 
 
-@settings(max_examples=at_most(12, 40), deadline=None)
+@settings(max_examples=at_most(12, 300), deadline=None)
 @given(st.lists(NUMBERS, min_size=9, max_size=9), ENDS, ENDS, st.data())
 def test_zeros_within_ranges_are_not_lost(
     coefficients: list[int],

@@ -71,7 +71,7 @@ def assert_no_contradiction(found: Analysis) -> None:
 
 
 @in_whole
-@settings(max_examples=at_most(3, 15))
+@settings(max_examples=at_most(3, 20))
 @example("radau-ia 3", 5, fmpq(1, 2))
 @given(
     st.sampled_from(SMALL),
@@ -105,7 +105,7 @@ def random_method(dice: Random) -> Tableau:
     return gark([butcher(tuple(tuple(row) for row in rows), tuple(b))], {})
 
 
-@settings(max_examples=at_most(10, 40))
+@settings(max_examples=at_most(10, 300))
 @given(st.integers(0, 2**32 - 1), st.integers(5, 11))
 def test_nearly_symplectic_methods(seed: int, exponent: int) -> None:
     """Small weights make the conjugate many times less certain than the method."""

@@ -35,7 +35,7 @@ from tests.conversion.renumbered import orders_of, renumbered
 from tests.conversion.test_conversion import PAIR, of_sheet, with_stage_twice
 from tests.methodfile.test_further import further_of
 from tests.methodfile.test_writer import tableaus
-from tests.whole import in_whole
+from tests.whole import at_most, in_whole
 
 RK4 = loads((ROOT / "methods/rk4.gark.yaml").read_text(encoding="utf-8"))
 HEUN = "{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}"
@@ -46,7 +46,7 @@ MISPRINT = (
 
 @in_whole
 @given(st.data())
-@settings(max_examples=25)
+@settings(max_examples=at_most(25, 200))
 def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
     """Stages in any order: the renumbering that is named turns one into the other."""
     tableau = data.draw(tableaus())
@@ -64,7 +64,7 @@ def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
 
 @in_whole
 @given(st.data())
-@settings(max_examples=12)
+@settings(max_examples=at_most(12, 90))
 def test_doubled_stages_and_other_colours_are_seen_through(data: st.DataObject) -> None:
     """A stage that appears twice, stages and colours in another order: the same method."""
     sheet = each_its_own(sheet_of(GarkMethod(tableau=data.draw(tableaus()))))
@@ -91,7 +91,7 @@ def with_colours(sheet: Sheet, order: list[int]) -> Sheet:
 
 
 @given(st.data())
-@settings(max_examples=12)
+@settings(max_examples=at_most(12, 90))
 def test_one_changed_entry_is_found(data: st.DataObject) -> None:
     """One entry of a block is another number: it is the only gap, with its place and its size, and
     the conditions that are named are met by one method alone.

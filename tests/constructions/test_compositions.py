@@ -74,7 +74,7 @@ def explicit_methods(draw: st.DrawFn) -> Method:
     return butcher(tuple(rows), tuple(draw(small) for _ in range(s)))
 
 
-@settings(max_examples=at_most(8, 20), deadline=None)
+@settings(max_examples=at_most(8, 160), deadline=None)
 @given(st.lists(st.tuples(explicit_methods(), small), min_size=1, max_size=3))
 def test_a_composition_takes_its_substeps(substeps: list[tuple[Method, fmpq]]) -> None:
     """One step of the composition is that of its methods one after the other, exactly."""
@@ -97,7 +97,7 @@ def kicks(flows: Sequence[tuple[int, fmpq]], q: fmpq, p: fmpq) -> State:
     return q, p
 
 
-@settings(max_examples=at_most(8, 20), deadline=None)
+@settings(max_examples=at_most(8, 160), deadline=None)
 @given(st.lists(st.tuples(st.integers(0, 1), small), min_size=2, max_size=4))
 def test_a_splitting_takes_its_flows(flows: list[tuple[int, fmpq]]) -> None:
     """Every splitting of a separable problem is drifts and kicks in turn, exactly, whether its
@@ -156,7 +156,7 @@ def test_adjoints_of_families(name: str) -> None:
     assert adjoint(turned) == method
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=at_most(15, 120), deadline=None)
 @given(explicit_methods(), explicit_methods())
 def test_the_adjoint_of_the_adjoint(one: Method, two: Method) -> None:
     """So it is for methods of several colours, whatever their blocks; and adjoint and method

@@ -84,7 +84,7 @@ def rows(method: GarkMethod) -> list[tuple[tuple[Number, ...], ...]]:
 
 
 @given(st.data())
-@settings(max_examples=at_most(10, 30))
+@settings(max_examples=at_most(10, 200))
 def test_a_form_is_the_same_method(data: st.DataObject) -> None:
     """Whatever the tableau, each form that is not refused has the same elementary weights."""
     tableau = data.draw(tableaus())
@@ -165,7 +165,7 @@ def test_there_and_back(name: str) -> None:
 
 
 @given(st.data())
-@settings(max_examples=at_most(8, 25))
+@settings(max_examples=at_most(8, 200))
 def test_the_canonical_form_knows_no_numbering(data: st.DataObject) -> None:
     """Stages renumbered, one of them twice, one more without influence: the same file."""
     tableau = data.draw(tableaus())

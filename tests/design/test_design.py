@@ -217,7 +217,7 @@ def _text(entries: list[tuple[int, int]], weight: Fraction) -> str:
 
 
 @in_whole
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(10, 200))
 @given(
     st.lists(_ENTRY, min_size=4, max_size=4),
     st.fractions(Fraction(1, 4), Fraction(3, 4), max_denominator=4),

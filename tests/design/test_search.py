@@ -424,7 +424,7 @@ def test_krawczyk_needs_a_zero() -> None:
     st.fractions(-9, 9, max_denominator=99),
     st.sampled_from([2, 3, 5, 7]),
 )
-@settings(max_examples=at_most(10, 25), deadline=None)
+@settings(max_examples=at_most(10, 200), deadline=None)
 def test_recognition(p: Any, q: Any, radicand: int) -> None:
     """Numbers p and p + q √n are known again by their digits, in one field."""
     bits = 512

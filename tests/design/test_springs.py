@@ -58,7 +58,7 @@ def small(slow: fmpq, greatest: fmpq | None) -> StableValues:
 
 
 @in_whole
-@settings(max_examples=at_most(3, 10))
+@settings(max_examples=at_most(3, 40))
 @given(
     st.fractions(-1, 2, max_denominator=6),
     st.sampled_from([fmpq(1, 2), fmpq(2)]),

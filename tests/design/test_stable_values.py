@@ -186,7 +186,7 @@ def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None
 
 
 @in_whole
-@settings(max_examples=at_most(2, 12))
+@settings(max_examples=at_most(2, 20))
 @given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
 def test_random_families_on_the_oscillator(entries: list[tuple[int, int]], b: int) -> None:
     """The same of P- and I-stability, with two entries that are linear in t."""

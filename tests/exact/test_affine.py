@@ -90,7 +90,7 @@ def assert_encloses(form: Any, values: Sequence[fmpq], at: Sequence[Point]) -> b
 
 
 @given(SEEDS)
-@settings(max_examples=at_most(50, 150))
+@settings(max_examples=at_most(50, 400))
 def test_expressions_are_enclosed(seed: int) -> None:
     """+, −, *, / and powers of printed numbers, at corners and inside, in exact fractions."""
     dice = Random(seed)
@@ -144,7 +144,7 @@ def multiplied(one: Sequence[fmpq], other: Sequence[fmpq]) -> list[fmpq]:
 
 
 @given(SEEDS)
-@settings(max_examples=at_most(15, 50))
+@settings(max_examples=at_most(15, 400))
 def test_rows_and_matrices_are_enclosed(seed: int) -> None:
     """Products, shares, differences, scalar products, A v, wᵀ A, rows and columns of a matrix, in
     exact fractions; forms with remainders go through all of it.

@@ -55,7 +55,7 @@ COEFFICIENTS = st.lists(st.integers(-3, 3), min_size=9, max_size=9)
 GRID = [fmpq(a, 4) for a in range(-12, 13)]
 
 
-@settings(max_examples=at_most(20, 60))
+@settings(max_examples=at_most(20, 400))
 @given(COEFFICIENTS)
 def test_two_variables_are_always_decided(numbers: list[int]) -> None:
     """A polynomial of degree 2 in each of two has both signs where no sign is said, and never the

@@ -184,6 +184,7 @@ def test_what_is_taken_to_be_nonzero() -> None:
             assert isinstance(half, Parametric)
             assert half.inverse() == 2 / x
         assert 1 / y == y**-1
+        assert (y + 2) ** 0 == 1
     assert not x - x
     assert {str(p) for p in inner.values()} == {"1/2*x", "x"}
     assert {str(p) for p in outer.values()} == {"y + 1", "x", "y"}

@@ -121,7 +121,7 @@ def curve(terms: dict[tuple[int, int], int]) -> fmpq_mpoly:
 
 
 @given(TERMS, TERMS, st.sampled_from([[], [fmpq(0)], [fmpq(-1), fmpq(1, 2)]]))
-@settings(max_examples=at_most(40, 200))
+@settings(max_examples=at_most(40, 400))
 def test_between_critical_lines_nothing_changes(
     a: dict[tuple[int, int], int], b: dict[tuple[int, int], int], ends: list[fmpq]
 ) -> None:
@@ -149,7 +149,7 @@ def test_between_critical_lines_nothing_changes(
 
 
 @given(TERMS, TERMS)
-@settings(max_examples=at_most(15, 60))
+@settings(max_examples=at_most(15, 150))
 def test_elimination_is_that_of_sympy(
     a: dict[tuple[int, int], int], b: dict[tuple[int, int], int]
 ) -> None:

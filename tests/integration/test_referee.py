@@ -557,7 +557,7 @@ def _additive(draw: st.DrawFn) -> str:
     return f"ark: {{A: [{', '.join(blocks)}], b: [{', '.join(weights)}]}}\n"
 
 
-@settings(max_examples=at_most(8, 20))
+@settings(max_examples=at_most(8, 160))
 @given(_additive())
 def test_random_methods_are_proved(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     """Whatever the method is, the referee agrees with its order, conjugate and pair."""

@@ -102,7 +102,7 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
 
 
 @given(data=st.data(), colours=st.integers(1, 3), order=st.integers(1, 30), short=st.integers(1, 7))
-@settings(max_examples=at_most(10, 30), deadline=None)
+@settings(max_examples=at_most(10, 200), deadline=None)
 def test_blocks_make_no_difference(
     data: st.DataObject, colours: int, order: int, short: int
 ) -> None:

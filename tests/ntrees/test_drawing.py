@@ -60,7 +60,9 @@ def test_every_vertex_is_drawn(tree: Tree) -> None:
 
 @given(trees)
 def test_layout_keeps_vertices_apart(tree: Tree) -> None:
-    """Vertices of one height are at least one unit apart, and each is one above its parent."""
+    """Vertices of one height are at least one unit apart, and each is one above its parent, which is
+    halfway between its first and last branches.
+    """
     vertices = layout(tree)
     assert len(vertices) == tree.order
     for v in vertices[1:]:
@@ -68,6 +70,9 @@ def test_layout_keeps_vertices_apart(tree: Tree) -> None:
     for height in {v.y for v in vertices}:
         row = [v.x for v in vertices if v.y == height]
         assert all(right - left >= 1 for left, right in pairwise(row))
+    for k, v in enumerate(vertices):
+        if above := [w.x for w in vertices if w.parent == k]:
+            assert v.x == (above[0] + above[-1]) / 2
 
 
 def test_large_trees_are_drawn() -> None:

@@ -375,7 +375,7 @@ def outputs(draw: st.DrawFn) -> tuple[Tableau, DenseOutput]:
 
 @in_whole
 @given(outputs())
-@settings(max_examples=at_most(8, 25), deadline=None)
+@settings(max_examples=at_most(8, 180), deadline=None)
 def test_random_dense_output_has_the_order_of_its_values(
     drawn: tuple[Tableau, DenseOutput],
 ) -> None:
@@ -404,7 +404,7 @@ def test_the_order_of_dense_output_ends_with_its_degree() -> None:
 
 
 @given(st.integers(0, 10**6))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=at_most(25, 200), deadline=None)
 def test_random_embedded_weights_have_the_order_of_the_oracles(seed: int) -> None:
     """Weights with any sums have the order that trees one by one say, with time too."""
     dice = Random(seed)
@@ -453,7 +453,7 @@ def test_too_many_trees_leave_dense_output_open(monkeypatch: pytest.MonkeyPatch)
 
 @in_whole
 @given(st.integers(0, 10**6))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=at_most(15, 120), deadline=None)
 def test_renumbering_colours_changes_no_order(seed: int) -> None:
     """The orders of embedded weights and of dense output do not depend on the order of colours."""
     dice = Random(seed)

@@ -50,7 +50,7 @@ from tests.order.random_rounded import (
     misprinted,
     source,
 )
-from tests.whole import in_whole, sample
+from tests.whole import at_most, in_whole, sample
 
 ZERO = 1e-33
 """What counts as zero: M* is known to 120 bits at least."""
@@ -349,7 +349,7 @@ def pairwise(tableau: Tableau, radius: fmpq) -> RoundedTableau:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=20)
+@settings(max_examples=at_most(20, 90))
 @example(275)
 def test_orders_that_fail_fail_everywhere(seed: int) -> None:
     """Random weights with a radius each at exact stages: the conditions are linear in them. Where an

@@ -129,7 +129,7 @@ def test_large_entries_of_a_symplectic_method_in_three_digits() -> None:
 
 @in_whole
 @given(st.sampled_from(["gauss 2", "gauss 3", "lobatto-iiic 3"]), st.integers(0, 2**32 - 1))
-@settings(max_examples=at_most(6, 25))
+@settings(max_examples=at_most(6, 150))
 def test_every_rounding_keeps_what_holds(name: str, seed: int) -> None:
     """B, C, D, consistency and symplecticity of a method hold within t of whatever it is rounded to
     within t.

@@ -119,7 +119,7 @@ def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
 
 
 @given(SEEDS)
-@settings(max_examples=at_most(6, 25))
+@settings(max_examples=at_most(6, 50))
 def test_orders_are_those_of_every_tree(seed: int) -> None:
     """Random graphs and rounded named methods, tolerances of all sizes: the order is that of the
     conditions of the method that is recovered, one by one.
@@ -143,7 +143,7 @@ def test_orders_are_those_of_every_tree(seed: int) -> None:
     "name", sample(["kutta", "rk4", "gauss 3", "lobatto-iiic 3", "radau-iia 3"], 3)
 )
 @given(seed=SEEDS, exponent=st.integers(3, 20))
-@settings(max_examples=at_most(2, 6))
+@settings(max_examples=at_most(2, 10))
 def test_every_rounding_keeps_the_order(name: str, seed: int, exponent: int) -> None:
     """Whatever a method is rounded to within t, it has its order within t, and so have its
     conjugate and its pair.
@@ -161,7 +161,7 @@ def test_every_rounding_keeps_the_order(name: str, seed: int, exponent: int) -> 
 
 
 @given(SEEDS)
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(10, 150))
 def test_what_fails_fails_for_every_method_of_the_box(seed: int) -> None:
     """The condition of a witness is missed by all corners of the box that are tried, on one side."""
     dice = Random(seed)
@@ -225,7 +225,7 @@ def test_a_perturbed_coefficient_lowers_the_order() -> None:
 
 @in_whole
 @given(SEEDS)
-@settings(max_examples=at_most(5, 25))
+@settings(max_examples=at_most(5, 100))
 def test_spans_bound_every_tree(seed: int) -> None:
     """Whatever the grain, the bound is not below the largest residual, and members reach it or
     less.

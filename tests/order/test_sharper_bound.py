@@ -129,7 +129,7 @@ def coupled(draw: st.DrawFn) -> Tableau:
     return gark(methods, blocks)
 
 
-@settings(max_examples=at_most(15, 40))
+@settings(max_examples=at_most(15, 300))
 @given(coupled())
 def test_no_bound_exceeds_the_order(tableau: Tableau) -> None:
     """Printed bound ≤ sharper bound ≤ order, of whatever is coupled and of its symplectic pair."""

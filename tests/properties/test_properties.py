@@ -381,7 +381,7 @@ def is_symmetric_by_force(A: Rows, b: list[Fraction]) -> bool:
 
 
 @given(renumbered_into_their_adjoint())
-@settings(max_examples=at_most(25, 60))
+@settings(max_examples=at_most(25, 400))
 def test_all_renumberings_say_the_same(method: tuple[Rows, list[Fraction]]) -> None:
     """By brute force, also within a tolerance that no entry makes use of: an involution is found
     exactly where one of all permutations does it, unless equal stages are in its way.
@@ -605,7 +605,7 @@ def test_semidefinite_forms() -> None:
 
 
 @given(methods(), st.lists(ENTRY, min_size=4, max_size=4))
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(10, 200))
 def test_a_stage_without_influence_does_not_hide_the_symmetry(
     method: tuple[Rows, list[Fraction]], row: list[Fraction]
 ) -> None:

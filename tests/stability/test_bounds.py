@@ -80,7 +80,7 @@ def explicit(draw: st.DrawFn) -> tuple[list[list[str]], list[str]]:
     return A, [str(draw(ENTRY)) for _ in range(s)]
 
 
-@settings(max_examples=at_most(12, 30))
+@settings(max_examples=at_most(12, 200))
 @given(explicit())
 def test_every_method_is_between_its_bounds(entries: tuple[list[list[str]], list[str]]) -> None:
     """Real interval, SSP and algebraic stability, exactly and in balls."""

@@ -92,7 +92,7 @@ def value_of_a_step(tableau: Tableau, z: list[fmpq]) -> Number:
     return total
 
 
-@settings(max_examples=at_most(8, 20))
+@settings(max_examples=at_most(8, 160))
 @given(coupled() | pairs(), st.data())
 def test_the_fraction_is_what_a_step_gives(tableau: Tableau, data: st.DataObject) -> None:
     """P(z) = Q(z) R(z) at rational points where the stage equations are solved one by one."""
@@ -116,7 +116,7 @@ def common_factor_degree(R: Fraction) -> int:
 
 
 @in_whole
-@settings(max_examples=at_most(3, 8))
+@settings(max_examples=at_most(3, 60))
 @given(coupled())
 def test_lowest_terms(tableau: Tableau) -> None:
     """No common factor is left, and the doubled method has the fraction of the method itself."""
@@ -245,7 +245,7 @@ def value_at(p: Multivariate, points: list[Complex]) -> Complex:
 THIRDS = fractions(-3, 3, 3).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
-@settings(max_examples=at_most(25, 60))
+@settings(max_examples=at_most(25, 400))
 @given(pairs(), THIRDS, THIRDS, THIRDS)
 def test_parts_are_those_of_complex_numbers(tableau: Tableau, a: fmpq, b: fmpq, y: fmpq) -> None:
     """P(a + ib, iy) and Q by complex arithmetic, exactly; E is the difference of their squares."""
@@ -300,7 +300,7 @@ def test_rays_of_known_pairs_by_steps(name: str, real: float, imaginary: float) 
             assert largest_modulus(tableau, pair, direction * (length + 1e-3)) > 1 + 1e-4
 
 
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(10, 200))
 @given(pairs(), st.integers(-12, 4), st.integers(0, 8))
 def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) -> None:
     """A γ > 0 has its poles to the right: the imaginary axis decides, and a grid on it agrees."""
@@ -332,7 +332,7 @@ def test_damped_points_without_balls(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [pair.is_damped(*point) for point in points] == by_balls
 
 
-@settings(max_examples=60)
+@settings(max_examples=at_most(60, 400))
 @given(st.lists(st.tuples(st.integers(-2, 4), st.integers(-3, 3)), max_size=4))
 def test_roots_to_the_right_against_what_was_multiplied_out(roots: list[tuple[int, int]]) -> None:
     """Q = Π (z − a − ib), along z = iy with complex coefficients: to the right exactly when all
@@ -362,7 +362,7 @@ def test_poles_that_move() -> None:
 
 
 @in_whole
-@settings(max_examples=8)
+@settings(max_examples=at_most(8, 60))
 @given(pairs())
 def test_rays_end_where_points_end(tableau: Tableau) -> None:
     """Points inside are damped, also by steps in floats; a little beyond the end they are not."""
@@ -395,7 +395,7 @@ def test_an_explicit_and_an_implicit_colour_are_told_apart() -> None:
     assert imex_pair(both, stability_fraction(both)) is None
 
 
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(10, 200))
 @given(pairs(), st.sampled_from([(1, 0), (0, 1), (1, 1), (1, 2)]))
 def test_additive_radii_by_floating_point(tableau: Tableau, direction: tuple[int, int]) -> None:
     """Below the radius all conditions of both colours hold; just above it one of them fails."""

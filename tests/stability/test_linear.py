@@ -140,7 +140,7 @@ def test_poles_against_what_was_multiplied_out(pairs: list[tuple[int, int]]) -> 
     assert poles_are_right(Q) == all(r > 0 for r, _ in pairs)
 
 
-@settings(max_examples=at_most(12, 30))
+@settings(max_examples=at_most(12, 200))
 @given(tableaus())
 def test_against_a_grid(tableau: Tableau) -> None:
     """Where a grid finds |R| > 1 on the axes, the sets have an end before it; and the other way round."""

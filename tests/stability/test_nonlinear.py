@@ -134,7 +134,7 @@ def explicit(draw: st.DrawFn) -> Tableau:
     return loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
 
 
-@settings(max_examples=at_most(12, 40))
+@settings(max_examples=at_most(12, 300))
 @given(explicit())
 def test_the_conditions_by_floating_point(tableau: Tableau) -> None:
     """A little below the radius all entries are positive, a little above one is not."""

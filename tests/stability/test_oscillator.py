@@ -61,7 +61,7 @@ def contains(found: OscillatorStability, x: fmpq) -> bool:
 
 
 @pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
-@settings(max_examples=at_most(5, 15), deadline=None)
+@settings(max_examples=at_most(5, 80), deadline=None)
 @given(STEPS)
 def test_step_sizes_one_by_one(path: Path, h: fmpq) -> None:
     """For single step sizes R(h) is found by solving the stages, and its powers are followed exactly."""

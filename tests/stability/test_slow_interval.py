@@ -42,7 +42,7 @@ def has(intervals: tuple[Interval, ...], x: fmpq) -> bool:
 
 
 @in_whole
-@settings(max_examples=at_most(3, 12))
+@settings(max_examples=at_most(3, 25))
 @given(
     st.sampled_from(NAMES),
     st.fractions(0, 3, max_denominator=4),

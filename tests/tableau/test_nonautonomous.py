@@ -83,7 +83,7 @@ METHODS = [
 ]
 
 
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(10, 200))
 @given(st.sampled_from(METHODS), st.integers(0, 2**32 - 1))
 def test_the_order_is_that_of_steps_as_power_series(
     coefficients: tuple[str, str], seed: int
