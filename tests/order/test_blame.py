@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from flint import fmpq
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 from garkcli import Tableau, conjugate, find_order, load, loads
 from garkcli.check.check_file import check_file
+from garkcli.exact.field import Number
 from garkcli.frozen import replace
+from garkcli.ntrees.table import TreeTable
+from garkcli.ntrees.tree import Tree
 from garkcli.order.blame import MissedOrder, blame_of, count_entries, slip_of
-from garkcli.order.repair import Repair
+from garkcli.order.conditions import coupling_graph
+from garkcli.order.repair import Repair, RepairedEntry
 from garkcli.order.tolerance import within
-from tests.whole import in_whole
+from tests.whole import at_most, in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -205,3 +212,113 @@ def test_without_a_claim_an_explicit_method_misses_no_diagonal_entry() -> None:
     blame = blame_of(tableau, MissedOrder(2, 3))
     assert blame is not None
     assert Repair(0, 0, 1, 1, fmpq(0), fmpq(1, 3)) in blame.repairs
+
+
+def weight(tableau: Tableau, tree: Tree) -> Number:
+    """The elementary weight, by its definition."""
+
+    def stages(u: Tree) -> list[Number]:
+        values: list[Number] = [fmpq(1)] * len(tableau.colours[u.root].b)
+        for branch in u.branches:
+            inner = stages(branch)
+            block = tableau.block(u.root, branch.root)
+            assert block is not None
+            for i, row in enumerate(block):
+                values[i] *= sum((a * x for a, x in zip(row, inner, strict=True)), fmpq(0))
+        return values
+
+    b = tableau.colours[tree.root].b
+    return sum((a * x for a, x in zip(b, stages(tree), strict=True)), fmpq(0))
+
+
+SPOILT = {
+    "kutta-3": 3,
+    "radau-iia-2": 3,
+    "rk4": 4,
+    "merson-4": 4,
+    "ark-324": 3,
+    "ars-222": 2,
+    "collocation-conjugate": 4,
+    "rectangular": 4,
+}
+"""Methods with rational coefficients, and their orders."""
+
+
+def spoilt(name: str, data: st.DataObject) -> Tableau:
+    """One entry of a block or a weight is another number."""
+    in_catalogue = name not in {"collocation-conjugate", "rectangular"}
+    tableau = load(name).tableau if in_catalogue else example(name)
+    l = data.draw(st.integers(0, tableau.size - 1))
+    m = data.draw(st.sampled_from([None, *(m for k, m in tableau.edges() if k == l)]))
+    off = data.draw(st.sampled_from([fmpq(1, 7), fmpq(-1, 2), fmpq(3)]))
+    rows = [tableau.colours[l].b] if m is None else tableau.block(l, m)
+    assert rows is not None
+    i = data.draw(st.integers(0, len(rows) - 1))
+    j = data.draw(st.integers(0, len(rows[i]) - 1))
+    entry = RepairedEntry(l, m, None if m is None else i, j, rows[i][j])
+    return entry.put(tableau, rows[i][j] + off)
+
+
+@pytest.mark.parametrize("name", SPOILT)
+@given(st.data())
+@settings(max_examples=at_most(3, 25))
+def test_blame_is_that_of_all_trees(name: str, data: st.DataObject) -> None:
+    """Which blocks are in failing conditions, the one in most of them, and each entry whose change
+    alone gives the order: by the definition of elementary weights, tree by tree.
+    """
+    claimed = SPOILT[name]
+    wrong = spoilt(name, data)
+    order = find_order(wrong).order
+    assume(order < claimed)
+    blame = blame_of(wrong, MissedOrder(order + 1, claimed))
+    assert blame is not None
+    table = TreeTable.of(coupling_graph(wrong), claimed)
+    trees = [table.tree(k) for k in range(len(table))]
+    spaces = [colour.space for colour in wrong.colours]
+
+    def blocks(u: Tree) -> set[tuple[int, int]]:
+        return {(spaces.index(spaces[v.root]), w.root) for v in u.vertices() for w in v.branches}
+
+    def holds(tableau: Tableau, u: Tree) -> bool:
+        return weight(tableau, u) == fmpq(1, u.density)
+
+    seen: dict[object, Tree] = {}  # colours that share stages and weights have one condition
+    for u in trees:
+        if u.order == order + 1:
+            below = tuple(sorted(str(x) for x in u.branches))
+            seen.setdefault((spaces[u.root], wrong.colours[u.root].b, below), u)
+    failing = [u for u in seen.values() if not holds(wrong, u)]
+    assert (blame.order, blame.failing, blame.total) == (order + 1, len(failing), len(seen))
+    every = sorted({(spaces.index(spaces[l]), m) for l, m in wrong.edges()})
+    uses = {x: [u for u in failing if x in blocks(u)] for x in every}
+    assert blame.in_every == tuple(x for x in every if len(uses[x]) == len(failing))
+    assert blame.in_none == tuple(x for x in every if not uses[x])
+    share = {
+        x: Fraction(len(failing), sum(x in blocks(u) for u in seen.values()))
+        for x in blame.in_every
+    }
+    best = [x for x in share if share[x] == max(share.values())]
+    assert blame.culprit == (best[0] if len(best) == 1 else None)
+    assert blame.only_coupling == all(len({v.root for v in u.vertices()}) > 1 for u in failing)
+
+    repaired = set()
+    entries = [
+        RepairedEntry(l, m, i, j, old)
+        for l, m in every
+        for i, row in enumerate(wrong.block(l, m) or ())
+        for j, old in enumerate(row)
+    ]
+    entries += [
+        RepairedEntry(l, None, None, j, old)
+        for l, colour in enumerate(wrong.colours)
+        for j, old in enumerate(colour.b)
+    ]
+    for entry in entries:
+        first = failing[0]
+        at = [weight(entry.put(wrong, entry.old + k), first) for k in (0, 1, 2, 5)]
+        slope = at[1] - at[0]
+        if slope and at[2] - at[1] == slope and at[3] - at[0] == 5 * slope:
+            new = entry.old + (fmpq(1, first.density) - at[0]) / slope
+            if all(holds(entry.put(wrong, new), u) for u in trees):
+                repaired.add((entry.l, entry.m, entry.i, entry.j, entry.old, new))
+    assert {(x.l, x.m, x.i, x.j, x.old, x.new) for x in blame.repairs} == repaired
