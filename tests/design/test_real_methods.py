@@ -6,6 +6,8 @@ import json
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from garkcli import find_order, loads
 from garkcli.design.critical import smooth_points
@@ -14,6 +16,7 @@ from garkcli.design.ideal import Ideal
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from tests.cli.harness import gark
+from tests.whole import at_most
 
 TWO = "A: [[0, 0], [{}, 0]]\nb: [0, 1]\n"
 FREE = "parameters: {{{}}}\n"
@@ -294,3 +297,33 @@ def test_methods_where_no_sample_is(
     assert find_parameters(family, 1).last.has_methods is has_methods
     monkeypatch.setattr("garkcli.design.real_points.MOST_DEGREE", 1)
     assert find_parameters(family, 1).last.has_methods is beyond
+
+
+BOX = [k / 24 for k in range(25)]
+TERMS = st.dictionaries(
+    st.tuples(st.integers(0, 3), st.integers(0, 2)), st.integers(-4, 4), min_size=1, max_size=5
+)
+
+
+@given(TERMS, st.booleans())
+@settings(max_examples=at_most(12, 150))
+def test_random_curves_in_a_box(terms: dict[tuple[int, int], int], is_open: bool) -> None:
+    """A curve p(x, y) = 0 meets the unit square, with or without the edges x = 0 and x = 1, if p has
+    both signs inside; it does not if |p| is larger everywhere than its slopes allow.
+    """
+    p = " + ".join(f"({a})*x**{i}*y**{j}" for (i, j), a in terms.items()) + " + 1/7"
+    names = "{x: {free: true, range: [0, 1]}, y: {free: true, range: [0, 1]}}"
+    text = f"parameters: {names}\nA: [[0, 0], [0, 0]]\nb: [x, '1 - x + {p}']\n"
+    text += "design: {positive-weights: true}\n" if is_open else ""
+    found = find_parameters(loads_family(text), 1).last.has_methods
+    values = {
+        (x, y): sum(a * x**i * y**j for (i, j), a in terms.items()) + 1 / 7
+        for x in BOX
+        for y in BOX
+    }
+    inside = [value for (x, _), value in values.items() if 0 < x < 1]
+    slope = sum(abs(a) * (i + j) for (i, j), a in terms.items()) / 24
+    if min(inside) < 0 < max(inside):
+        assert found is True
+    elif min(map(abs, values.values())) > slope:
+        assert found is False
