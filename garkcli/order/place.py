@@ -209,7 +209,8 @@ class BoxPlace:
         """The largest change of the elementary weight of a tree within the box."""
         with arithmetic(self.search.bits):
             row = self._tree_row(name, tree)
-        return midpoint(arb(float(row.reach[0] + row.remainders[0]))) / tree.density
+        [size] = row.reach + row.remainders
+        return midpoint(arb(float(size))) / tree.density
 
     def may_meet(self, name: str, tree: Tree) -> bool:
         """Whether the radii explain the residual of a tree."""
