@@ -157,12 +157,13 @@ def test_latex_is_worth_the_number(root: str, x: Fraction, y: Fraction) -> None:
     """Fractions, radicals and powers of them."""
     for number in (exact(x), irrational(root, x, y) if y else exact(y)):
         text = to_latex(number)
-        while r"\frac" in text:
-            text = re.sub(r"\\frac\{((?:[^{}]|\{[^{}]*\})*)\}\{(\d+)\}", r"((\1)/\2)", text)
-        while r"\sqrt" in text:
-            text, count = re.subn(r"\\sqrt\{([^{}\\]*)\}", r"sqrt(\1)", text)
-            text, more = re.subn(r"\\sqrt\[(\d+)\]\{([^{}\\]*)\}", r"root(\2,\1)", text)
-            assert count or more
+        while r"\sqrt" in text or r"\frac" in text:  # inner ones first
+            before = text
+            text = re.sub(r"\\sqrt\{([^{}\\]*)\}", r"sqrt(\1)", text)
+            text = re.sub(r"\\sqrt\[(\d+)\]\{([^{}\\]*)\}", r"root(\2,\1)", text)
+            text = re.sub(r"(?<=[)])\^\{(\d+)\}", r"**\1", text)
+            text = re.sub(r"\\frac\{([^{}\\]*)\}\{(\d+)\}", r"((\1)/\2)", text)
+            assert text != before
         text = re.sub(r" \\cdot 10\^\{(-?\d+)\}", r"*10**(\1)", text)
         text = re.sub(r"\^\{(\d+)\}", r"**\1", text)
         text = re.sub(r"(?<=[0-9)])(?=sqrt|root)", "*", text)

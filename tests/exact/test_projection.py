@@ -59,6 +59,7 @@ def test_numbers_in_an_interval(
         assume(start <= end)
         if start == end:
             has_start = has_end = True
+    has_start, has_end = has_start and start is not None, has_end and end is not None
     interval = Interval(start, end, has_start, has_end)
     inside = [
         x
