@@ -96,8 +96,8 @@ class _ChangedNumber(Frozen, Generic[T]):
 def _changes(
     rounded: RoundedTableau, order: int, limit: int, made_of: Callable[[int, fmpq], T | None]
 ) -> list[_ChangedNumber[T]]:
-    """The suspected numbers, each made by ``made_of`` of its index and its change, with the order that
-    the change gives; numbers of which that makes None are left out.
+    """The suspected numbers, each made by ``made_of`` of its index and its change, with the order
+    that the change gives; numbers of which that makes None are left out.
     """
     search = rounded.search
     limit = min(limit, rounded.tableau.exact_to or limit)
