@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, TypedDict, TypeVar
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, TypeVar
 
 from garkcli.check.findings import (
     BOUND,
@@ -19,6 +19,7 @@ from garkcli.check.pair_reasons import is_lost, pair_reason, rule_reasons
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, plain_decimal, to_float, to_text
 from garkcli.frozen import replace
+from garkcli.glossary.labels import label_of
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -81,8 +82,8 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 V = TypeVar("V", bound="bool | int | Size")
 AnyAnalysis: TypeAlias = "Analysis | OtherAnalysis"
 Edge: TypeAlias = "tuple[int, int]"
-Failing: TypeAlias = "tuple[Witness, Tableau]"
-"""A condition that fails, with the tableau that misses it."""
+Failing: TypeAlias = "tuple[str, Witness, Tableau]"
+"""The claim on an order, the condition at which it ends, and the tableau that misses it."""
 
 
 def stages_text(tableau: Tableau) -> str:
@@ -133,12 +134,14 @@ def with_arithmetic(text: str, a: AnyAnalysis) -> str:
     return f"{text}; decided in {field}"
 
 
-def each_once(views: Iterable[tuple[AnyOrder, Tableau]]) -> list[Failing]:
-    """The failing conditions of some orders, each once."""
+def each_once(views: Mapping[str, tuple[AnyOrder | None, Tableau | None] | None]) -> list[Failing]:
+    """The failing conditions of some orders by their claims, each once."""
     found: list[Failing] = []
-    for order, tableau in views:
-        if order.witness and order.witness not in [x for x, _ in found]:
-            found.append((order.witness, tableau))
+    for claim, view in views.items():
+        order, tableau = view or (None, None)
+        witness = None if order is None else order.witness
+        if witness and tableau and witness not in [x for _, x, _ in found]:
+            found.append((claim, witness, tableau))
     return found
 
 
@@ -165,6 +168,12 @@ def _some(names: Sequence[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + more
 
 
+def no_order(answer: Answer[Any], obstacle: Reason) -> Reason:
+    """Why a method has no order of the conjugate or the pair."""
+    is_none = answer.value is None and bool(obstacle)
+    return Reason("none: {}", obstacle) if is_none else NO_REASON
+
+
 def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
     """The order of the conjugate or the pair: usual where a method has several colours."""
 
@@ -172,8 +181,7 @@ def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Anal
         answer = kinds.order_answer(get(a))
         is_told = a.tableau.size > 1 and (answer.value or key == "conjugate_order")
         level = USUAL if is_told else DETAIL  # there is no pair where there is no conjugate
-        reason = a.obstacle if answer.value is None else NO_REASON
-        return replace(answer, reason=reason, level=level)
+        return replace(answer, reason=no_order(answer, a.obstacle), level=level)
 
     return maybe(key, kinds.ORDER, answer)
 
@@ -196,20 +204,20 @@ def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analy
 
 def witnesses(a: Analysis) -> list[Failing]:
     claims = ("order", "conjugate-order", "pair-order", "embedded-order")
-    views = (order_of(a, claim) for claim in claims)
-    return each_once((order, tableau) for order, tableau in views if order and tableau)
+    return each_once({claim: order_of(a, claim) for claim in claims})
 
 
 def drawn(found: Sequence[Failing], d: Plain) -> list[str]:
     """Trees with the values of their conditions, drawn."""
     lines = []
     room = d.width - 2
-    for witness, tableau in found:
+    for claim, witness, tableau in found:
         names = [colour.name for colour in tableau.colours]
         is_named = not tableau.has_fields_alone
         tree = format_tree(witness.tree, names if is_named else len(names) > 1)
         value, required = d.number(witness.value), d.number(witness.required)
-        lines += folded(f"{tree}: {value} instead of {required}", room, "  ")
+        label = d.prose(label_of(claim.replace("-", "_")))
+        lines += folded(f"{label} fails at {tree}: {value} instead of {required}", room, "  ")
         if names != [str(l + 1) for l in range(len(names))]:
             lines.append(d.prose(named_colours(witness.tree, names)))
         lines += d.drawing(draw_text(witness.tree, len(names) > 1, room))
@@ -506,7 +514,8 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     for x in found:
         said = [] if x.shape is None else [_shape_words(x.shape, x.within, d)]
         if x.shape is not None and x.shape.gamma is not None:
-            said.append(f"γ = {d.known(d.diagonal(x.shape.gamma), Status(x.within))}")
+            gamma = d.known(d.diagonal(x.shape.gamma), Status(x.within))
+            said.append(f"γ {gamma}" if gamma.startswith("about") else f"γ = {gamma}")
         stage_order = d.known(d.capped(x.stage_order, x.limit), Status(x.within))
         said.append(f"stage order {stage_order}")
         texts.append(f"{d.prose(x.name)} {', '.join(said)}")

@@ -14,11 +14,11 @@ from garkcli.check.every_properties import find_property
 from garkcli.design.stability_functions import FamilyFunction, family_functions
 from garkcli.exact.display import to_text
 from garkcli.exact.polynomial_text import power_text, sum_text
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data, sum_latex
 from garkcli.properties.registry import KEYS
-from garkcli.reason import NO_REASON, Formula, Reason, joined
+from garkcli.reason import Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.report.design_values import conditions
 from garkcli.tell import kinds
@@ -167,9 +167,8 @@ def of_several(key: str, get: Callable[[EveryValue], EveryOrder | None]) -> Row[
     """An order of the conjugate or the pair, or why there is none; a detail of one colour."""
 
     def answer(e: EveryValue) -> Answer[EveryOrder]:
-        value = get(e)
-        reason = NO_REASON if value is not None else e.obstacle
-        return Answer(value, reason=reason, level=None if e.tableau.size > 1 else DETAIL)
+        answer = Answer(get(e), level=None if e.tableau.size > 1 else DETAIL)
+        return replace(answer, reason=c.no_order(answer, e.obstacle))
 
     return maybe(key, EVERY_ORDER, answer)
 

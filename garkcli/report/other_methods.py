@@ -57,7 +57,7 @@ def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Othe
 
 def _trees_that_fail(*claims: str) -> Row[OtherAnalysis]:
     def get(a: OtherAnalysis) -> list[c.Failing]:
-        return c.each_once(view for view in map(a.view, claims) if view is not None)
+        return c.each_once({claim: a.view(claim) for claim in claims})
 
     return Row("trees_that_fail", picture(c.drawn), get, DETAIL)
 

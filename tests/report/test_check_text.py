@@ -67,7 +67,9 @@ def test_a_residual_is_written_exactly(text: str, value: str, residual: str) -> 
     the value and what it should be are there too.
     """
     assert report(text).splitlines()[0].endswith(f"] by {residual}")
-    assert re.search(rf"^  \[.*\]: {re.escape(value)}$", everything(text), re.MULTILINE)
+    assert re.search(
+        rf"^  order fails at \[.*\]: {re.escape(value)}$", everything(text), re.MULTILINE
+    )
 
 
 def test_long_values_are_whole_and_fit_a_screen() -> None:
@@ -95,7 +97,7 @@ def test_a_zero_weight_is_named() -> None:
     assert found.startswith("m.gark.yaml: order 2, proved; ")
     assert "not symplectic; not all weights positive\n" in found
     for label in ("conjugate order", "symplectic pair"):
-        reason = "the symplectic conjugate divides by the weights b, b_1 = 0"
+        reason = "none: the symplectic conjugate divides by the weights b, b_1 = 0"
         assert f" {label} {reason} " in words(everything(text))
 
 

@@ -496,3 +496,15 @@ def test_entries_that_are_one_within_the_tolerance(tmp_path: Path) -> None:
     text = " ".join(gark("check", str(file), "-v").out.split())
     assert "γ 0.29289321881345" in text
     assert "positive weights yes" in text
+
+
+def test_what_fails_in_a_check_is_named() -> None:
+    """Trees with values have the order that ends there; an order that is none says so before why."""
+    lines = gark("check", "sdirk-2", "-v").out.splitlines()
+    instead = [x.strip() for x in lines if " instead of " in x]
+    assert instead == [
+        "order fails at [[[]]]: 0 instead of 1/6",
+        "embedded order fails at [[]]: 1 instead of 1/2",
+    ]
+    text = " ".join(gark("check", "ars-343").out.split())
+    assert "conjugate order none: colour 1: the symplectic conjugate divides by" in text
