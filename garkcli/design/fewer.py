@@ -14,13 +14,13 @@ from typing import Any
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.design.member import member
+from garkcli.design.member import restricted
 from garkcli.design.stability_functions import joined
 from garkcli.exact.display import to_text
 from garkcli.exact.matrix import Matrix, characteristic_coefficients
 from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.exact.span import leading_columns
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.family import Family, reducing
 from garkcli.tableau.tableau import Tableau
@@ -79,18 +79,7 @@ def fewest(
     ring = Parameters([*parameters, *(x.name for x in family.radicals)])
     values: dict[str, Any] = {name: fmpq(0) for name in names}
     values |= {name: ring.parameter(name) for name in ring.names}
-    smaller = replace(
-        family,
-        tableau=member(family.tableau, family.ring, values),
-        ring=ring,
-        parameters=parameters,
-        ranges={name: family.ranges[name] for name in parameters},
-        radicals=tuple(
-            replace(x, relation=x.relation.project_to_context(ring.context))
-            for x in family.radicals
-        ),
-    )
-    return smaller, forms
+    return restricted(family, ring, values, parameters, family.radicals), forms
 
 
 def step_polynomials(

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from typing import Literal, TypeAlias, cast
+from typing import Any, Literal, TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly
 
@@ -18,11 +18,12 @@ from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.parametric import Parameters, Parametric, fraction, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
+from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import Further
-from garkcli.tableau.family import OSCILLATING, Family, RequiredStability
+from garkcli.tableau.family import OSCILLATING, Family, Radical, RequiredStability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
@@ -108,6 +109,44 @@ def _monomials(values: list[Number], ring: Parameters) -> list[fmpq_mpoly] | Non
             return None
         monomials.append(numerator)
     return monomials
+
+
+def restricted(
+    family: Family,
+    ring: Parameters,
+    values: Mapping[str, Any],
+    parameters: Sequence[str],
+    radicals: Sequence[Radical],
+) -> Family:
+    """The methods of a family whose unknowns are functions of fewer ones.
+
+    Args:
+        family: the methods.
+        ring: of the fewer unknowns.
+        values: each unknown of the family as a function of them, or a number.
+        parameters: the parameters among the fewer ones.
+        radicals: the roots among them, with relations in any ring.
+    """
+
+    def moved(polynomials: Sequence[fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
+        # a quotient has the sign of the product
+        quotients = (fraction(value_of(p, family.ring, values), ring) for p in polynomials)
+        return tuple(p * q for p, q in quotients)
+
+    return replace(
+        family,
+        tableau=member(family.tableau, family.ring, values),
+        ring=ring,
+        parameters=tuple(parameters),
+        ranges={name: family.ranges.get(name, (None, None)) for name in parameters},
+        radicals=tuple(
+            replace(x, relation=x.relation.project_to_context(ring.context)) for x in radicals
+        ),
+        relations=moved(family.relations),
+        nonzero=moved(family.nonzero),
+        positive=moved(family.positive),
+        not_negative=moved(family.not_negative),
+    )
 
 
 def not_negative(family: Family) -> Iterator[fmpq_mpoly]:

@@ -149,14 +149,18 @@ class Part(Frozen):
         values = cast("Mapping[str, Number]", self.values)
         return cast("Mixed", value_of(polynomial, ring, values))
 
-    def extended(self, solution: Solution) -> Solution:
-        """A solution in the coordinates, extended to all unknowns."""
-        values: dict[str, Number] = {}
+    def at(self, coordinates: Mapping[str, Any]) -> dict[str, Any]:
+        """All unknowns at values of the coordinates: numbers, or functions of others."""
+        values: dict[str, Any] = {}
         for name, x in self.values.items():
             over, under = fraction(x, self.ring)
-            numerator = value_of(over, self.ring, solution.values)
-            values[name] = numerator / value_of(under, self.ring, solution.values)
-        return replace(solution, values=values)
+            numerator = value_of(over, self.ring, coordinates)
+            values[name] = numerator / value_of(under, self.ring, coordinates)
+        return values
+
+    def extended(self, solution: Solution) -> Solution:
+        """A solution in the coordinates, extended to all unknowns."""
+        return replace(solution, values=self.at(solution.values))
 
 
 def at_root(name: str, root: RealRoot) -> Solution:
@@ -311,13 +315,7 @@ def parts_of(
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
     """The common zeros of further polynomials in the coordinates of a part, in parts."""
     for smaller in _Splitting(part.ring).all_parts([*part.equations, *zeros], part.nonzero):
-        known = cast("Mapping[str, Number]", smaller.values)
-        values: Values = {}
-        for name, x in part.values.items():
-            over, under = fraction(x, part.ring)
-            numerator = value_of(over, part.ring, known)
-            values[name] = cast("Mixed", numerator / value_of(under, part.ring, known))
-        yield replace(smaller, values=values, sets=part.sets)
+        yield replace(smaller, values=part.at(smaller.values), sets=part.sets)
 
 
 MOST_STEPS = 400

@@ -18,7 +18,7 @@ from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.design.family_step import FamilyStep, Flat, family_step
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import MOST_DEGREE, TABLEAUS, Whose, member, shares_of, value_of
+from garkcli.design.member import MOST_DEGREE, TABLEAUS, Whose, member, restricted, shares_of
 from garkcli.design.solutions import Solution, solutions, value_at
 from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact import projection
@@ -26,10 +26,10 @@ from garkcli.exact.cells import Interval, Point, between, contains, first_end, h
 from garkcli.exact.enclosing import value
 from garkcli.exact.field import ZERO, Number, poly_of
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.parametric import Parameters, fraction
+from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, number_of
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
@@ -160,37 +160,15 @@ class Members(Frozen):
         """
         family = self.family
         first, second = family.parameters
+        radicals = [*family.radicals]
         rational = t.exact if isinstance(t, RealRoot) else t
-        radicals = list(family.radicals)
-        names = [second, *(x.name for x in radicals), *[first] * (rational is None)]
-        ring = Parameters(names)
         if rational is None:
             assert isinstance(t, RealRoot)
-            powers = enumerate(t.polynomial.coeffs())
-            x = ring.context.gen(len(ring.names) - 1)
-            relation = sum((x**k * fmpq(a) for k, a in powers), x * 0)
-            radicals.append(Radical(first, relation, meant=t))
+            radicals.append(Radical.of(first, t))
+        ring = Parameters([second, *(x.name for x in radicals)])
         values: dict[str, Any] = {name: ring.parameter(name) for name in ring.names}
         values.setdefault(first, rational)
-
-        def moved(polynomials: Sequence[fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
-            numbers = (value_of(p, family.ring, values) for p in polynomials)
-            return tuple(fraction(x, ring)[0] for x in numbers)
-
-        line = replace(
-            family,
-            tableau=member(family.tableau, family.ring, values),
-            ring=ring,
-            parameters=(second,),
-            ranges={second: family.ranges[second]},
-            radicals=tuple(
-                replace(x, relation=x.relation.project_to_context(ring.context)) for x in radicals
-            ),
-            relations=moved(family.relations),
-            nonzero=moved(family.nonzero),
-            positive=moved(family.positive),
-            not_negative=moved(family.not_negative),
-        )
+        line = restricted(family, ring, values, [second], radicals)
         return Slice(line, self.whose, critical, limits)
 
 

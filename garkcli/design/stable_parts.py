@@ -28,6 +28,7 @@ from garkcli.design.member import (
     is_stable,
     member,
     not_negative,
+    restricted,
     value_of,
 )
 from garkcli.design.parts import (
@@ -487,13 +488,14 @@ def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
     Raises:
         NotDecided: one depends on free coordinates.
     """
+    places = [part.ring.names.index(x) for x in chart.names]
+    fixed = part.at({**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))})
     for radical in family.radicals:
-        over, under = fraction(part.values[radical.name], part.ring)
-        if any(p.degrees()[part.ring.names.index(x)] for p in (over, under) for x in chart.names):
+        parts = fraction(part.values[radical.name], part.ring)
+        if any(p.degrees()[k] for p in parts for k in places):
             raise NotDecided
-        values = {**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))}
-        number = value_of(over, part.ring, values) / value_of(under, part.ring, values)
-        if radical.meant not in (None, value_at(number, chart.one.real[chart.index])):
+        value = value_at(fixed[radical.name], chart.one.real[chart.index])
+        if radical.meant not in (None, value):
             return False
     return True
 
@@ -503,40 +505,27 @@ def _on_chart(
 ) -> StableValues | None:
     """The stable values of the free coordinates of a chart; None if none is admissible."""
     ring = Parameters([*chart.names, *chart.one.values])
-    coordinates: Any = {x: ring.parameter(x) for x in ring.names}
     root = chart.one.real[chart.index]
-    radicals = tuple(
-        Radical(name, in_context(root.polynomial.coeffs(), ring, name), meant=root)
-        for name in chart.one.values
-    )
+    coordinates: Any = {x: ring.parameter(x) for x in ring.names}
+    others = {x: ends for x, ends in family.ranges.items() if x not in chart.names}
+    family = replace(family, not_negative=tuple(not_negative(replace(family, ranges=others))))
+    radicals = [Radical.of(name, root) for name in chart.one.values]
+    on_chart = restricted(family, ring, part.at(coordinates), chart.names, radicals)
 
-    def moved(p: fmpq_mpoly) -> fmpq_mpoly:
-        return fraction(value_of(p, part.ring, coordinates), ring)[0]
+    def is_free(p: fmpq_mpoly) -> bool:
+        return any(p.degrees()[: len(chart.names)])
 
-    def expressed(p: fmpq_mpoly) -> fmpq_mpoly:
-        over, under = fraction(part.expressed(p, family.ring), part.ring)
-        return moved(over * under)
-
-    wishes = {1: [*map(expressed, family.positive)], 0: [*map(expressed, not_negative(family))]}
-    for least, polynomials in wishes.items():
-        for p in polynomials:
-            is_fixed = not any(p.degrees()[: len(chart.names)])
-            if is_fixed and sign_of(in_one(p, len(ring.names) - 1), root) < least:
-                return None
-    is_free = {
-        k: [p for p in found if any(p.degrees()[: len(chart.names)])] for k, found in wishes.items()
-    }
-    values: Any = part.values
-    on_chart = Family(
-        name=family.name,
-        tableau=member(member(family.tableau, family.ring, values), part.ring, coordinates),
-        ring=ring,
-        parameters=chart.names,
-        ranges=dict.fromkeys(chart.names, (None, None)),
-        radicals=radicals,
-        nonzero=tuple(map(moved, part.nonzero)),
-        positive=tuple(is_free[1]),
-        not_negative=tuple(is_free[0]),
+    for least, polynomials in ((1, on_chart.positive), (0, on_chart.not_negative)):
+        fixed = (in_one(p, len(ring.names) - 1) for p in polynomials if not is_free(p))
+        if any(sign_of(p, root) < least for p in fixed):
+            return None
+    nonzero = (fraction(value_of(p, part.ring, coordinates), ring)[0] for p in part.nonzero)
+    on_chart = replace(
+        on_chart,
+        relations=(),
+        nonzero=tuple(nonzero),
+        positive=tuple(filter(is_free, on_chart.positive)),
+        not_negative=tuple(filter(is_free, on_chart.not_negative)),
     )
     kind: Any = wanted.kind
     try:
@@ -557,9 +546,3 @@ def has_values_of_all(kinds: Sequence[StableValues]) -> bool | None:
     if False in verdicts:
         return False
     return True if verdicts == [True] else None
-
-
-def in_context(coefficients: Sequence[Any], ring: Parameters, name: str) -> fmpq_mpoly:
-    """A polynomial in one unknown of a ring from its rational coefficients."""
-    x = ring.context.gen(ring.names.index(name))
-    return sum((x**k * fmpq(a) for k, a in enumerate(coefficients)), x * 0)

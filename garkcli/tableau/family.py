@@ -40,6 +40,13 @@ class Radical(Frozen):
     text: str = ""
     latex: str = ""
 
+    @classmethod
+    def of(cls, name: str, number: RealRoot) -> Self:
+        """An algebraic number as an unknown."""
+        x = Parameters([name]).context.gen(0)
+        powers = enumerate(number.polynomial.coeffs())
+        return cls(name, sum((x**k * fmpq(a) for k, a in powers), x * 0), meant=number)
+
 
 def reducing(names: Sequence[str], radicals: Iterable[Radical]) -> Parameters:
     """The ring of some unknowns in which powers of roots are reduced, without those whose radicand
