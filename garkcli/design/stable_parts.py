@@ -61,6 +61,8 @@ VALUES = [
     fmpq(*x) for x in ((1, 2), (1, 3), (3, 4), (1, 4), (2, 3), (1, 1), (3, 5), (6, 5), (0, 1))
 ]
 """Values tried for free coordinates."""
+MOST_FREE = 4
+"""Most free coordinates of a part of which linear forms are sought."""
 MOST_POINTS = 300
 """Most points of a part tried for a method."""
 
@@ -469,17 +471,18 @@ def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValu
         UsageProblem: a kind of stability is not applicable.
     """
     found = charts(part)
-    if not found:
+    if not found or len(found[0].names) > MOST_FREE:
         raise NotDecided
     sets = []
     for chart in found:
-        if _is_meant(family, part, chart):
-            kinds = []
-            for wanted in dict.fromkeys(family.stable):
-                values = _on_chart(family.tested(wanted), whose, part, chart, wanted)
-                kinds += [] if values is None else [values]
-            sets += [tuple(kinds)] if kinds else []
-    return sets
+        with suppress(ZeroDivisionError, ZeroWeight):  # there is no method
+            if _is_meant(family, part, chart):
+                kinds = (
+                    _on_chart(family.tested(wanted), whose, part, chart, wanted)
+                    for wanted in dict.fromkeys(family.stable)
+                )
+                sets.append(tuple(x for x in kinds if x is not None))
+    return [kinds for kinds in sets if kinds]
 
 
 def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
@@ -489,12 +492,13 @@ def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
         NotDecided: one depends on free coordinates.
     """
     places = [part.ring.names.index(x) for x in chart.names]
-    fixed = part.at({**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))})
+    fixed = {**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))}
     for radical in family.radicals:
         parts = fraction(part.values[radical.name], part.ring)
         if any(p.degrees()[k] for p in parts for k in places):
             raise NotDecided
-        value = value_at(fixed[radical.name], chart.one.real[chart.index])
+        over, under = (value_of(p, part.ring, fixed) for p in parts)
+        value = value_at(over / under, chart.one.real[chart.index])
         if radical.meant not in (None, value):
             return False
     return True

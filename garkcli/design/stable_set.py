@@ -25,14 +25,13 @@ if R(∞) = 0. Both often hold at isolated points, which no sampling finds.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.design.family_step import Flat
 from garkcli.design.fewer import LinearForm, fewest
 from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.stability_kinds import (
@@ -106,7 +105,11 @@ def stable_set(
     if len(smaller.parameters) == 1:
         found, undecided = _OnLine(kind, smaller).run()
     else:
-        found, undecided = _InPlane(kind, tableau, wanted, two_springs, colour).run()
+
+        def on_line(x: Members) -> StableValues:
+            return stable_set(x.family, wanted, whose, two_springs, colour, x)
+
+        found, undecided = _InPlane(kind, tableau, on_line).run()
     return StableValues(family, whose, wanted, found, undecided, two_springs, colour, tuple(forms))
 
 
@@ -168,12 +171,20 @@ def _wishes(family: Family) -> Iterator[tuple[fmpq_mpoly, frozenset[int]]]:
         yield from ((p, frozenset(signs)) for p in polynomials)
 
 
+def _is_within(t: Point, ends: tuple[fmpq | None, fmpq | None]) -> bool:
+    root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
+    least, greatest = (None if x is None else RealRoot.rational(x) for x in ends)
+    return not (least is not None and root < least) and not (
+        greatest is not None and greatest < root
+    )
+
+
 class _OnLine:
     """The set in one parameter for one kind of stability."""
 
     def __init__(self, kind: StabilityKind, family: Family) -> None:
         self.kind, self.members, in_t = kind, kind.members, kind.step.in_t
-        [(self.least, self.greatest)] = family.ranges.values()
+        [self.range] = family.ranges.values()
         self.poles = [p for p in map(in_t, kind.step.poles) if p.degree > 0]
         along = self.members.flat(family.tableau).along
         self.wishes = [(along(p), signs) for p, signs in _wishes(family)]
@@ -184,7 +195,7 @@ class _OnLine:
     def run(self) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
         """The set and the undecided values."""
         kind, in_t = self.kind, self.kind.step.in_t
-        critical = [Polynomial([-x, 1]) for x in (self.least, self.greatest) if x is not None]
+        critical = [Polynomial([-x, 1]) for x in self.range if x is not None]
         known = self.members.critical
         deciding = list(map(in_t, kind.deciding)) if known is None else known
         critical += [*(p.square_free() for p in deciding if p.degree > 0), *self.poles]
@@ -258,10 +269,7 @@ class _OnLine:
 
     def _is_method(self, t: Point) -> bool:
         """Whether a value is within the range and no pole."""
-        root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
-        below = self.least is not None and root < RealRoot.rational(self.least)
-        above = self.greatest is not None and RealRoot.rational(self.greatest) < root
-        return not below and not above and all(sign_of(p, t) for p in self.poles)
+        return _is_within(t, self.range) and all(sign_of(p, t) for p in self.poles)
 
     @property
     def essential(self) -> list[Polynomial]:
@@ -278,24 +286,17 @@ class _InPlane:
     """The set in two parameters for one kind of stability."""
 
     def __init__(
-        self,
-        kind: StabilityKind,
-        tableau: Tableau,
-        wanted: Wanted,
-        two_springs: TwoSprings | None,
-        colour: int | None,
+        self, kind: StabilityKind, tableau: Tableau, on_line: Callable[[Members], StableValues]
     ) -> None:
-        self.members, self.wanted = kind.members, wanted
-        self.two_springs, self.colour = two_springs, colour
+        self.members, self.on_line = kind.members, on_line
         self.undecided: list[RealRoot] = []
         family = self.members.family
-        flat: Flat = self.members.flat(tableau)
-        first, second = (family.ranges[x] for x in family.parameters)
-        self.least, self.greatest = (None if x is None else RealRoot.rational(x) for x in first)
-        *_, y, t = projection.PLANE.gens()
-        wishes = [flat.over(p) for p, _ in _wishes(family)]
+        self.range, second = (family.ranges[x] for x in family.parameters)
+        y, t = projection.PLANE.gens()
+        wishes = (self.members.flat(tableau).over(p) for p, _ in _wishes(family))
         curves = kind.step.curves([*kind.deciding, *kind.narrowing, *kind.step.poles, *wishes])
-        ends = [*(y - x for x in second if x is not None), *(t - x for x in first if x is not None)]
+        ends = [*(y - x for x in second if x is not None)]
+        ends += (t - x for x in self.range if x is not None)
         self.curves = list({str(p): p for p in (*curves, *ends)}.values())
 
     def run(self) -> tuple[tuple[Strip, ...], tuple[RealRoot, ...]]:
@@ -314,14 +315,7 @@ class _InPlane:
         root = projection.of_root(t if isinstance(t, RealRoot) else RealRoot.rational(t))
         resultants = [projection.resultant(p, root, "t") for p in self.curves]
         critical = tuple(map(in_one, resultants)) if all(resultants) else None
-        members = self.members.over(t, critical, limits)
-        return stable_set(
-            members.family, self.wanted, members.whose, self.two_springs, self.colour, members
-        )
-
-    def _is_outside(self, t: RealRoot) -> bool:
-        below = self.least is not None and t < self.least
-        return below or (self.greatest is not None and self.greatest < t)
+        return self.on_line(self.members.over(t, critical, limits))
 
     def _parts(self, t: fmpq) -> _Parts:
         """The stable parts of an open strip, from one t inside.
@@ -330,7 +324,7 @@ class _InPlane:
             NotDecided: some values are undecided.
         """
         check_time()
-        if self._is_outside(RealRoot.rational(t)):
+        if not _is_within(t, self.range):
             return ()
         stable = self._stable(t)
         if stable.undecided:
@@ -350,7 +344,7 @@ class _InPlane:
 
     def _over(self, t: RealRoot, left: _Parts | None, right: _Parts) -> _Parts:
         """The stable parts over a critical t."""
-        if self._is_outside(t):
+        if not _is_within(t, self.range):
             return ()
         assert left is not None
         sides = [(parts, _limits(parts, t)) for parts in (left, right)]

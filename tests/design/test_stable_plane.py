@@ -12,10 +12,11 @@ from flint import fmpq
 from garkcli import loads
 from garkcli.design.fewer import step_polynomials
 from garkcli.design.member import TABLEAUS, Whose, is_stable
+from garkcli.design.stability_kinds import Slice
 from garkcli.design.stable_set import stable_set
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.errors import MethodFileError, ZeroWeight
-from garkcli.exact.cells import between, has
+from garkcli.exact.cells import Interval, between, has
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.family import loads_family
@@ -318,6 +319,23 @@ def test_a_curve_past_critical_values_of_degree_8() -> None:
     assert float(strip.end) == pytest.approx(4.95013386925)
     [part] = strip.parts
     assert part.start == part.end
+
+
+def test_limits_beside_a_slice() -> None:
+    """Limits of stable methods say all where one curve crosses a line once; where it touches the
+    line, or two meet, only that they are stable if stability is closed.
+    """
+    touching, crossing = Polynomial([1, -2, 1]), Polynomial([-2, 1])
+    limits = (Interval(RealRoot.rational(fmpq(1)), None, has_start=True),)
+    members = Slice(loads_family(SDIRK), "method", (touching, crossing), limits)
+    for t, known in ((0, False), (2, True), (3, True)):
+        assert members.known(fmpq(t), is_closed=False) is known
+    assert members.known(fmpq(1), is_closed=True) is True
+    assert members.known(fmpq(1), is_closed=False) is None
+    twice = Slice(loads_family(SDIRK), "method", (crossing, crossing * 3), limits)
+    assert twice.known(fmpq(2), is_closed=False) is None
+    lines = Slice(loads_family(SDIRK), "method", None, limits)
+    assert [lines.known(fmpq(t), is_closed=True) for t in (0, 2)] == [None, True]
 
 
 @in_whole
