@@ -9,6 +9,7 @@ that does not fit gives no table.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any, TypeGuard
@@ -47,7 +48,9 @@ from garkcli.sources.values import (
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
 """Most paths through a function."""
-MAX_NUMBERS = 8
+MAX_STATEMENTS = 400
+"""Most statements of a function that is followed in several ways."""
+MAX_NUMBERS = 6
 """Most numbers tried as the step."""
 FEWEST_TURNS = 5
 """Fewest alternating calls of a splitting."""
@@ -67,26 +70,28 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     Raises:
         NoStep: there is none.
     """
-    looks_like = False
-    for symbol in ("", *_numbers_in(body, space)):
+    evaluations, helpers = _calls_in(body, like)
+    is_long = sum(1 for _ in ir.statements(body)) > MAX_STATEMENTS
+    modes = [("", False)]
+    if helpers and not is_long:
+        modes.append(("", True))
+    if evaluations > 1 and not is_long:
         # the step may be a number that is set around it
+        modes += [(name, False) for name in _numbers_in(body, space)]
+    looks_like = False
+    for symbol, is_inlined in modes:
         own = Space(space)
         own.update({symbol: Form({(symbol,): ONE})} if symbol else {})
-        for is_inlined in (False, True):
-            reader = _Reader(own, like, is_inlined)
-            try:
-                if is_function:
-                    return [reader.by_every_way(body)]
-            except NoStep as error:
-                looks_like |= error.looks_like
-            distinct = {shown(SourceRecord("", x)): x for x in reader.in_parts(body)}
-            looks_like |= reader.looks_like
-            if distinct:
-                return [*distinct.values()]
-            if not like.functions:
-                break
-        if not looks_like and not symbol and not _has_calls(body):
-            break
+        reader = _Reader(own, like, is_inlined)
+        try:
+            if is_function:
+                return [reader.by_every_way(body)]
+        except NoStep as error:
+            looks_like |= error.looks_like
+        distinct = {shown(SourceRecord("", x)): x for x in reader.in_parts(body)}
+        looks_like |= reader.looks_like
+        if distinct:
+            return [*distinct.values()]
     raise NoStep(looks_like)
 
 
@@ -183,6 +188,8 @@ class _Reader:
             elif isinstance(statement, ir.Loop):
                 parts = [(statement.body, (*counters, *_counted(statement)))]
             for inside, names in parts:
+                if not _may_evaluate(inside, self._like):
+                    continue
                 try:
                     roles = self.by_every_way(inside, names)
                 except NoStep as error:
@@ -212,13 +219,26 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
     return found if len(found) <= MAX_NUMBERS else []
 
 
-def _has_calls(body: ir.Body) -> bool:
-    """Whether something is called with sums, as f is."""
-    return any(
-        isinstance(x, ir.Call) and any(isinstance(y, ir.Binary) for y in x.args)
+def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
+    """Whether statements call a function several times."""
+    evaluations, helpers = _calls_in(body, like)
+    return evaluations > 1 or helpers > 0
+
+
+def _calls_in(body: ir.Body, like: Evaluator) -> tuple[int, int]:
+    """The most calls of one function, and the number of functions of the source that evaluate others
+    or are called several times.
+    """
+    callees = [
+        x.callee
         for statement in ir.statements(body)
         for x in ir.inside(getattr(statement, "value", None))
-    )
+        if isinstance(x, ir.Call) and x.args and _name(x.callee) not in _MATHEMATICS
+    ]
+    counts = Counter(callees)
+    known = {x: like.functions.get(getattr(x, "name", "")) for x in counts}
+    helpers = sum(of is not None and (counts[x] > 1 or _evaluates(of)) for x, of in known.items())
+    return max(counts.values(), default=0), helpers
 
 
 def _counted(loop: ir.Loop) -> Iterator[str]:
