@@ -48,6 +48,8 @@ from garkcli.sources.values import (
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
 """Most paths through a function."""
+MAX_TURNS = 20
+"""Most turns of a loop over stages."""
 MAX_STATEMENTS = 400
 """Most statements of a function that is followed in several ways."""
 MAX_NUMBERS = 6
@@ -75,7 +77,7 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     modes = [("", False)]
     if helpers and not is_long:
         modes.append(("", True))
-    if evaluations > 1 and not is_long:
+    if evaluations > 1 and not is_long and _has_sums_in_calls(body):
         # the step may be a number that is set around it
         modes += [(name, False) for name in _numbers_in(body, space)]
     looks_like = False
@@ -219,6 +221,15 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
     return found if len(found) <= MAX_NUMBERS else []
 
 
+def _has_sums_in_calls(body: ir.Body) -> bool:
+    return any(
+        isinstance(x, ir.Call) and any(_is_sum(y) for of in x.args for y in ir.inside(of))
+        for statement in ir.statements(body)
+        for x in ir.inside(getattr(statement, "value", None))
+        if _name(getattr(x, "callee", ir.Nothing())) not in _MATHEMATICS | _TELLING
+    )
+
+
 def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
     """Whether statements call a function several times."""
     evaluations, helpers = _calls_in(body, like)
@@ -226,14 +237,15 @@ def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
 
 
 def _calls_in(body: ir.Body, like: Evaluator) -> tuple[int, int]:
-    """The most calls of one function, and the number of functions of the source that evaluate others
-    or are called several times.
+    """The most calls of one function, and the number of functions of the source that evaluate
+    others or are called several times.
     """
     callees = [
         x.callee
         for statement in ir.statements(body)
         for x in ir.inside(getattr(statement, "value", None))
-        if isinstance(x, ir.Call) and x.args and _name(x.callee) not in _MATHEMATICS
+        if isinstance(x, ir.Call) and x.args
+        if _name(x.callee) not in _MATHEMATICS | _TELLING
     ]
     counts = Counter(callees)
     known = {x: like.functions.get(getattr(x, "name", "")) for x in counts}
@@ -375,7 +387,7 @@ class Follower(Evaluator):
             self._components.pop()
             return
         stages = items_of(self.value(loop.over, space)) if loop.name else []
-        if stages and len(stages) <= MAX_STAGES and not _has_branches(loop.body):
+        if 0 < len(stages) <= MAX_TURNS and not _has_branches(loop.body):
             for stage in stages:
                 space[loop.name] = stage
                 self._run(loop.body, space)
