@@ -349,7 +349,7 @@ def pairwise(tableau: Tableau, radius: fmpq) -> RoundedTableau:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=at_most(20, 90))
+@settings(max_examples=at_most(20, 200))
 @example(275)
 def test_orders_that_fail_fail_everywhere(seed: int) -> None:
     """Random weights with a radius each at exact stages: the conditions are linear in them. Where an
@@ -360,8 +360,9 @@ def test_orders_that_fail_fail_everywhere(seed: int) -> None:
     c = dice.sample([fmpq(k, 4) for k in range(5)], 2)
     radius = fmpq(1, dice.choice((3, 5, 10, 20)))
     b = [fmpq(1, 2) + fmpq(dice.randint(-40, 40), 100) for _ in range(2)]
-    while b[0] == b[1] or not all(b):
-        b[0] += fmpq(1, 7)
+    for i in range(2):
+        while b[i] in {*c, fmpq(0), b[1 - i]}:  # equal numbers have one radius
+            b[i] += fmpq(1, 7)
     A = ((c[0], fmpq(0)), (fmpq(0), c[1]))
     found = find_order_within(pairwise(gark([butcher(A, tuple(b))], {}), radius), 2)
     # b₁ + b₂ = 1 leaves a line; with b · c = 1/2 a point
@@ -369,8 +370,13 @@ def test_orders_that_fail_fail_everywhere(seed: int) -> None:
     highest = min(b[0] + radius, 1 - b[1] + radius)
     b_1 = (fmpq(1, 2) - c[1]) / (c[0] - c[1])
     true = 0 if lowest > highest else 2 if lowest <= b_1 <= highest else 1
-    assert not found.undecided
-    assert found.order == true
+    # a condition that holds beside a corner of the box alone may stay open
+    ends = [[x - radius, x + radius] for x in b]
+    at = [(x + y - 1, c[0] * x + c[1] * y - fmpq(1, 2)) for x, y in product(*ends)]
+    extremes = [x for row in zip(*at, strict=True) for x in (min(row), max(row))]
+    assert not found.undecided or min(map(abs, extremes)) < fmpq(1, 50)
+    assert found.order == true or found.undecided
+    assert found.order <= true
 
 
 def test_what_fails_fails_on_a_grid() -> None:
