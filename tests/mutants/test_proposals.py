@@ -99,7 +99,7 @@ def test_better_methods_that_are_none(name: str, monkeypatch: pytest.MonkeyPatch
             return system, Optimum(near.value - 1, tuple(astray(near.point)))
 
         monkeypatch.setattr(optimum.Optimisation, name, changed)
-    found = search_methods(loads_family(EXPLICIT), 2, starts=6, objective="coefficients")
+    found = search_methods(loads_family(EXPLICIT), 2, starts=3, objective="coefficients")
     assert found.methods
     for method in found.methods:
         tableau = loads(EXPLICIT, settings=dict(method.values)).tableau
@@ -136,7 +136,7 @@ def test_wrong_guesses_of_numbers(
         return numbers and wrong(numbers)
 
     monkeypatch.setattr(search, "recognised", guessed)
-    found = search_methods(loads_family(text), 3, starts=6)
+    found = search_methods(loads_family(text), 3, starts=3)
     assert found.methods
     for method in found.methods:
         tableau = loads(text, settings=dict(method.values)).tableau
@@ -173,7 +173,7 @@ def test_a_goal_that_is_no_stability(monkeypatch: pytest.MonkeyPatch) -> None:
             module.AStable, "at", lambda _self, x: (np.ones(3), np.zeros((3, len(x))))
         )
     text = f"{SDIRK}design: {{a-stable: true}}\n"
-    found = search_methods(loads_family(text), 2, starts=8, objective="error")
+    found = search_methods(loads_family(text), 2, starts=6, objective="error")
     assert found.methods or found.unstable
     for method in found.methods:
         tableau = loads(SDIRK, settings=dict(method.values)).tableau
