@@ -475,6 +475,15 @@ def test_no_maximum() -> None:
     assert best.minimisers == ()
     ends = [(x.toward.end, x.toward.is_right) for x in best.limits]
     assert ends == [(None, False), (None, True)]
+    # the same for s > 1, where all weights are positive
+    text = """parameters: {s: free}
+A: [[0, 0, 0], ["1/4 + 2/s**2", 0, 0], [0, 0, 0]]
+b: ["1/(2*s)", 1/2, "1/2 - 1/(2*s)"]
+design: {positive-weights: true}
+"""
+    best = least(text, "-real-interval", 1)
+    assert (value(best), best.minimisers) == ("8", ())
+    assert [(x.toward.end, x.toward.is_right) for x in best.limits] == [(None, True)]
 
 
 FOLD = """unknown: {stages: 2, shape: splitting}

@@ -27,7 +27,7 @@ from garkcli.frozen import replace
 from garkcli.ntrees.table import TreeTable
 from garkcli.order.conditions import conditions, coupling_graph
 from garkcli.order.meant import as_meant
-from garkcli.order.rounded import find_order_within
+from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 
@@ -220,3 +220,31 @@ def test_shifts_that_meet_nothing(
     assert found.order <= order
     if found.order < order:
         assert not found.is_proved
+
+
+@pytest.mark.parametrize("off", [fmpq(0), fmpq(3), fmpq(-1000)])
+@pytest.mark.parametrize("doubt", [0.0, 5.0, 1e5])
+def test_wrong_candidates_for_a_misprint(
+    off: fmpq, doubt: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An entry is said to be wrong only if the method has the order with another number there."""
+    from garkcli.order import suspects
+
+    original = suspects._candidate
+
+    def moved(*arguments: Any) -> Any:
+        found = original(*arguments)
+        return found and replace(found, shift=found.shift + off, doubt=doubt, is_sure=True)
+
+    monkeypatch.setattr(suspects, "_candidate", moved)
+    gauss = """tolerance: 1e-10
+A: [[0.25, -0.03867513459481288], [{}, 0.25]]
+b: [0.5, 0.5]
+"""
+    method: Any = as_meant(loads(gauss.format("0.53867513559481288")))
+    found = suspects.suspects(method, 4)
+    assert found or off or doubt != 5
+    for repair, order in found.items():
+        assert order == 4
+        mended = RoundedTableau.within(repair.carried_out(method.tableau), fmpq(1, 10**10))
+        assert find_order_within(mended, 4).order == 4
