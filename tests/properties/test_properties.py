@@ -31,7 +31,7 @@ from garkcli.stability.linear import stability_function
 from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.stages import PointSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles.draws import fractions
 from tests.whole import at_most
 
@@ -687,3 +687,30 @@ def test_stages_beside_an_algebra_have_exact_zeros() -> None:
     _, midpoint = subject.shapes
     assert midpoint is not None
     assert (midpoint.kind, midpoint.implicit_stages) == ("explicit", 0)
+
+
+@pytest.mark.parametrize(
+    ("off", "is_one", "small", "kind"),
+    [
+        ("1.9", True, "0", "diagonally implicit"),
+        ("-1.9", True, "1.1", "fully implicit"),
+        ("2.1", False, "0", "diagonally implicit"),
+        ("-2.1", False, "0", "diagonally implicit"),
+        ("0", True, "0.9", None),
+    ],
+)
+def test_shapes_within_a_tolerance(off: str, is_one: bool, small: str, kind: str | None) -> None:
+    """Two diagonal entries are one γ if the rounding of both explains their difference; an entry
+    above the diagonal counts if it is larger than the rounding, and leaves the kind open if not.
+    """
+    t = fmpq(1, 10**6)
+    gamma = fmpq(1, 4)
+    off_by, above = (fmpq(round(float(x) * 10), 10) * t for x in (off, small))
+    rows = ((gamma, above), (fmpq(1, 2), gamma + off_by))
+    found = shape_of(stage_graph(gark([butcher(rows, (fmpq(1, 2),) * 2)], {}), None, t), t)
+    assert found.kind == kind
+    if kind == "diagonally implicit":
+        assert found.gamma == (gamma if is_one else None)
+        assert found.singly == ("SDIRK" if is_one else "")
+    if not above:
+        assert found.implicit_stages == 2
