@@ -11,11 +11,12 @@ from flint import fmpq
 
 from garkcli.check.claims import Claim
 from garkcli.check.outcome import Outcome
-from garkcli.check.pair_reasons import is_lost, rule_reasons
+from garkcli.check.pair_reasons import is_lost
 from garkcli.errors import Remark
 from garkcli.exact.display import shortest, to_ball, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen, replace
+from garkcli.glossary.faults import cure_of
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
@@ -245,36 +246,18 @@ def value_text(number: Number, digits: int = 17) -> Formula | str:
     return Formula(text) if len(text) <= _SHORT else to_decimal(number, digits)
 
 
-CLAIM = "write what holds under expect: gark claims FILE --write"
-"""The cure for a file that lacks a claim."""
-
-
-OTHER_DEGREE = "leave out the degree: the rule then takes one that keeps the order"
-"""The cure of a transfer rule that loses pair order."""
-
-
 class Finding(Frozen):
     """A remark on a file, as formats for machines have it.
 
-    ``rule`` is a key of ``KINDS``, or the code of a remark on a table. ``remark`` is on line 1 and
-    column 1 if the place is unknown. ``file`` is the path as given, with forward slashes.
-    ``fingerprint`` does not depend on the place in the file.
+    ``rule`` is the code of a kind of finding in ``glossary/data/findings.toml``. ``remark`` is on
+    line 1 and column 1 if the place is unknown. ``file`` is the path as given, with forward
+    slashes. ``fingerprint`` does not depend on the place in the file.
     """
 
     remark: Remark
     rule: str
     file: str
     fingerprint: str
-
-
-KINDS = {
-    "unreadable": "the file cannot be read as a method",
-    "claim": "a claim under expect does not hold",
-    "undecided": "a claim under expect neither holds nor fails",
-    "no-claim": "the file lacks a claim that is required",
-    "loses-pair-order": "a transfer rule loses the order of the pair",
-}
-"""The kinds of remarks on a method file, in words."""
 
 
 def _unmet(outcome: Outcome, claim: Claim) -> Remark:
@@ -285,6 +268,10 @@ def _unmet(outcome: Outcome, claim: Claim) -> Remark:
     if claim.holds is None:
         return Remark(message, hint, *place, "undecided", "warning")
     return Remark(message, hint, *place, "claim")
+
+
+def _warning(code: str, message: str) -> Remark:
+    return Remark(message, cure_of("check", code), code=code, level="warning")
 
 
 def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
@@ -298,15 +285,25 @@ def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
         yield remark.code, remark, claim.claim
     for message in outcome.lacks:
         is_any = outcome.makes_no_claim and outcome.needs_claims
-        yield "no-claim", Remark(message, CLAIM, code="no-claim"), "" if is_any else message
-    if outcome.analysis is not None:
-        for text in filter(is_lost, rule_reasons(outcome.analysis, outcome.rules)):
-            lost = "loses-pair-order"
-            yield lost, Remark(text, OTHER_DEGREE, code=lost, level="warning"), text
+        lack = Remark(message, cure_of("check", "no-claim"), code="no-claim")
+        yield lack.code, lack, "" if is_any else message
+    for remark in warnings(outcome):
+        yield remark.code, remark, remark.message
+
+
+def warnings(outcome: Outcome) -> Iterator[Remark]:
+    """Yields the remarks on a method that are about no claim; they fail nothing."""
+    for text in filter(is_lost, outcome.about_rules):
+        yield _warning("loses-pair-order", text)
+
+
+def remarks(outcome: Outcome) -> list[Remark]:
+    """Returns the remarks on a file, kind by kind in the order of the file."""
+    return [remark for _, remark, _ in _remarks(outcome)]
 
 
 def findings(outcome: Outcome) -> Iterator[Finding]:
-    """Yields the findings of a file, kind by kind in the order of the file."""
+    """Yields the remarks on a file as formats for machines have them."""
     file = PurePath(outcome.file).as_posix()
     for rule, remark, key in _remarks(outcome):
         placed = replace(remark, line=remark.line or 1, column=remark.column or 1)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.claims import Claim
+from garkcli.check.pair_reasons import rule_reasons
 from garkcli.errors import Remark, counted, printable
 from garkcli.frozen import Frozen
 from garkcli.upward import Shown
@@ -100,6 +102,13 @@ class Outcome(Shown, Frozen):
         without.
         """
         return self.analysis or self.every or self.of_other_kind
+
+    @cached_property
+    def about_rules(self) -> tuple[str, ...]:
+        """Whether the rules of blocks preserve the order of the pair, each as a sentence."""
+        if self.analysis is None or not self.rules:
+            return ()
+        return tuple(rule_reasons(self.analysis, self.rules))
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

@@ -144,11 +144,21 @@ class FindingKind(Frozen):
 def findings_of(command: str) -> Mapping[str, FindingKind]:
     """Returns the kinds of findings of a command by their codes.
 
-    >>> list(findings_of("check"))
-    ['unreadable', 'claim', 'undecided', 'no-claim', 'loses-pair-order']
+    >>> findings_of("check")["undecided"].text
+    'A claim under expect neither holds nor fails: gark cannot decide it.'
     """
     kinds = {}
     for code, entry in read("findings")[command].items():
         text = " ".join(entry["text"].split())
         kinds[code] = FindingKind(code, text, " ".join(entry["cure"].split()))
     return kinds
+
+
+def cure_of(command: str, code: str) -> str:
+    """Returns the cure of a kind of finding, as the end of a message.
+
+    >>> cure_of("check", "no-claim")
+    'write what holds under expect: gark claims FILE --write'
+    """
+    cure = findings_of(command)[code].cure
+    return cure[:1].lower() + cure[1:].removesuffix(".")

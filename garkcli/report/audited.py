@@ -8,12 +8,11 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.audit import Audited
-from garkcli.bridges.finding import CODES
 from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import Remark, counted
 from garkcli.frozen import replace
 from garkcli.page.look import PLAIN, Look
-from garkcli.report.remarks import OF_TABLE, annotation, commands_off, log_of, rows
+from garkcli.report.remarks import OF_TABLE, annotation, commands_off, log_of, remark_rows
 from garkcli.tell.facts import Level, Row, Section, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT
 from garkcli.tell.parts import answer, part, parts, rows_of, shown
@@ -122,11 +121,11 @@ TABLE: Section[Audited] = Section(
     _count("declared_embedded", lambda x: x.table.embedded_order),
     _count("nonautonomous_order", lambda x: _number(x.nonautonomous_order)),
     Row("findings", parts(OF_TABLE), lambda x: x.findings, DATA),
-    Row("findings_in_words", rows_of(rows), lambda x: x.findings, DETAIL),
+    Row("findings_in_words", rows_of(remark_rows), lambda x: x.findings, DETAIL),
     title=place_and_orders,
 )
 WRONG: Section[tuple[Audited | TableSubject, Sequence[Remark]]] = Section(
-    Row("findings_in_words", rows_of(rows), lambda x: x[1]),
+    Row("findings_in_words", rows_of(remark_rows), lambda x: x[1]),
     title=lambda x, d: place_and_orders(x[0], d),
 )
 SUMMARY: Section[Sequence[Audited]] = Section(
@@ -176,6 +175,6 @@ def _github(tables: Sequence[Audited], *_: object) -> str:
 FORMATS: Mapping[str, Callable[..., str]] = {
     **{format: partial(_told, format=format) for format in TOLD},
     "github": _github,
-    "sarif": lambda tables, *_: log_of(list(_findings(tables)), CODES),
+    "sarif": lambda tables, *_: log_of(list(_findings(tables)), "audit"),
 }
 """The writer of each format, of tables; for people with colours, verbosity and width."""

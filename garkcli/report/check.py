@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import filterfalse
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, TypeVar
 
 from garkcli.check.findings import (
@@ -12,13 +13,15 @@ from garkcli.check.findings import (
     dense_witness_text,
     order_of,
     predictor_witness_text,
+    remarks,
     sum_text,
+    warnings,
 )
-from garkcli.check.findings import CLAIM as CLAIM_CURE
-from garkcli.check.pair_reasons import is_lost, pair_reason, rule_reasons
+from garkcli.check.pair_reasons import is_lost, pair_reason
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, plain_decimal, to_float, to_text
 from garkcli.frozen import replace
+from garkcli.glossary.faults import cure_of
 from garkcli.glossary.labels import label_of
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
@@ -28,7 +31,7 @@ from garkcli.page.lines import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Place, Reason, joined
-from garkcli.report.remarks import FAULT
+from garkcli.report.remarks import FAULT, FINDING, remark_rows
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Status
 from garkcli.tell.facts import (
@@ -986,8 +989,9 @@ def claim_rows(outcome: Outcome, d: Plain) -> list[tuple[str, str]]:
         why = f"; {d.reason(c.reason)}" if c.reason else ""
         place = f" ({outcome.file}:{c.line}:{c.column})"
         rows.append((kinds.claim_word(c.holds, d), d.prose(said) + why + d.prose(place)))
-    missing = [CLAIM_CURE] if outcome.makes_no_claim else [*outcome.lacks, CLAIM_CURE]
     if outcome.lacks:
+        cure = cure_of("check", "no-claim")
+        missing = [cure] if outcome.makes_no_claim else [*outcome.lacks, cure]
         rows += [(d.bad("NO CLAIM"), d.prose(message)) for message in missing]
     held = [f"{c.claim}: {c.expected}" for c in outcome.claims if c.holds]
     if held:
@@ -1012,10 +1016,16 @@ IN_BRIEF: Row[Outcome] = itself("claims_in_brief", told(_claims_cell), DATA, lab
 CLAIMS_IN_WORDS: Row[Outcome] = Row(
     "claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None
 )
+FINDINGS: Row[Outcome] = Row("findings", parts(FINDING), remarks, DATA)
+"""All remarks on a file."""
+WARNINGS: Row[Outcome] = Row("warnings", rows_of(remark_rows), lambda o: list(warnings(o)) or None)
+"""The remarks without rows of their own, unlike claims."""
 CLAIMS: Rows[Outcome] = (
     IN_BRIEF,
     Row("claims", parts(CLAIM), lambda o: o.claims, DATA),
     CLAIMS_IN_WORDS,
+    FINDINGS,
+    WARNINGS,
 )
 VALUE = S.one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 
@@ -1076,14 +1086,13 @@ OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, 
 
 
 def transfer(o: Outcome) -> Answer[list[str]] | None:
-    """Whether rules keep the order of the pair; usual if the file takes a degree that does not."""
-    found = [*rule_reasons(o.analysis, o.rules)] if o.analysis and o.rules else []
-    level = USUAL if any(map(is_lost, found)) else DETAIL
-    return Answer(found, level=level) if found else None
+    """Whether rules keep the order of the pair; those that lose it by their degree are warnings."""
+    level = DATA if all(map(is_lost, o.about_rules)) else DETAIL
+    return Answer([*o.about_rules], level=level) if o.about_rules else None
 
 
-SENTENCES: Kind[Sequence[str]] = Kind(
-    kinds.TEXTS.what, Words(lambda x, d: "; ".join(map(d.prose, x)))
+REASONS: Kind[Sequence[str]] = Kind(
+    kinds.TEXTS.what, Words(lambda x, d: d.prose("; ".join(filterfalse(is_lost, x))))
 )
 
 
@@ -1131,7 +1140,7 @@ CHECKED: Section[Outcome] = Section(
     kinds.FILE_AND_NAME,
     OK,
     via(lambda o: o.analysis, ANALYSIS),
-    optional("transfer", SENTENCES, transfer),
+    optional("transfer", REASONS, transfer),
     LEFT_BEHIND,
     optional("every_property", parts(VERDICT), every_property, DATA),
     optional("blame", part(BLAME), lambda o: o.blame, DATA),
@@ -1149,6 +1158,7 @@ UNREADABLE: Section[Outcome] = Section(
     kinds.FILE_AND_NAME,
     Row("ok", kinds.constant(value=False), lambda o: o.ok, DATA),
     Row("errors", Kind(Several(FAULT, is_never_empty=True), ManyParts(FAULT)), lambda o: o.faults),
+    FINDINGS,
     IN_BRIEF,
     title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",
     columns=COLUMNS,

@@ -7,19 +7,23 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from garkcli.check.baseline import Regression
-from garkcli.check.findings import KINDS, claim_hint, claim_witness, findings
+from garkcli.check.findings import claim_hint, claim_witness, findings, warnings
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted, printable
 from garkcli.page.look import PLAIN
 from garkcli.page.safety import inert
 from garkcli.report import check_text
 from garkcli.report.check_text import no_claims
-from garkcli.report.remarks import annotation, commands_off, items, log_of
+from garkcli.report.remarks import annotation, commands_off, items, log_of, remark_rows
+from garkcli.tell.dialect import Plain
 
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:
-    """Findings as a list, with places and cures."""
-    lines = [line for outcome in outcomes for x in findings(outcome) for line in items(x)]
+    """Findings as a list, with places and cures; of one file, the report has its warnings."""
+    found = [x for outcome in outcomes for x in findings(outcome)]
+    if len(outcomes) == 1:
+        found = found[: len(found) - len(list(warnings(outcomes[0])))]
+    lines = [line for x in found for line in items(x)]
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
     if silent:
         lines += [*([""] if lines else []), f"{no_claims(silent)}."]
@@ -64,6 +68,9 @@ def _add_suite(root: ET.Element, outcome: Outcome) -> None:
         message = _clean(outcome.faults[0].message)
         lines = [f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ") for x in outcome.faults]
         ET.SubElement(readable, "error", message=message).text = _clean("\n".join(lines))
+    if found := list(warnings(outcome)):
+        text = "\n".join(f"{label}: {text}" for label, text in remark_rows(found, Plain()))
+        ET.SubElement(readable, "system-out").text = _clean(text)
     for claim in outcome.claims:
         judged = case(f"{claim.claim}: {claim.expected}")
         judged.set("line", str(claim.line))
@@ -89,7 +96,7 @@ def _clean(text: str) -> str:
 
 def sarif(outcomes: Sequence[Outcome]) -> str:
     found = [x for outcome in outcomes for x in findings(outcome)]
-    return log_of(found, KINDS)
+    return log_of(found, "check")
 
 
 def baseline_text(found: Sequence[Regression], files: int) -> str:

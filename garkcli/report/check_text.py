@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from garkcli.check.findings import warnings
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
 from garkcli.page.look import Look
 from garkcli.page.safety import inert
-from garkcli.report import remarks
 from garkcli.report.check import claim_rows, hint_rows, hints
 from garkcli.report.checked import REPORT
+from garkcli.report.remarks import lines as lines_of
+from garkcli.report.remarks import remark_rows
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, one
@@ -48,7 +50,7 @@ def render(
     for outcome in outcomes:
         d = REPORT.dialect(outcome, "text", look, verbosity <= 0, width=width, places=digits)
         if not outcome.is_read:
-            lines = remarks.lines(outcome.faults, outcome.file, outcome.text, d)
+            lines = lines_of(outcome.faults, outcome.file, outcome.text, d)
         elif is_full:
             lines = one(REPORT.form(outcome), outcome, d, level)
         else:
@@ -83,6 +85,8 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         yield from d.rows(told)
     elif outcome.remark is not None and not is_quiet:
         yield from d.rows(hint_rows(hints(outcome), d))
+    if not is_quiet:
+        yield from d.rows(remark_rows(list(warnings(outcome)), d))
 
 
 def _summary(outcomes: Sequence[Outcome], d: Plain) -> str:

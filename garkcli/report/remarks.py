@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from garkcli.bridges.finding import CODES
 from garkcli.errors import Remark, Severity, excerpt, printable
+from garkcli.glossary.faults import findings_of
 from garkcli.page.json_text import to_json
-from garkcli.tell.facts import Row, Section, maybe
+from garkcli.tell.facts import Row, Rows, Section, maybe
 from garkcli.tell.kinds import POSITION, TEXT, choice
 from garkcli.tell.parts import parts
 from garkcli.version import __version__
@@ -20,19 +21,17 @@ if TYPE_CHECKING:
 
 MESSAGE: Row[Remark] = Row("message", TEXT, lambda x: x.message)
 HELP: Row[Remark] = Row("help", TEXT, lambda x: x.help)
-FAULT: Section[Remark] = Section(
+AT: Rows[Remark] = (
     maybe("line", POSITION, lambda x: x.line or None),
     maybe("column", POSITION, lambda x: x.column or None),
     Row("code", TEXT, lambda x: x.code),
-    MESSAGE,
-    HELP,
 )
+LEVEL: Row[Remark] = Row("level", choice(*get_args(Severity)), lambda x: x.level)
+FAULT: Section[Remark] = Section(AT, MESSAGE, HELP)
 """A remark on a file; the place is null where the whole file is meant."""
+FINDING: Section[Remark] = Section(AT, LEVEL, MESSAGE, HELP)
 OF_TABLE: Section[Remark] = Section(
-    Row("code", choice(*CODES), lambda x: x.code),
-    Row("level", choice(*get_args(Severity)), lambda x: x.level),
-    MESSAGE,
-    HELP,
+    Row("code", choice(*CODES), lambda x: x.code), LEVEL, MESSAGE, HELP
 )
 
 
@@ -49,11 +48,12 @@ FAILURE: Section[FailedRun] = Section(
 """The report of such a run, for programs; people read it elsewhere."""
 
 
-def rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """Remarks with their levels, cures below."""
+def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
+    """Remarks with their levels and codes, cures below."""
     found: list[tuple[str, str]] = []
     for x in remarks:
-        found.append((x.level, d.prose(x.message)))
+        level = d.bad(x.level) if x.level == "error" else d.note(x.level)
+        found.append((level, f"{d.prose(x.message)} ({x.code})"))
         found += [("help", d.prose(x.help))] if x.help else []
     return found
 
@@ -75,7 +75,9 @@ def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator
 def items(finding: Finding) -> Iterator[str]:
     """A finding as an item of a list in Markdown, with the cure."""
     x = finding.remark
-    yield f"- `{_code(finding.file)}:{x.line}:{x.column}`: {table_cell(x.message)}"
+    level = "" if x.level == "error" else f"{x.level}: "
+    place = f"`{_code(finding.file)}:{x.line}:{x.column}`"
+    yield f"- {place}: {level}{table_cell(x.message)} (`{x.code}`)"
     if x.help:
         yield f"  - {table_cell(x.help)}"
 
@@ -123,15 +125,16 @@ def _property_of_command(text: str) -> str:
     return _text_of_command(text).replace(":", "%3A").replace(",", "%2C")
 
 
-def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
-    """A SARIF log of findings, with every rule in words."""
+def log_of(found: Sequence[Finding], command: str) -> str:
+    """A SARIF log of the findings of a command, with every rule in words."""
+    kinds = findings_of(command)
     rules = [
         {
-            "id": key,
-            "shortDescription": {"text": text},
-            "help": {"text": f"gark explain {key} says what it means."},
+            "id": code,
+            "shortDescription": {"text": kind.text},
+            "help": {"text": f"{kind.cure} gark explain {code} says what it means."},
         }
-        for key, text in kinds.items()
+        for code, kind in kinds.items()
     ]
     places = list(kinds)
     log = {

@@ -21,7 +21,7 @@ FINDINGS = """
 
 """
 RULES = {
-    "check": "The rules of SARIF and of `--format github`.",
+    "check": "Every format has them: the codes are the rules of SARIF and GitHub, and `findings` of JSON.",
     "audit": "[The page about audits](audit.md#what-is-found) has the level of each.",
 }
 

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.check.findings import KINDS
 from garkcli.check.meanings import explain, known_words
 from garkcli.errors import UsageProblem
+from garkcli.glossary.faults import findings_of
 from garkcli.glossary.labels import label_of
 from garkcli.glossary.term import TOPICS, Term, by_word, plain, terms_of
 from garkcli.report.schemas import REPORTS as SCHEMAS
@@ -200,7 +200,7 @@ def test_every_word_has_a_meaning() -> None:
     """Keys, claims, families, rules, schemes and findings are known words, each with a text."""
     words = known_words()
     some = {"transfer", "a-stable", "gauss", "collocation", "yoshida-6"}
-    assert {*some, *KINDS} <= {*words}
+    assert {*some, *findings_of("check")} <= {*words}
     for word in words:
         assert all(meaning.text.strip() for meaning in explain(word)), word
 

@@ -8,7 +8,6 @@ import re
 import pytest
 
 from garkcli.bridges.finding import CODES
-from garkcli.check.findings import KINDS
 from garkcli.check.meanings import explain
 from garkcli.glossary.faults import findings_of
 from garkcli.glossary.key import KINDS as FILES
@@ -81,7 +80,6 @@ def test_every_row_of_keys_has_two_cells() -> None:
 
 def test_every_finding_has_an_entry() -> None:
     """The codes that are explained are those of the commands."""
-    assert list(findings_of("check")) == list(KINDS)
     assert list(findings_of("audit")) == list(CODES)
     page = (ROOT / "docs" / "audit.md").read_text(encoding="utf-8")
     _, _, table = page.partition("## What is found")

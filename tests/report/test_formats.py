@@ -9,7 +9,7 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from unittest.mock import patch
 from urllib.parse import unquote
 
@@ -20,17 +20,20 @@ from jsonschema import Draft7Validator
 from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
-from garkcli.check.findings import KINDS, findings
+from garkcli.check.findings import Finding, findings
 from garkcli.check.outcome import Outcome
 from garkcli.cli.command import command_of
 from garkcli.cli.main import gark as commands
 from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import replace
+from garkcli.glossary.faults import findings_of
 from garkcli.methodfile.load import loads
 from garkcli.page.look import Look
 from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.checked import REPORT
+from garkcli.webpage.page import render
+from garkcli.webpage.reported import reported
 from tests.cli.harness import ROOT, gark
 from tests.whole import in_whole
 
@@ -83,7 +86,7 @@ _RESULT = {
     "type": "object",
     "required": ["message", "ruleId", "ruleIndex", "locations", "partialFingerprints"],
     "properties": {
-        "ruleId": {"enum": list(KINDS)},
+        "ruleId": {"enum": list(findings_of("check"))},
         "ruleIndex": {"type": "integer", "minimum": 0},
         "level": {"enum": ["none", "note", "warning", "error"]},
         "message": _TEXT,
@@ -208,24 +211,139 @@ def undecided(folder: Path) -> Outcome:
     return check_file(str(path))
 
 
-def test_sarif_names_its_rules(tmp_path: Path) -> None:
-    """Each result's rule index points at the rule with the result's rule id."""
-    silent = replace(outcome(MIDPOINT), needs_claims=True)
-    losing = check_file(str(written(tmp_path, LOSING)))
-    run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent, undecided(tmp_path), losing)
+EXAMPLES = {
+    "unreadable": "methods: 1\n",
+    "claim": f"{MIDPOINT}expect: {{order: 3}}\n",
+    "undecided": UNDECIDED.replace(", order: 3", ""),
+    "no-claim": MIDPOINT,
+    "loses-pair-order": LOSING,
+}
+"""A file for each kind of finding, which has no other: a new kind needs one."""
+LABELS = {
+    "claim": ("CLAIM FAILS", "FAIL"),
+    "undecided": ("undecided", "open"),
+    "no-claim": ("NO CLAIM", "FAIL"),
+}
+"""The words for people in place of level and code, of one file and in the line of several."""
+
+
+class Example(NamedTuple):
+    """A file and its only finding."""
+
+    outcome: Outcome
+    finding: Finding
+
+    @property
+    def remark(self) -> Remark:
+        return self.finding.remark
+
+    @property
+    def begin(self) -> str:
+        """What is wrong, without the reason."""
+        return self.remark.message.partition("; ")[0]
+
+    def text(self, format: str, *others: Outcome) -> str:
+        return words(FORMATS[format]([self.outcome, *others], Look(), 0, None, 80))
+
+
+@pytest.fixture(params=findings_of("check"))
+def example(request: pytest.FixtureRequest, tmp_path: Path) -> Example:
+    made = check_file(str(written(tmp_path, EXAMPLES[request.param])))
+    made = replace(made, needs_claims=request.param == "no-claim")
+    [finding] = findings(made)
+    assert finding.rule == request.param
+    return Example(made, finding)
+
+
+def other() -> Outcome:
+    return outcome(MIDPOINT.replace("1/2", "0"), "other.gark.yaml")
+
+
+def test_text_has_every_finding_once(example: Example) -> None:
+    """One file and several, with code and level or with a label, and with the cure."""
+    alone, short = LABELS.get(example.finding.rule, (example.remark.code, example.remark.code))
+    one, several = example.text("text"), example.text("text", other())
+    assert (alone in one, short in several) == (True, True)
+    for text in (one, several):
+        assert text.count(example.begin) == (example.finding.rule != "no-claim")  # its label
+        assert example.remark.help in text
+        assert example.finding.rule in LABELS or example.remark.level in text
+
+
+def test_markdown_has_every_finding(example: Example) -> None:
+    """With its code in the list, of several files; of one a row of the table has a warning."""
+    one, several = example.text("markdown"), example.text("markdown", other())
+    for text in (one, several):
+        assert example.remark.code in text
+        assert example.remark.help in text
+    assert several.count(example.begin) == 1
+    is_told_as_claim = example.finding.rule in LABELS
+    assert one.count(example.begin) == 1 or is_told_as_claim or not example.outcome.is_read
+    assert example.remark.level == "error" or f"{example.remark.level}: " in several
+
+
+def test_latex_and_the_page_have_every_finding(example: Example) -> None:
+    """Claims have a table of their own in the page."""
+    label, _ = LABELS.get(example.finding.rule, (example.remark.code, ""))
+    assert label in example.text("latex") or example.finding.rule == "unreadable"
+    page = render([reported(example.outcome.file, None, has_pictures=False)])
+    told = {"claim": "fails</span>", "undecided": "undecided</span>", "no-claim": "claims nothing"}
+    assert told.get(example.finding.rule, example.remark.code) in page
+
+
+def test_json_has_every_finding(example: Example) -> None:
+    """All of them in one list, also the faults; the place is null where the file is meant."""
+    [data, silent] = REPORT.document([example.outcome, other()])["files"]
+    assert silent["findings"] == []
+    [told] = data["findings"]
+    place = {key: told.pop(key) or 1 for key in ("line", "column")}
+    assert {**told, **place} == {
+        key: getattr(example.remark, key)
+        for key in ("line", "column", "code", "message", "help", "level")
+    }
+
+
+def test_formats_of_ci_have_every_finding(example: Example) -> None:
+    """SARIF and GitHub with level, code and cure; JUnit as a case or in the output of one."""
+    remark, rule = example.remark, example.finding.rule
+    [result] = sarif(example.outcome)["results"]
+    code = result.get("properties", {}).get("code", result["ruleId"])
+    assert (result["ruleId"], code, result["level"]) == (rule, remark.code, remark.level)
+    assert result["message"]["text"].startswith(remark.message)
+    assert result["message"]["text"].endswith(remark.help)
+    [(place, text)] = annotations(example.outcome, level=remark.level)
+    assert (place["title"], place["line"]) == (f"gark: {rule}", str(remark.line))
+    assert text.startswith(remark.message)
+    assert text.endswith(remark.help)
+    suite = junit(example.outcome)
+    told = " ".join([*(str(x.attrib) for x in suite.iter()), *suite.itertext()])
+    assert example.begin.rpartition(": expected")[2] in told
+    assert rule in told or remark.help in told
+
+
+def test_sarif_names_its_rules(example: Example) -> None:
+    """Each result's rule index points at the rule with the result's rule id, in words."""
+    run = sarif(example.outcome)
     rules = run["tool"]["driver"]["rules"]
-    assert {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
-    assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
+    assert [x["id"] for x in rules] == list(findings_of("check"))
+    [result] = run["results"]
+    named = rules[result["ruleIndex"]]
+    assert named["id"] == result["ruleId"] == example.finding.rule
+    kind = findings_of("check")[example.finding.rule]
+    assert kind.text.startswith(named["shortDescription"]["text"])
+    assert named["help"]["text"].startswith(kind.cure)
 
 
-@pytest.mark.parametrize("format", ["sarif", "github", "markdown", "json", "text"])
-def test_a_rule_that_loses_the_order_is_told_in_every_format(format: str, tmp_path: Path) -> None:
-    """As a warning, which fails nothing; a degree that keeps the order has none."""
+@pytest.mark.parametrize("format", ["sarif", "github", "markdown", "json", "junit", "text"])
+def test_a_warning_fails_nothing(format: str, tmp_path: Path) -> None:
+    """A rule that loses the order has one; a degree that keeps the order has none."""
     run = gark("check", str(written(tmp_path, LOSING)), "--format", format)
     assert run.code == 0
-    assert "loses symplectic pair order 4" in " ".join(run.out.split())
+    assert "loses symplectic pair order 4" in words(run.out)
     good = gark("check", str(written(tmp_path, LOSING.replace("4}", "2}"))), "--format", format)
     assert "loses symplectic pair order" not in good.out
+    quiet = gark("check", str(written(tmp_path, LOSING)), "--quiet")
+    assert (quiet.code, quiet.out) == (0, "")
 
 
 def test_sarif_has_the_codes_of_faults() -> None:
@@ -383,14 +501,14 @@ def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
 
 # -- GitHub -------------------------------------------------------------------------------------------------------
 
-_COMMAND = re.compile(r"::error ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)")
+_COMMAND = re.compile(r"::[a-z]+ ((?:[a-z]+=[^,:\n]*)(?:,[a-z]+=[^,:\n]*)*)::(.*)")
 
 
-def annotations(*outcomes: Outcome) -> list[tuple[dict[str, str], str]]:
+def annotations(*outcomes: Outcome, level: str = "error") -> list[tuple[dict[str, str], str]]:
     """The annotations as the runner of GitHub reads them: properties and text, unescaped."""
     found = []
     for line in check_findings.github(outcomes).split("\n"):
-        if line.startswith("::error"):
+        if line.startswith(f"::{level} "):
             match = _COMMAND.fullmatch(line)
             assert match, line
             properties = dict(part.split("=", 1) for part in match[1].split(","))
@@ -567,7 +685,7 @@ def test_markdown_escapes_messages() -> None:
     text = FORMATS["markdown"](
         [Outcome("m", "m", faults=(Remark("a <b> | c\nd \\", "", 1, 1),))], Look(), 0, None, 80
     )
-    assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
+    assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\ (`fault`)\n")
 
 
 def test_no_format_forgets_a_finding() -> None:
