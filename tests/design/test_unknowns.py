@@ -430,7 +430,7 @@ def test_symplectic_rules_compare_orders_of_numbers(text: str) -> None:
             "write fix: {g: sqrt(2)}",
         ),
         ('A: [[0, 0], [1, 0]]\nb: "?"\n', "write ['?', '?'], one per stage"),
-        ("A: ?\nb: [1]\n", "quote a text that begins with ?"),
+        ("A: ?\nb: [1]\n", "quote a text that begins with this sign"),
     ],
 )
 def test_cures_name_what_works(text: str, cure: str) -> None:

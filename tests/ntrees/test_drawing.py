@@ -110,7 +110,7 @@ PIXEL = 0.11
 
 def parts_of_sheet(picture: ET.Element, sheet: list[Tree], lines: int) -> list[list[ET.Element]]:
     """The elements of each tree: edges, dots with or without numbers, captions."""
-    elements = list(picture)[1:]
+    elements = [x for x in picture if x.tag != f"{SPACE}title"][1:]
     has_numbers = any(v.root for u in sheet for v in u.vertices())
     parts = []
     for u in sheet:

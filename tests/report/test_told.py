@@ -306,7 +306,7 @@ def test_a_design_says_how_its_values_are_known(format: str, tmp_path: Path) -> 
     assert "least error " in " ".join(least.out.split())
     assert format != "latex" or list(latex_faults(least.out)) == []
     stable = told("--set", "c2=1/2", "--order", "1", "--a-stable")
-    assert "not decided for all methods of the family" in stable
+    assert "A-stable for exactly these" in stable
     path.write_text("unknown: {stages: 3, shape: full}\n", encoding="utf-8")
     is_open = told("--order", "6", "--seconds", "0.01")
     assert re.search(r"sdirk.yaml: .*order \d is not decided", is_open)
