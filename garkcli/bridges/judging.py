@@ -41,7 +41,7 @@ class Judged(Frozen, eq=False):
         if self.rounded is None:
             return None
         tableau, off = self.rounded
-        exponent = enough(off, self.order, lambda t: RoundedTableau.within(tableau, t))
+        exponent = enough(2 * off, self.order, lambda t: RoundedTableau.within(tableau, t))
         return None if exponent is None else fmpq(10) ** exponent
 
     @property

@@ -24,7 +24,7 @@ from garkcli.order.simplifying import (
     is_symplectic,
     simplifying,
 )
-from garkcli.order.tolerance import TINY, within
+from garkcli.order.tolerance import small, within
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.garkmethod import GarkMethod
@@ -393,7 +393,10 @@ def remark_of(method: MethodFile, analysis: Analysis) -> RoundingHint | None:
 
 def is_doubtful(order: AnyOrder, tolerance: fmpq | None) -> bool:
     """Returns whether rounding may be the reason why an order is not higher."""
-    return order.witness is not None and (bool(tolerance) or within(order.witness.residual, TINY))
+    missed = order.witness
+    if missed is None:
+        return False
+    return bool(tolerance) or within(missed.residual, small(order.order + 1))
 
 
 def _capped(

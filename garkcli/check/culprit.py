@@ -4,7 +4,7 @@ changed.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -42,7 +42,10 @@ def culprit(
     """Returns the likely cause of the first order below its claim, or of the order of a method
     without one.
     """
-    blame = _of_claims(method, analysis, remark) or _unclaimed(method, analysis, remark)
+    blame = _of_claims(method, analysis, remark)
+    if blame is None or not blame.repairs:
+        claimed = {claim.key for claim in method.claims} - ({blame.of} if blame else set())
+        blame = _unclaimed(method, analysis, remark, claimed) or blame
     return _with_consequences(method, claims, blame, limit)
 
 
@@ -54,7 +57,7 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
         claimed = highest_order(method.claims, [key])
         if actual.order >= claimed:
             continue
-        if actual.is_lower_bound or _is_explained(method, remark, claimed):
+        if actual.is_lower_bound or _is_explained(remark, claimed):
             return None
         from garkcli.order.blame import MissedOrder, blame_of  # paid for by failures alone
 
@@ -75,11 +78,9 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
     return None
 
 
-def _is_explained(method: MethodFile, remark: RoundingHint | None, claimed: int) -> bool:
-    """Returns whether a wider tolerance than the file gives would yield the claimed order."""
-    if method.tolerance is None or remark is None:
-        return False
-    return bool(remark.line) and remark.order >= claimed
+def _is_explained(remark: RoundingHint | None, claimed: int) -> bool:
+    """Returns whether the tolerance of the remark would yield the claimed order."""
+    return remark is not None and bool(remark.line) and remark.order >= claimed
 
 
 def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Tableau, AnyOrder]]:
@@ -95,11 +96,12 @@ def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Table
         yield "embedded-order", analysis.embedded.tableau, analysis.embedded.order
 
 
-def _unclaimed(method: MethodFile, analysis: Analysis, remark: RoundingHint | None) -> Blame | None:
-    """Returns the entry that seems wrong in a method, or embedded weights, without claimed
-    order.
+def _unclaimed(
+    method: MethodFile, analysis: Analysis, remark: RoundingHint | None, claimed: Collection[str]
+) -> Blame | None:
+    """Returns the entry that seems wrong in a method, or embedded weights, whose order is not among
+    the claimed ones.
     """
-    claimed = {claim.key for claim in method.claims}
     is_made = method.form in CONSTRUCTIONS  # no file prints its embedded weights
     for key, tableau, actual in _orders(method, analysis):
         if key in claimed or key not in UNASKED or (is_made and key == "embedded-order"):
@@ -133,9 +135,9 @@ def _rounded(method: MethodFile, remark: RoundingHint | None) -> AnyTableau | No
     wrong, or no number is a decimal.
     """
     if remark is None:
-        from garkcli.methodfile.printed import left_open
+        from garkcli.methodfile.printed import as_typed
 
-        return within_digits(method.tableau, left_open)
+        return within_digits(method.tableau, as_typed)
     if remark.exponent is None:
         return None
     return meant(method.tableau, fmpq(10) ** remark.exponent, method.further)

@@ -14,19 +14,21 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
-from garkcli.methodfile.printed import SLACK, at_full_length, left_open
+from garkcli.methodfile.printed import FEW_PLACES, SLACK, as_typed, at_full_length
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import AnyTableau, derived, meant, within_digits
 from garkcli.order.repair import Repair
 from garkcli.order.rounded import RoundedTableau
 from garkcli.order.suspects import suspects
-from garkcli.order.tolerance import unnatural, within
+from garkcli.order.tolerance import small, unnatural, within
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.exact.field import Number
 
+SHORT = fmpq(1, 10 ** FEW_PLACES[-1])
+"""The unit of the longest of short decimals."""
 COARSEST = -1
 """Only tolerances below ten to this power are proposed."""
 
@@ -63,36 +65,47 @@ def remark_on(
     ``actual`` is its order, or that of its embedded weights, as ``of`` says, with the tolerance of
     the file or exactly.
     """
-    if not _is_rounding(actual):
+    if not _is_within(actual, small):
         return None
-    full, own = within_digits(tableau, at_full_length), within_digits(tableau, left_open)
+    full, own = within_digits(tableau, at_full_length), within_digits(tableau, as_typed)
     if full is None or own is None:
+        return None
+    is_short = max(own.search.box.radii) >= SHORT
+    bound = small if is_short else unnatural
+    if not _is_within(actual, bound):
         return None
     units = dict(zip(own.search.box.numbers, own.search.box.radii, strict=True))
     order, best = actual.order, None
     judgements = [_judged(full, of, actual, limit)]
-    if _is_rounding(judgements[0][1]) and own.search.box.radii != full.search.box.radii:
+    if _is_within(judgements[0][1], bound) and own.search.box.radii != full.search.box.radii:
         judgements.append(_judged(own, of, actual, limit))
     goal = max(within_rounding.order for _, within_rounding in judgements)
     for judged, within_rounding in judgements:
         reached = within_rounding.order
         if reached > order:
             order, best = reached, judged
-        if not _is_rounding(within_rounding):
+        if not _is_within(within_rounding, bound):
             break
         off = _off(judged, max(goal, reached + 1), limit, units)
         if off:
             return RoundingHint(max(off.values()), of, None, _most(off))
     if best is None:
         return None
-    exponent = enough(best.off, order, lambda t: derived(meant(tableau, t), of), tolerance or ZERO)
+    unit = max(own.search.box.radii) / (1 if is_short else SLACK)
+    # the method that was found is the nearest; the one that was meant may be further off, but not
+    # by more than a unit of the last place
+    off = min(2 * best.off, max(best.off, unit))
+    least = max(off, tolerance + best.off if tolerance else ZERO)
+    exponent = enough(least, order, lambda t: derived(meant(tableau, t), of))
     return None if exponent is None else RoundingHint(order, of, exponent)
 
 
-def _is_rounding(order: AnyOrder) -> bool:
-    """Returns whether a residual is so small that rounding, or a wrong digit, may explain it."""
+def _is_within(order: AnyOrder, bound: Callable[[int], fmpq]) -> bool:
+    """Returns whether the residual of an order that is missed is within the bound for it, so that
+    rounding, or a wrong digit, may explain it.
+    """
     missed = order.witness
-    return missed is not None and within(missed.residual, unnatural(order.order + 1))
+    return missed is not None and within(missed.residual, bound(order.order + 1))
 
 
 def _judged(
@@ -127,18 +140,12 @@ def _most(reached: Mapping[Repair, int]) -> tuple[Repair, ...]:
     return tuple(x for x, n in reached.items() if n == max(reached.values()))
 
 
-def enough(
-    off: fmpq, order: int, within: Callable[[fmpq], AnyTableau], tolerance: fmpq = ZERO
-) -> int | None:
-    """Returns the exponent of the smallest power of ten above ``tolerance`` within which a method
-    of the order is found; None if that is too coarse.
-
-    ``off`` is the largest distance of the numbers from a method of the order, ``within`` the method
-    with a given tolerance.
+def enough(least: fmpq, order: int, within: Callable[[fmpq], AnyTableau]) -> int | None:
+    """Returns the exponent of the smallest power of ten from ``least`` on within which a method of
+    the order is found; None if that is too coarse. ``within`` is the method with a tolerance.
     """
     exponent = 0
-    # the method that was found is the nearest; the one that was meant may be further off
-    while fmpq(10) ** (exponent - 1) >= max(2 * off, tolerance + off):
+    while fmpq(10) ** (exponent - 1) >= least:
         exponent -= 1
     while exponent < COARSEST:
         if order_of(within(fmpq(10) ** exponent), order).order >= order:

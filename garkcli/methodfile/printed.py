@@ -19,6 +19,10 @@ Units: TypeAlias = Mapping[Number, fmpq]
 """The largest errors of values."""
 FEWEST_DIGITS = 6
 """A number with fewer digits is taken as exact."""
+FEW_PLACES = range(4, 6)
+"""Decimals are rounded where the longest have so many places, as on a sheet of exercises, …"""
+SEVERAL = 3
+"""… and where there are so many."""
 SHORTENED = 4
 """In lowest terms, the denominator of a decimal has at most so many digits less."""
 MANY_DIGITS = 14
@@ -76,6 +80,23 @@ def left_open(printed: Printed) -> list[fmpq]:
     return [SLACK * max(unit, _float_unit(x, unit)) for x, unit in units]
 
 
+def is_short(printed: Printed) -> bool:
+    """Returns whether several decimals have few places and none has more, so that ``left_open``
+    finds them exact, though they look rounded.
+    """
+    literals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
+    places = [_decimals(x) for x in literals]
+    is_one = sum(n in FEW_PLACES for n in places) < SEVERAL
+    return not is_one and max(places) in FEW_PLACES
+
+
+def as_typed(printed: Printed) -> list[fmpq]:
+    """Returns the errors as ``left_open`` does; of short decimals one unit of their last place."""
+    if is_short(printed):
+        return [unit_of(text, FEW_PLACES.start) for text, _ in printed]
+    return left_open(printed)
+
+
 def _float_unit(value: Number, unit: fmpq) -> fmpq:
     """Returns the error of a rounded number that is a float; 0 if it is not."""
     if not unit or not _is_float(value, unit):
@@ -87,7 +108,9 @@ def at_full_length(printed: Printed) -> list[fmpq]:
     """Returns the errors, at most the median in places or digits: zeros at the end are often
     dropped, and a wrong or superfluous digit makes a number long or short.
     """
-    own = left_open(printed)
+    own = as_typed(printed)
+    if is_short(printed):
+        return own
     with ctx.workprec(64):
         sizes = [rounded_up(abs(to_ball(value))) for _, value in printed]
     rounded = [(unit, size) for unit, size in zip(own, sizes, strict=True) if unit and size]
@@ -219,8 +242,7 @@ def _places(literal: Literal) -> int:
     """Returns the number of digits of a decimal, with zeros between the point and the first
     digit.
     """
-    mantissa, _, exponent = literal.text.lower().partition("e")
-    return max(_digits(literal), len(mantissa.partition(".")[2]) - int(exponent or 0))
+    return max(_digits(literal), _decimals(literal))
 
 
 def _parts(chain: Chain) -> Iterator[tuple[str, Expression]]:
@@ -255,10 +277,14 @@ def _digits(literal: Literal) -> int:
     return len(literal.text.lower().partition("e")[0].replace(".", "").lstrip("0"))
 
 
-def _unit(literal: Literal) -> fmpq:
+def _decimals(literal: Literal) -> int:
+    """Returns the number of digits behind the point."""
     mantissa, _, exponent = literal.text.lower().partition("e")
-    decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
-    return fmpq(10) ** -decimals
+    return len(mantissa.partition(".")[2]) - int(exponent or 0)
+
+
+def _unit(literal: Literal) -> fmpq:
+    return fmpq(10) ** -_decimals(literal)
 
 
 def _unit_in(expression: Expression, fewest: int) -> fmpq:

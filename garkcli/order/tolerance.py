@@ -21,14 +21,18 @@ NOT_FOUND = "no method with it was found, and it is not proved that there is non
 
 
 def unnatural(order: int) -> fmpq:
-    """The size below which a residual is too small for an exact method of that order.
+    """The size below which a residual is too small for an exact method of that order: that of
+    ``small``, and at most 10⁻⁶.
+    """
+    return min(TINY, small(order))
 
-    A thousandth of the error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes, (s!)⁴ / ((2s+1)
-    ((2s)!)²), and at most 10⁻⁶.
+
+def small(order: int) -> fmpq:
+    """The size below which a residual of that order may be due to a few digits: a thousandth of the
+    error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes, (s!)⁴ / ((2s+1) ((2s)!)²).
     """
     s = order // 2
-    best = fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
-    return min(TINY, best * UNNATURAL)
+    return UNNATURAL * fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
 
 
 def rounded_up(size: arb) -> fmpq:

@@ -139,6 +139,37 @@ def test_a_wrong_entry_is_named_beside_the_missing_tolerance(claim: str) -> None
     assert mended.order.order == 5
 
 
+ALEXANDER = """A: [[0.4359, 0, 0], [0.2821, 0.4359, 0], [1.2085, -0.6444, 0.4359]]
+b: [1.2085, -0.6444, 0.4359]
+"""
+SHEET = "A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [0.1667, 0.3333, 0.3333, {}]\n"
+
+
+@pytest.mark.parametrize("claim", ["", "expect: {order: 3}\n"])
+def test_decimals_of_a_sheet_look_rounded(claim: str) -> None:
+    """Alexander's method and RK4 with four decimals, as a student types them: the line to write is
+    named, and with it the order is there. One decimal of few places alone is no rounding.
+    """
+    for text, order in ((ALEXANDER, 3), (SHEET.format("0.1667"), 4)):
+        found = checked(text + claim).remark
+        assert found is not None
+        assert (found.line, found.order) == ("tolerance: 1e-4", order)
+        within = checked(f"{text}{found.line}\n").analysis
+        assert within is not None
+        assert within.order.order == order
+    assert (
+        checked("A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [0.1667, 1/3, 1/3, 1/6]\n").remark is None
+    )
+
+
+@pytest.mark.parametrize("claim", ["", "expect: {order: 4}\n"])
+def test_a_claim_hides_no_wrong_entry(claim: str) -> None:
+    """A digit of the last weight of the sheet is wrong: the entry is named, claimed or not."""
+    wrong = checked(SHEET.format("0.1567") + claim).blame
+    assert wrong is not None
+    assert [(x.old, x.new) for x in wrong.repairs] == [(fmpq(1567, 10**4), fmpq(1667, 10**4))]
+
+
 NAMES = ["forward-euler", "midpoint", "heun", "kutta", "rk4", "imex-ssp2-222", "theta-23"]
 PUBLISHED = [
     *(*NAMES, "backward-euler", "bogacki-shampine-3"),

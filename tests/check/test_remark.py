@@ -101,7 +101,7 @@ def test_a_mistake_is_no_rounding(weights: tuple[str, str]) -> None:
     assert remark(ONE_STAGE.format(*weights)) is None
     rounded = remark(ONE_STAGE.format("0", "1.00000001"))
     assert rounded is not None
-    assert (rounded.order, rounded.line) == (2, "tolerance: 1e-7")
+    assert (rounded.order, rounded.line) == (2, "tolerance: 1e-8")
 
 
 DECIMALS = "methods: [{{A: [[0.25, -0.03867513459481288], [{}, 0.25]], b: [0.5, 0.5]}}]\n"

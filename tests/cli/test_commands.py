@@ -635,9 +635,9 @@ def test_every_command_says_that_coefficients_look_rounded(command: str, tmp_pat
     )
     place, exact = tmp_path / "sdirk.gark.yaml", tmp_path / "within.gark.yaml"
     place.write_text(text, encoding="utf-8")
-    exact.write_text(f"{text}tolerance: 1e-15\n", encoding="utf-8")
+    exact.write_text(f"{text}tolerance: 1e-16\n", encoding="utf-8")
     name, *options = command.split()
-    hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-15  order 2 holds"
+    hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-16  order 2 holds"
     assert gark(name, str(place), *options, cwd=tmp_path).err.count(hint) == 1
     assert "look rounded" not in gark(name, str(exact), *options, cwd=tmp_path).err
 
