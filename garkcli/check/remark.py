@@ -14,7 +14,7 @@ from flint import fmpq
 
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
-from garkcli.methodfile.printed import FEW_PLACES, SLACK, as_typed, at_full_length
+from garkcli.methodfile.printed import SLACK, as_typed, at_full_length, left_open
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import AnyTableau, derived, meant, within_digits
@@ -27,8 +27,6 @@ from garkcli.tableau.tableau import Tableau
 if TYPE_CHECKING:
     from garkcli.exact.field import Number
 
-SHORT = fmpq(1, 10 ** FEW_PLACES[-1])
-"""The unit of the longest of short decimals."""
 COARSEST = -1
 """Only tolerances below ten to this power are proposed."""
 
@@ -70,7 +68,8 @@ def remark_on(
     full, own = within_digits(tableau, at_full_length), within_digits(tableau, as_typed)
     if full is None or own is None:
         return None
-    is_short = max(own.search.box.radii) >= SHORT
+    by_length = within_digits(tableau, left_open)
+    is_short = by_length is None or by_length.search.box.radii != own.search.box.radii
     bound = small if is_short else unnatural
     if not _is_within(actual, bound):
         return None
