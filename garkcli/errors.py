@@ -305,7 +305,9 @@ def nearest(word: str, known: Iterable[str]) -> str:
     spelt = {_letters(x): x for x in reversed(words)}  # of two alike the first stays
     if letters in spelt:
         return spelt[letters]
-    close = get_close_matches(letters, spelt, n=1)
+    # of three letters one may be wrong only if there are digits: rk5, but not foo
+    cutoff = 0.7 if letters.isalpha() and len(letters) <= 3 else 0.6
+    close = get_close_matches(letters, spelt, n=1, cutoff=cutoff)
     begun = [x for x in spelt if x.startswith(letters)]
     if len(begun) > 1 and len(letters) > 2:  # a word cut short is near to all that it begins
         return ""

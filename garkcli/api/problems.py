@@ -138,4 +138,5 @@ def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None
     if isinstance(found, Hamiltonian):
         return found
     message = f"{found.name} is not Hamiltonian"
-    raise UsageProblem(message, "choose one that is", code="other-problem")
+    cure = "take one with energy, such as pendulum or kepler; gark converge takes all problems"
+    raise UsageProblem(message, cure, code="other-problem")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from garkcli.cli.command import declared
 from garkcli.cli.endings import CURES, ENDINGS, ending_of, settled
 from garkcli.cli.output import Output
 from garkcli.cli.streams import say
-from garkcli.errors import UsageProblem, counted, printable
+from garkcli.errors import MethodFileError, UsageProblem, counted, printable
 from garkcli.files import is_stream
 from garkcli.tell.report import FORMATS
 
@@ -323,9 +324,28 @@ def _nothing(
     for table in left_out:
         message, cure = _other(table)
         return UsageProblem(message, cure, code="cannot-import")
+    for source in sources:
+        if _is_method_file(source):
+            message = f"{source} is a method file already"
+            cure = f"gark check {source} reads it, gark export and convert write other forms"
+            return UsageProblem(message, cure, code="cannot-import")
     known = ", ".join(all_readers())
     message = _no_table(sources, files)
     return UsageProblem(message, f"--from FORMAT names its format: {known}", code="cannot-import")
+
+
+def _is_method_file(source: str) -> bool:
+    """Returns whether a source has the keys of a file that other commands read."""
+    from garkcli.grammar.nodes import MappingNode, composed, keys_of
+    from garkcli.methodfile.load import read_method_text
+
+    if is_stream(source) or not source.endswith((".yaml", ".yml")):
+        return False
+    with suppress(MethodFileError):
+        root = composed(read_method_text(source)[0])
+        keys = keys_of(root) if isinstance(root, MappingNode) else set()
+        return bool(keys & {"gark", "expect", "methods", "tableau"}) or {"A", "b"} <= keys
+    return False
 
 
 def _no_table(sources: Sequence[str], files: int) -> str:

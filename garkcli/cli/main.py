@@ -46,7 +46,8 @@ class _LazyGroup(click.Group):
         args = [*FORMER.get(args[0], args[:1]), *args[1:]]
         # a shell that asks what may follow hears of no mistakes
         is_run = not ctx.resilient_parsing
-        if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
+        is_word = args[0] == "-" or not args[0].startswith("-")
+        if is_run and args[0] not in COMMANDS and is_word:
             from garkcli.cli.usage import no_such_command  # paid for by mistakes alone
 
             ctx.fail(no_such_command(args[0], COMMANDS))

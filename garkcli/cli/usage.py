@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 import click
 
 from garkcli.errors import MethodFileError, did_you_mean, nearest, printable
+from garkcli.files import STDIN
 
 MEANT = {
     "order": "check",
@@ -42,6 +43,8 @@ _EXTRA = re.compile(r"[Gg]ot unexpected extra arguments? \((\d+)\)")
 def no_such_command(word: str, commands: Iterable[str]) -> str:
     """Returns the message for an unknown command: a method is for ``gark check``."""
     message = f"no such command {printable(word)!r}"
+    if word == STDIN:
+        return f"{message}\nhelp: it stands for a file behind a command, as in gark check -"
     if word.lower() in MEANT:
         return f"{message}\nhelp: did you mean {MEANT[word.lower()]!r}?"
     cure = did_you_mean(word, commands)

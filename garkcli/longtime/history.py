@@ -93,7 +93,7 @@ because of a ``Doubt``.
 """
 WORDS: dict[str, tuple[str, str]] = {
     "exact": ("good", "conserved"),
-    "round-off": ("good", "no error"),
+    "round-off": ("good", "no error above round-off"),
     "bounded": ("good", "bounded"),
     "unstable": ("bad", "UNSTABLE"),
     "undecided": ("note", "undecided"),

@@ -11,7 +11,7 @@ from flint import arb
 from garkcli.exact.display import shortest, to_ball
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text, distinct_rows, lines_of
-from garkcli.page.lines import aligned, indented
+from garkcli.page.lines import aligned, folded, indented
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
@@ -103,7 +103,19 @@ def _listing(tableau: Tableau, entries: Entries, width: int, text: Text) -> list
                 continue
             cells = [[*map(text, row)] for row in block]
             lines += block_lines(_named("A", tableau, names[l], name), cells, width)
-    return lines[:-1]
+    return [*lines[:-1], *_shared_rows(tableau, width)]
+
+
+def _shared_rows(tableau: Tableau, width: int) -> list[str]:
+    """Returns whose rows are those of an earlier colour, with which a colour shares its stages."""
+    shown = {tableau.colours[l].space: tableau.colours[l].name for l in distinct_rows(tableau)}
+    same = [
+        f"{_named('A', tableau, colour.name, '·')} = "
+        f"{_named('A', tableau, shown[colour.space], '·')}"
+        for colour in tableau.colours
+        if shown[colour.space] != colour.name
+    ]
+    return ["", *folded(", ".join(same), width, "  ")] if same else []
 
 
 def _named(letter: str, tableau: Tableau, *colours: str) -> str:

@@ -1,8 +1,7 @@
-"""sympy expressions of our own as straight-line Python, for floats and for balls of any precision.
+"""Straight-line Python for sympy expressions, evaluated in floats or in balls of any precision.
 
-An expression is written as text node by node, common subexpressions once. All names in the text are
-ours (arguments, temporaries, constants), so nothing that was read from a file is ever part of a
-program.
+An expression is written as text node by node, common subexpressions once. The names in the text are
+made here (arguments, temporaries, constants), so that no text of a file is part of a program.
 """
 
 from __future__ import annotations

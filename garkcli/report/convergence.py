@@ -197,8 +197,10 @@ def verdict_words(verdict: str, d: Plain) -> str:
 
 def _answer(x: Convergence, d: Plain) -> str:
     seen = d.known(str(x.visible_order), visible(x).status)
-    observed = order_text(x.observed_order)
-    return f"order {observed} observed, {seen} visible: {verdict_words(x.verdict, d)}"
+    observed = f"order {order_text(x.observed_order)} observed"
+    if x.observed_order is None:
+        observed = "no order observed"
+    return f"{observed}, {seen} visible: {verdict_words(x.verdict, d)}"
 
 
 def remarks(result: Convergence) -> list[str]:

@@ -94,7 +94,7 @@ def _because(history: InvariantHistory, run: LongRun) -> str:
         case "exact":
             return " by every step, exactly"
         case "round-off":
-            text = f" above round-off, at most {history.round_off:.0e} here"
+            text = f", at most {history.round_off:.0e} here"
             if run.digits and run.digits <= 100:
                 text += f"; --digits {2 * run.digits} shows more"
             return text

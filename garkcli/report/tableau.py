@@ -302,7 +302,7 @@ def _moved(x: Transformation | None, d: Plain) -> list[str]:
 
 def _rounded(x: Transformation, rows: Sequence[Sequence[arb]]) -> list[list[str]]:
     """The texts of some rows of balls."""
-    return [[y.str(x.digits, radius=False) for y in row] for row in rows]
+    return [["0" if y.contains(0) else y.str(x.digits, radius=False) for y in row] for row in rows]
 
 
 ONE: Kind[Sequence[object]] = Kind(Json(array(NUMERAL)))

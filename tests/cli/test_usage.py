@@ -187,3 +187,24 @@ def test_no_argument_has_nul(arguments: tuple[str, ...]) -> None:
     """No shell can give it, but a program that calls ``main`` can: bad input, not our fault."""
     run = gark(*arguments)
     assert (run.code, "the character NUL" in run.err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "cure"),
+    [
+        (("-",), "it stands for a file behind a command, as in gark check -"),
+        (("import", "methods/rk4.gark.yaml"), "gark check methods/rk4.gark.yaml reads it"),
+        (
+            ("modified", "gauss-2", "--problem", "logistic"),
+            "take one with energy, such as pendulum",
+        ),
+        (("explain", "foo"), "gark explain lists the terms"),
+        (("energy", "ros3p"), "conditions, stability, plot, converge"),
+    ],
+)
+def test_what_cannot_be_done_names_what_can(arguments: tuple[str, ...], cure: str) -> None:
+    """The help after a refusal is a way on, not a word that nobody meant."""
+    run = gark(*arguments)
+    assert run.code == 2
+    assert cure in run.err
+    assert "did you mean" not in run.err

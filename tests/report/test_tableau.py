@@ -246,3 +246,20 @@ def test_couplings_of_slow_stages_are_shown(command: str) -> None:
     for name in ("imex-mri-sr32", "imex-mri-gark4"):
         assert max(map(len, gark(command, name).out.splitlines())) <= 80
     assert "coupling" not in gark("tableau", "mri-gark-erk33a", "--format", "latex").out
+
+
+def test_nothing_is_left_out_silently_and_zero_is_zero() -> None:
+    """Blocks of colours that share stages are named where they are not printed again; a zero of the
+    transformation of Gauss's method has no exponent.
+    """
+    text = gark("tableau", "ark-ars222").out
+    assert text.endswith("\n\nA{2,·} = A{1,·}\n")
+    assert "·" not in gark("tableau", "rk4").out
+    assert "0e-" not in gark("tableau", "gauss-2", "--transformation").out
+    data = json.loads(gark("tableau", "gauss-2", "--transformation", "--format", "json").out)
+    assert data["transformation"]["T"][0][0] == "0"
+
+
+def test_a_single_step_size_shows_no_order() -> None:
+    """The answer says so in words."""
+    assert "no order observed, 4 visible: undecided" in gark("converge", "rk4", "--steps", "1").out
