@@ -61,8 +61,6 @@ VALUES = [
     fmpq(*x) for x in ((1, 2), (1, 3), (3, 4), (1, 4), (2, 3), (1, 1), (3, 5), (6, 5), (0, 1))
 ]
 """Values tried for free coordinates."""
-MOST_FREE = 4
-"""Most free coordinates of a part of which linear forms are sought."""
 MOST_POINTS = 300
 """Most points of a part tried for a method."""
 
@@ -471,7 +469,7 @@ def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValu
         UsageProblem: a kind of stability is not applicable.
     """
     found = charts(part)
-    if not found or len(found[0].names) > MOST_FREE:
+    if not found or len(found[0].names) > 2:
         raise NotDecided
     sets = []
     for chart in found:

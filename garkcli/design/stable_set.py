@@ -91,7 +91,8 @@ def stable_set(
     )
     members = members or Members(smaller, whose)
     if len(smaller.parameters) > 2:
-        raise too_many(family)
+        is_pair = whose == "pair" and bool(family.radicals)
+        raise beside_roots(family, wanted, whose) if is_pair else too_many(family)
     _refuse_radicals(members, wanted, two_springs)
     tableau = TABLEAUS[whose](smaller.tableau)
     kind: StabilityKind
