@@ -263,10 +263,20 @@ class _Step:
             return first, second
         is_lost = base in self._values and (base,) not in self._forms.get(base, ())
         is_lost &= names[0] not in self._returned
-        if not _is_whole(of_base[names[0]]) or is_lost:
+        if not _is_whole(of_base[names[0]]) or is_lost or not self._is_end(base, names[0], of_base):
             # its last value is another one
             raise NoStep
         return of_base[names[0]], {}
+
+    def _is_end(self, base: str, name: str, of_base: Mapping[str, Mapping[str, Value]]) -> bool:
+        """Whether a stage value is the result, too: it is returned, copied or takes the place of
+        the base, or its slope is part of an error.
+        """
+        row = of_base[name]
+        if name in {base, *self._returned} or sum(_are_equal(row, x) for x in of_base.values()) > 1:
+            return True
+        here = [x for x, of in self._args.items() if any(y and _are_equal(y.row, row) for y in of)]
+        return not here or any(x in self._error({*here, *row}) for x in here)
 
     def _is_returned(self, component: _Component) -> bool:
         sums = (self._sum(self._forms.get(name)) for name in self._returned)

@@ -421,7 +421,7 @@ class Follower(Evaluator):
                         # slopes may have changed
                         self.spoil(x, space, "changed elsewhere", self.line)
                 self._store(target, self._slope(callee, values), space, self.line)
-            case ir.Call(ir.Name(name) | ir.Field(name=name)) if name.lower() in _TELLING:
+            case ir.Call(ir.Name(name) | ir.Field(name=name)) if _tells(name):
                 pass
             case _:
                 if not self._is_ignored(call, space):
@@ -895,6 +895,11 @@ def _is_over_components(name: str, body: ir.Body) -> bool:
 
 def _name(callee: ir.Expr) -> str:
     return callee.name.lower() if isinstance(callee, ir.Name | ir.Field) else ""
+
+
+def _tells(name: str) -> bool:
+    """Whether a function stores or prints its arguments without changing them."""
+    return name.lower() in _TELLING or name.startswith(("set_", "setState", "setTime"))
 
 
 _TELLING = {

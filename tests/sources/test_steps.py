@@ -482,6 +482,14 @@ def test_a_slope_that_may_have_changed_makes_no_step(between: str) -> None:
     assert not any(x.b for x in python.find(text.format(between), "x"))
 
 
+def test_a_stage_value_is_not_taken_for_a_lost_result() -> None:
+    """The step goes into a setter or a limiter."""
+    text = "def step(s, t, y, h):\n    k = h*s.f(t, y)\n    z = y + k\n    l = h*s.f(t + h, z)\n"
+    text += "    w = y + (k + l)/2\n    {}(w)\n"
+    for name in ("s.set_state", "s.limit"):
+        assert [x.b for x in python.find(text.format(name), "x")] == [(("1/2", "1/2"),)]
+
+
 @pytest.mark.parametrize(
     ("between", "entry"),
     [
