@@ -73,6 +73,8 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
         NoStep: there is none.
     """
     evaluations, helpers = _calls_in(body, like)
+    if not (_has_sums(body) or _adds_vectors(body)):
+        raise NoStep
     is_long = sum(1 for _ in ir.statements(body)) > MAX_STATEMENTS
     modes = [("", False)]
     if helpers and not is_long:
@@ -823,6 +825,12 @@ def _has_sums(body: ir.Body) -> bool:
     )
 
 
+def _adds_vectors(body: ir.Body) -> bool:
+    values = (x.value for x in ir.statements(body) if isinstance(x, ir.Do))
+    calls = [(_name(x.callee), len(x.args)) for x in values if isinstance(x, ir.Call)]
+    return any(x in _SUMS or x[0] == "add" for x in calls)
+
+
 def _has_branches(body: ir.Body) -> bool:
     return any(isinstance(x, ir.Branch) for x in ir.statements(body))
 
@@ -854,6 +862,8 @@ def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
     """The argument that a function changes: the last one with values that are used elsewhere, and
     no sum before, unlike arguments of f; otherwise the last one.
     """
+    if callee is None:
+        return -1
     assigned = [x for x in ir.statements(way) if isinstance(x, ir.Assign)]
     used = {y for x in assigned for y in ir.inside(x.value) if isinstance(y, ir.Name)}
     sums: set[str] = set()
