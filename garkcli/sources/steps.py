@@ -145,8 +145,8 @@ class _Reader:
         self.looks_like = False
 
     def by_every_way(self, body: ir.Body, counters: Sequence[str] = ()) -> Roles:
-        """The common step of all paths through some statements; a path that is none counts only if
-        branches have sums.
+        """The common step of all paths through some statements. A path without a step is left out,
+        unless branches have sums.
 
         Raises:
             NoStep: there is none.
