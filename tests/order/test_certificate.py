@@ -9,7 +9,8 @@ import pytest
 from flint import fmpq
 
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.forms import gark
+from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, failing, plain, same_tree
 from tests.oracles.series import series_order
@@ -174,3 +175,15 @@ def test_many_trees_fail_where_one_witness_is_named() -> None:
     trees = failing(tableau, found.order + 1)
     assert any(same_tree(plain(found.witness.tree), u) for u in trees)
     assert 1 < len(trees) < len(Trees(tableau).of_order(found.order + 1))
+
+
+def test_of_equal_residuals_the_first_is_told() -> None:
+    """Both colours have weights of seven digits, which miss 1 alike; larger ones are told first."""
+    third = fmpq(3333333, 10**7)
+    zero = fmpq(0)
+    A = ((zero,) * 3, (fmpq(1, 2), zero, zero), (zero, fmpq(1), zero))
+    method, other = (butcher(A, (third, third, third - off)) for off in (zero, fmpq(1, 10**8)))
+    for colours, root in (([method, method], 0), ([method, other], 1), ([other, method], 0)):
+        witness = find_order(gark(colours, {})).witness
+        assert witness is not None
+        assert (witness.tree.order, witness.tree.root) == (1, root)
