@@ -242,7 +242,8 @@ def last_line(node: ast.AST) -> int:
 
 def known(key: str = "survivor") -> list[dict[str, Any]]:
     """Survivors with a reason: file, was, why, and where it matters becomes and after; kinds of
-    lines: pattern, why, and where it matters apart; or proposals: file, why, and names where it is not all of the file.
+    lines: pattern, why, and where it matters apart; or proposals: file, why, and names where these
+    are not all of the file.
     """
     entries: list[dict[str, Any]] = tomllib.loads(KNOWN.read_text("utf-8"))[key]
     return entries

@@ -99,8 +99,7 @@ class Outcome:
 
     Attributes:
         mutation: the change.
-        fate: killed, killed by a limit, survived, known to survive, or or survived where code
-            proposes.
+        fate: killed, killed by a limit, survived, known to survive, or only proposed.
         tests: how many tests run its line.
         seconds: how long it took.
     """
