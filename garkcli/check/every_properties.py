@@ -23,25 +23,12 @@ from garkcli.exact.parametric import Parametric, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot
 from garkcli.order.simplifying import Simplifying, simplifying
+from garkcli.properties.property import Property
+from garkcli.properties.registry import find as find_by_key
 from garkcli.properties.subject import Subject
 from garkcli.stability.algebraic import contractivity
 from garkcli.tableau.tableau import Tableau
 
-COMPARING = (
-    "explicit",
-    "diagonally-implicit",
-    "sdirk",
-    "esdirk",
-    "fully-implicit",
-    "implicit-stages",
-    "stiffly-accurate",
-    "fsal",
-    "symmetric",
-    "reducible",
-    "stage-order",
-    "weak-stage-order",
-)
-"""The properties that ask which coefficients are zero or equal."""
 STABLE: dict[str, Wanted] = {
     "a-stable": "a-stable",
     "l-stable": "l-stable",
@@ -61,6 +48,11 @@ class OrMore(int):
         return f"at least {int(self)}"
 
 
+def is_comparing(prop: Property) -> bool:
+    """Whether a property asks only which coefficients are zero or equal."""
+    return prop.asks != "signs" and prop.kind != "number"
+
+
 def find_property(family: EveryFamily, key: str, limit: int) -> FamilyFact:
     def ask(tableau: Tableau) -> Any:
         # the order is requested with rounded coefficients only, B and C for one property
@@ -73,7 +65,7 @@ def find_property(family: EveryFamily, key: str, limit: int) -> FamilyFact:
             return OrMore(value)
         return value if value is None or isinstance(value, (bool, int)) else str(value)
 
-    if key in COMPARING:
+    if is_comparing(find_by_key(key)):
         return find(family, ask, is_of_stages=True)
     if family.has_one and key in STABLE:
         try:

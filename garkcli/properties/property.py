@@ -24,6 +24,11 @@ KINDS: dict[Kind, str] = {
     ' `infinity`, or `">= x"`',
 }
 """The notation of claims of each kind."""
+Asks: TypeAlias = Literal["zeros", "equations", "signs"]
+"""The question about the coefficients that decides a property: which are zero, which equations they
+meet, or which signs some numbers have. Rounded coefficients meet equations within their tolerance;
+the other properties hold for all methods there, or are undecided.
+"""
 _DIGITS = 12
 _LONG = 60
 
@@ -142,8 +147,10 @@ class Property(Frozen):
         source: the reference of the definition.
         kind: the kind of its values.
         decide: decides it for a method.
+        asks: what it asks of the coefficients.
         meaning: the methods for which it is defined; empty for all.
         is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.
+        noted: the value that every ``gark check`` says in words, and these; None for neither.
     """
 
     key: str
@@ -151,8 +158,10 @@ class Property(Frozen):
     source: str
     kind: Kind
     decide: Callable[[Subject], Verdict]
+    asks: Asks
     meaning: str = ""
     is_cheap: bool = True
+    noted: tuple[bool, str] | None = None
 
     @property
     def field(self) -> str:
@@ -164,7 +173,13 @@ SEES_ALL = "methods whose stages all see all vector fields"
 
 
 def claimed(
-    source: str, kind: Kind = "truth", meaning: str = "", is_cheap: bool = True
+    source: str,
+    *,
+    asks: Asks,
+    kind: Kind = "truth",
+    meaning: str = "",
+    is_cheap: bool = True,
+    noted: tuple[bool, str] | None = None,
 ) -> Callable[[Callable[[Subject], Verdict]], Property]:
     """Makes a property from the function that decides it: name and docstring are key and
     definition.
@@ -172,6 +187,6 @@ def claimed(
 
     def made(decide: Callable[[Subject], Verdict]) -> Property:
         key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())
-        return Property(key, text, source, kind, decide, meaning, is_cheap)
+        return Property(key, text, source, kind, decide, asks, meaning, is_cheap, noted)
 
     return made

@@ -336,22 +336,14 @@ def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
     return replace(found, level=USUAL if is_told else DETAIL)
 
 
-OF_EQUATIONS = {
-    *("sdirk", "esdirk", "stiffly-accurate", "fsal", "symmetric", "symplectic"),
-    *("gamma", "stage-order", "weak-stage-order"),
-}
-"""Properties that rounded coefficients have within their tolerance; others hold for all methods
-there, or are undecided.
-"""
-
-
 def within(a: AnyAnalysis, key: str) -> fmpq | None:
     """The rounding within which a method has a property; None for exactly, or for none."""
     return rounding(key, a.subject.verdict(key).value, a.tolerance)
 
 
 def rounding(key: str, value: object, tolerance: fmpq | None) -> fmpq | None:
-    return tolerance if value and key in OF_EQUATIONS else None
+    is_of_equations = key == "symplectic" or find(key).asks == "equations"
+    return tolerance if value and is_of_equations else None
 
 
 def verdict_answer(a: Analysis, key: str, kind: type[V]) -> Answer[V]:
@@ -362,21 +354,9 @@ def verdict_answer(a: Analysis, key: str, kind: type[V]) -> Answer[V]:
     return Answer(v.value, status, v.reason if is_told else NO_REASON)
 
 
-WORTH_A_WORD = {
-    "stiffly-accurate": (True, "stiffly accurate"),
-    "fsal": (True, "first same as last"),
-    "symmetric": (True, "symmetric"),
-    "algebraically-stable": (True, "algebraically stable"),
-    "reducible": (True, "reducible, see gark convert --to reduced"),
-    "positive-weights": (False, "not all weights positive"),
-    "nodes-in-unit-interval": (False, "nodes outside [0, 1]"),
-}
-"""Properties that are usually told where they have this value."""
-
-
 def truth(key: str) -> Row[Analysis]:
     """A property that is true, false or undecided."""
-    worthy, words = WORTH_A_WORD.get(key, (None, ""))
+    worthy, words = find(key).noted or (None, "")
 
     def phrase(label: str, _: bool, answer: Answer[bool], d: Plain) -> str:
         return d.known(d.prose(words or label), answer.status)

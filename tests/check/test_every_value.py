@@ -13,7 +13,7 @@ from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
 from garkcli.check.every_facts import FamilyFact, fact_reason
 from garkcli.check.every_family import every_family
-from garkcli.check.every_properties import COMPARING, SIGNS, STABLE, find_property
+from garkcli.check.every_properties import SIGNS, STABLE, find_property, is_comparing
 from garkcli.check.every_value import EveryValue, every_value
 from garkcli.check.outcome import Outcome
 from garkcli.exact.cells import Interval
@@ -21,6 +21,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.page.look import Look
+from garkcli.properties.registry import every_property
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from tests.cli.harness import gark
@@ -35,6 +36,8 @@ transfer: {interpolation: tau, collocation: 1 - tau}
 """
 WEIGHT = "parameters: {w: free}\nA: [[0, 0], [1/(2*w), 0]]\nb: [1 - w, w]\n"
 LIMIT = 12
+DECIDED = {x.key for x in every_property() if is_comparing(x)} | {*STABLE, *SIGNS}
+"""The properties that are decided for every value."""
 
 
 @pytest.fixture(scope="module", params=[SDIRK, pytest.param(TAU, marks=in_whole), WEIGHT])
@@ -103,11 +106,16 @@ def test_every_value_agrees_with_each(found: tuple[str, EveryValue], value: str)
     for name in ("B", "C", "D", "bound"):
         assert at(every.simplifying(name), root) == getattr(ordinary.simplifying, name)
     assert at(every.symplectic, root) == ordinary.symplectic
-    for key in (*COMPARING, *STABLE, *SIGNS):
+    for key in DECIDED:
         fact = every.verdict(key)
         assert not fact.is_undecided, key
         assert root not in fact.unknown
         assert at(fact, root) == ordinary.subject.verdict(key).value, key
+
+
+def test_properties_that_hold_or_not_are_decided_for_every_value() -> None:
+    """A property of signs needs an entry in ``SIGNS``; numbers are decided for values alone."""
+    assert {x.key for x in every_property() if x.kind == "truth"} <= DECIDED
 
 
 EQUAL = f"[{', '.join(['g'] * 9)}]"

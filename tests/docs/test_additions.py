@@ -114,7 +114,7 @@ def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
     assert "`garkcli/properties/claimed`" in row("property, which files may claim")
     file = copy.folder / "garkcli/properties/claimed/solving.py"
     file.write_text(
-        file.read_text(encoding="utf-8") + '\n\n@claimed("this test")\n'
+        file.read_text(encoding="utf-8") + '\n\n@claimed("this test", asks="signs")\n'
         "def few_stages(subject: Subject) -> Verdict:\n"
         '    """The first method has at most four stages."""\n'
         "    return Verdict(len(subject.tableau.colours[0].b) <= 4)\n",

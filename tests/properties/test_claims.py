@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from garkcli import find_property, reduced
 from garkcli.check.analysis import analyse
+from garkcli.check.check_file import check_method
 from garkcli.check.claims import Claim, verify
 from garkcli.check.every_value import every_value
 from garkcli.errors import MethodFileError, UsageProblem
@@ -26,6 +27,7 @@ from garkcli.properties.definitions import definition, every_definition
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, every_property
 from garkcli.properties.subject import Subject
+from garkcli.report.check import within
 from garkcli.tableau.embedded import NOTHING
 from tests.catalogue.catalogue import Entry, entries
 from tests.catalogue.method_files import method_file
@@ -332,6 +334,38 @@ A: [[0.29289321881, 0], [0.70710678119, 0.29289321881]]
 b: [0.70710678119, 0.29289321881]
 tolerance: 1e-10
 """
+
+
+ROUNDED = (
+    "A: [[0.292893, 0], [0.707106, 0.292894]]\nb: [0.707107, 0.292893]",
+    "A: [[0.25, -0.038675], [0.538676, 0.25]]\nb: [0.5, 0.5]\nc: [0.211325, 0.788675]",
+    "A: [[0, 0], [0.333333, 0.333334]]\nb: [0.333333, 0.666666]",
+    "A: [[0, 0, 0], [0.5, 0, 0], [0.333333, 0.666667, 0]]\nb: [0.333334, 0.666666, 0]",
+    "A: [[0, 0, 0], [0.292893, 0.292893, 0], [0.353553, 0.353553, 0.292894]]\n"
+    "b: [0.353553, 0.353553, 0.292893]",
+    "A: [[0, 0, 0], [0.333333, 0, 0], [0.333334, 0, 0]]\nb: [0.25, 0.375, 0.375]",
+    "A: [[0, 0, 0, 0], [0.333333, 0, 0, 0], [0.333334, 0, 0, 0], [0, 0.333333, 0.333333, 0]]\n"
+    "b: [0.25, 0, 0, 0.75]",
+)
+"""Methods of six digits: each property of equations holds in one of them within these alone."""
+
+
+def test_equations_that_rounding_explains_say_so() -> None:
+    """A property that the printed numbers have not is said to hold within the tolerance; a new one
+    that asks for equations needs a method here.
+    """
+    explained = set()
+    for text in ROUNDED:
+        exact = check_method(loads(text)).analysis
+        rounded = check_method(loads(f"{text}\ntolerance: 1e-6")).analysis
+        assert exact is not None
+        assert rounded is not None
+        for key in [x.key for x in every_property() if x.asks != "signs"]:
+            value = rounded.subject.verdict(key).value
+            if value and value != exact.subject.verdict(key).value:
+                assert within(rounded, key) == fmpq(1, 10**6), key
+                explained.add(key)
+    assert explained == {x.key for x in every_property() if x.asks == "equations"}
 
 
 def test_rounded_coefficients() -> None:

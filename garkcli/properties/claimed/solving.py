@@ -64,7 +64,7 @@ def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdi
     return Verdict(False, why)
 
 
-@claimed("E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, section II.1")
+@claimed("E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, section II.1", asks="zeros")
 def explicit(subject: Subject) -> Verdict:
     """No stage value depends on itself, directly or through others: all stages of all methods can
     be computed one after the other.
@@ -74,7 +74,7 @@ def explicit(subject: Subject) -> Verdict:
     return Verdict.unless(what_is_solved_for(subject))
 
 
-@claimed("R. Alexander, SIAM J. Numer. Anal. 14 (1977)")
+@claimed("R. Alexander, SIAM J. Numer. Anal. 14 (1977)", asks="zeros")
 def diagonally_implicit(subject: Subject) -> Verdict:
     """At least one stage value depends on itself, and no two depend on each other: implicit stages
     are solved one after the other. Explicit methods are not called diagonally implicit.
@@ -87,7 +87,7 @@ def diagonally_implicit(subject: Subject) -> Verdict:
     return Verdict.unless(what_is_solved_together(subject))
 
 
-@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6")
+@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6", asks="equations")
 def sdirk(subject: Subject) -> Verdict:
     """Every stage value depends on itself directly, all with the same coefficient γ, and no two
     depend on each other. The claim `gamma` says which γ it is.
@@ -95,7 +95,7 @@ def sdirk(subject: Subject) -> Verdict:
     return decide_singly(subject, "SDIRK")
 
 
-@claimed("C. A. Kennedy, M. H. Carpenter, NASA/TM-2016-219173")
+@claimed("C. A. Kennedy, M. H. Carpenter, NASA/TM-2016-219173", asks="equations")
 def esdirk(subject: Subject) -> Verdict:
     """The first stage value is the old value; every other one depends on itself directly, all with
     the same coefficient γ, and no two depend on each other. With several methods this holds for
@@ -108,6 +108,7 @@ def esdirk(subject: Subject) -> Verdict:
     "E. Hairer, G. Wanner, Solving ODEs II, section IV.6",
     kind="number",
     meaning="diagonally implicit methods whose implicit stages share one coefficient",
+    asks="equations",
 )
 def gamma(subject: Subject) -> Verdict:
     """The coefficient by which every implicit stage value depends on itself directly. Each of the
@@ -122,7 +123,7 @@ def gamma(subject: Subject) -> Verdict:
     return Verdict(Size(root))
 
 
-@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.5")
+@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.5", asks="zeros")
 def fully_implicit(subject: Subject) -> Verdict:
     """At least two stage values, of one method or of several, depend on each other and are solved
     together: the graph of who sees whom has a strongly connected component of more than one stage.
@@ -133,7 +134,7 @@ def fully_implicit(subject: Subject) -> Verdict:
     return Verdict.unless(NO_REASON if kind == "fully implicit" else Reason(f"it is {kind}"))
 
 
-@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6", kind="count")
+@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6", kind="count", asks="zeros")
 def implicit_stages(subject: Subject) -> Verdict:
     """The number of stage values that depend on themselves, directly or through others. Stages
     that several vector fields share count once.

@@ -128,6 +128,7 @@ def _number(root: RealRoot | None) -> Formula | str:
     "G. Dahlquist, BIT 3 (1963); E. Hairer, G. Wanner, Solving ODEs II, section IV.3",
     meaning=SEES_ALL,
     is_cheap=False,
+    asks="signs",
 )
 def a_stable(subject: Subject) -> Verdict:
     """|R(z)| ≤ 1 for all z with Re z ≤ 0, where R is the stability function, y_1 = R(hλ) y_0 for ẏ
@@ -141,7 +142,7 @@ def a_stable(subject: Subject) -> Verdict:
     return Verdict.unless(obstacle_to_a_stability(subject.linear))
 
 
-@claimed("B. L. Ehle, thesis, Waterloo (1969)", meaning=SEES_ALL, is_cheap=False)
+@claimed("B. L. Ehle, thesis, Waterloo (1969)", meaning=SEES_ALL, is_cheap=False, asks="signs")
 def l_stable(subject: Subject) -> Verdict:
     """A-stable with R(∞) = 0: one step damps infinitely stiff parts."""
     if not subject.is_linear:
@@ -159,6 +160,7 @@ def l_stable(subject: Subject) -> Verdict:
     "J. D. Lambert, I. A. Watson, J. Inst. Math. Appl. 18 (1976)",
     meaning="methods whose vector fields can carry the split oscillator",
     is_cheap=False,
+    asks="signs",
 )
 def p_stable(subject: Subject) -> Verdict:
     """On the harmonic oscillator q̈ = −ω²q no numerical solution grows or decays, for any step
@@ -180,6 +182,7 @@ def p_stable(subject: Subject) -> Verdict:
     "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.3",
     meaning="methods whose vector fields can carry the split oscillator",
     is_cheap=False,
+    asks="signs",
 )
 def i_stable(subject: Subject) -> Verdict:
     """On the harmonic oscillator q̈ = −ω²q all numerical solutions stay bounded for every step
@@ -221,6 +224,7 @@ def _growing(found: OscillatorStability) -> Verdict:
     kind="number",
     meaning=SEES_ALL,
     is_cheap=False,
+    asks="signs",
 )
 def ssp_coefficient(subject: Subject) -> Verdict:
     """The radius of absolute monotonicity: the largest r for which, with K = (A 0; bᵀ 0), no entry
@@ -279,6 +283,7 @@ def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
     kind="number",
     meaning=SEES_ALL,
     is_cheap=False,
+    asks="signs",
 )
 def real_stability(subject: Subject) -> Verdict:
     """The length of the real stability interval: the largest x with |R(z)| ≤ 1 on [−x, 0]."""
@@ -296,6 +301,7 @@ def real_stability(subject: Subject) -> Verdict:
     kind="number",
     meaning=SEES_ALL,
     is_cheap=False,
+    asks="signs",
 )
 def imaginary_stability(subject: Subject) -> Verdict:
     """The length of the imaginary stability interval: the largest y with |R(z)| ≤ 1 on [−iy,

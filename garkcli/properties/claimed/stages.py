@@ -74,6 +74,8 @@ def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
     "A. Prothero, A. Robinson, Math. Comp. 28 (1974); globally, for GARK "
     "methods: A. Sandu, M. Günther, SIAM J. Numer. Anal. 53 (2015)",
     meaning=SEES_ALL,
+    asks="equations",
+    noted=(True, "stiffly accurate"),
 )
 def stiffly_accurate(subject: Subject) -> Verdict:
     """A stage value is the new value: for one stage i of one method l, a_ij^{l,m} = b_j^{m} for
@@ -100,7 +102,12 @@ def _missed(tableau: Tableau) -> Reason:
     return Reason("{}, {}", of_entry, of_weight)
 
 
-@claimed("J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980)", meaning=SEES_ALL)
+@claimed(
+    "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6 (1980)",
+    meaning=SEES_ALL,
+    asks="equations",
+    noted=(True, "first same as last"),
+)
 def fsal(subject: Subject) -> Verdict:
     """The first stage value is the old value and the last one the new value (first same as last):
     its row is zero, and the row of the last the weights, for all vector fields, in each method.
@@ -120,7 +127,11 @@ def fsal(subject: Subject) -> Verdict:
     return Verdict(True)
 
 
-@claimed("E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, section V.2")
+@claimed(
+    "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, section V.2",
+    asks="equations",
+    noted=(True, "symmetric"),
+)
 def symmetric(subject: Subject) -> Verdict:
     """The method is its own adjoint, the inverse of the step with −h: renumbering the stages of
     each method, the same for all blocks, turns A^{l,m} into 𝟙 (b^{m})ᵀ − A^{l,m} and keeps the
@@ -174,7 +185,9 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
 
 @claimed(
     "G. Dahlquist, R. Jeltsch, TRITA-NA-7904 (1979); W. H. Hundsdorfer, M. N. Spijker, "
-    "BIT 21 (1981)"
+    "BIT 21 (1981)",
+    asks="equations",
+    noted=(True, "reducible (gark convert --to reduced)"),
 )
 def reducible(subject: Subject) -> Verdict:
     """Fewer stages give the same step, embedded weights and dense output. A stage on which no
@@ -207,7 +220,7 @@ def _names(further: Further) -> str:
     return " and ".join(names if further.dense is None else [*names, "weights of dense output"])
 
 
-@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.15", kind="count")
+@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.15", kind="count", asks="equations")
 def stage_order(subject: Subject) -> Verdict:
     """The largest q for which B^{l}(q) and C^{l,m}(q) hold for all l and m whose block exists:
     quadrature and stage values of the same order q. For one colour l: for that l and all m. The
@@ -233,6 +246,7 @@ def _by_colour(subject: Subject, found: Sequence[int]) -> Reason:
     "D. I. Ketcheson, B. Seibold, D. Shirokoff, D. Zhou, DIRK schemes with high weak stage order "
     "(2020), definition 2; for several colours: docs/stiff-problems.md",
     kind="count",
+    asks="equations",
 )
 def weak_stage_order(subject: Subject) -> Verdict:
     """The largest q for which b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) − (c^{p})^k / k) = 0
@@ -252,7 +266,11 @@ def weak_stage_order(subject: Subject) -> Verdict:
     return Verdict(least, _by_colour(subject, found), is_at_least=least >= subject.limit)
 
 
-@claimed("J. C. Butcher, Numerical Methods for ODEs, section 23")
+@claimed(
+    "J. C. Butcher, Numerical Methods for ODEs, section 23",
+    asks="signs",
+    noted=(False, "nodes outside [0, 1]"),
+)
 def nodes_in_unit_interval(subject: Subject) -> Verdict:
     """All nodes c_i^{l} lie in [0, 1]: nothing is evaluated outside of the step."""
     for l, colour in enumerate(subject.tableau.colours):
@@ -265,7 +283,11 @@ def nodes_in_unit_interval(subject: Subject) -> Verdict:
     return Verdict(True)
 
 
-@claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.12")
+@claimed(
+    "E. Hairer, G. Wanner, Solving ODEs II, section IV.12",
+    asks="signs",
+    noted=(False, "not all weights positive"),
+)
 def positive_weights(subject: Subject) -> Verdict:
     """All weights b_i^{l} are positive. In the stage algebra of a family the quadratic
     form f ↦ b^{l}(f²) is positive definite.
@@ -291,6 +313,8 @@ def positive_weights(subject: Subject) -> Verdict:
     "K. Burrage, J. C. Butcher, SIAM J. Numer. Anal. 16 (1979); for GARK methods: "
     "A. Sandu, M. Günther, SIAM J. Numer. Anal. 53 (2015)",
     meaning=SEES_ALL,
+    asks="signs",
+    noted=(True, "algebraically stable"),
 )
 def algebraically_stable(subject: Subject) -> Verdict:
     """No weight is negative, and the matrix M with the blocks B^{l} A^{l,m} + (A^{m,l})ᵀ B^{m} −
