@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue figures docs paper browser page tried links man walk release-check floors format clean known
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue snapshots figures docs paper browser page tried links man walk release-check floors format clean known
 
 help: ## this list
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 16
@@ -78,6 +78,9 @@ mutants: $(READY) ## small changes in the mathematical rooms, and which of them 
 
 catalogue: $(READY) ## make the index of the catalogue anew, and the copies in methods/
 	$(BIN)/python -m garkcli.catalogue
+
+snapshots: catalogue ## write every recorded text anew: pages, sessions, snapshots, the man page; read the difference
+	GARK_UPDATE_SNAPSHOTS=1 $(BIN)/python -m pytest $$(grep -rlE "GARK_UPDATE_SNAPSHOTS|IS_RENEWED|assert_recorded" tests --include="test_*.py")
 
 known: $(READY) ## make the derivatives of built-in problems anew
 	$(BIN)/python -m garkcli.problems

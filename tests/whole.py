@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TypeVar
+from zlib import crc32
 
 import pytest
 
 T = TypeVar("T")
 
 IS_WHOLE = os.environ.get("GARK_WHOLE") == "1"
+IS_RENEWED = os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1"
+"""Whether recorded texts are written anew: ``make snapshots``."""
 
 
 def sample(items: Sequence[T], every: int) -> list[T]:
     """Every so many of some items, from the first on; all of them in ``make whole``."""
     return list(items[:: 1 if IS_WHOLE else every])
+
+
+def sample_of_files(files: Sequence[Path], every: int) -> list[Path]:
+    """About one in so many files, by their names: a new file changes nothing for the others."""
+    return [x for x in files if IS_WHOLE or crc32(x.name.encode()) % every == 0]
 
 
 def at_most(few: int, all_: int) -> int:
@@ -43,3 +52,7 @@ def few_cases(items: Sequence[pytest.Item]) -> list[pytest.Item]:
 
 in_whole = pytest.mark.skipif(not IS_WHOLE, reason="it takes long: make whole")
 """For a test, or a case of one, whose kind shorter ones stand for."""
+renewed_in_whole = pytest.mark.skipif(
+    not (IS_WHOLE or IS_RENEWED), reason="it takes long: make whole"
+)
+"""The same for a test that writes what it compares."""

@@ -52,7 +52,7 @@ class Mended(Frozen):
         before: its text; empty if it is not UTF-8 or begins with a byte order mark.
         after: the text with the certain repairs.
         wrong: the number of tables with errors.
-        mended: the number of those that the repairs mend.
+        mended: the number of tables that the repairs mend.
     """
 
     source: str

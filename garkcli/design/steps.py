@@ -28,7 +28,7 @@ class Found(Frozen):
         order: the exact order of its method; None if a weight or denominator is zero, so that there
             is no method.
         accepted: indices of real roots within the ranges of the file and with the wanted stability.
-        unstable: indices of solutions that lack only the stability.
+        unstable: indices of roots that lack only the stability.
         open: indices of those whose stability is undecided, as their field is too large.
         embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
             None if it has none.

@@ -2,12 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 
 def read(name: str) -> dict[str, Any]:
     """Returns the entries of a file in ``data``, in their order."""
-    import tomllib  # paid for by who asks what something means
     from importlib.resources import files
 
-    return tomllib.loads(files(__name__).joinpath(f"data/{name}.toml").read_text(encoding="utf-8"))
+    return parsed(
+        f"data/{name}.toml", files(__name__).joinpath(f"data/{name}.toml").read_text("utf-8")
+    )
+
+
+def parsed(path: str, text: str) -> dict[str, Any]:
+    r"""Returns the entries of a text; an error names the file and the line, as for a doubled key.
+
+    >>> parsed("data/fields.toml", "a = 1\na = 2\n")
+    Traceback (most recent call last):
+        ...
+    ValueError: data/fields.toml, 'a = 2': Cannot overwrite a value (at line 2, column 6)
+    """
+    import tomllib  # paid for by who asks what something means
+
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        at = re.search(r"at line (\d+)", str(error))
+        line = text.splitlines()[int(at[1]) - 1] if at else ""
+        raise ValueError(f"{path}, {line!r}: {error}") from None

@@ -353,7 +353,10 @@ class ConstructionText(Content):
 
 
 class BlockRule(Frozen):
-    """The rule for the block A^{l,m}, and its degree if given; colours are counted from 0."""
+    """The rule for the block A^{l,m} of the file, and its degree if given.
+
+    Colours are the methods of the file, counted from 0; a partitioned tableau has others.
+    """
 
     l: int
     m: int

@@ -19,7 +19,7 @@ from garkcli.problems.builtin import problem
 from garkcli.stepping.integrator import StepFailed
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
-from tests.whole import IS_WHOLE, in_whole, sample
+from tests.whole import IS_WHOLE, in_whole, renewed_in_whole, sample
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "stiff-problems.md"
 DATA = PAGE.parents[1] / "garkcli" / "catalogue" / "data" / "dirk"
@@ -125,7 +125,7 @@ def row(name: str) -> list[str]:
     return [name, *numbers, *(shown(name, *test) for test in TESTS)]
 
 
-@in_whole
+@renewed_in_whole
 def test_the_page_is_measured() -> None:
     """The table of docs/stiff-problems.md, cell by cell: some rows, in ``make whole`` all;
     GARK_UPDATE_SNAPSHOTS writes it.

@@ -14,6 +14,7 @@ from garkcli.glossary.key import KINDS as FILES
 from garkcli.glossary.key import keys_of
 from tests.cli.harness import ROOT
 from tests.docs.tables import IN_SECTIONS, fields_page, keys_table
+from tests.whole import renewed_in_whole
 
 BEGIN, END = "<!-- keys -->\n", "<!-- end of keys -->"
 FIELDS = "<!-- fields -->\n\n"
@@ -47,6 +48,7 @@ def test_keys_without_a_row_are_in_their_sections() -> None:
     assert {x for x in names if not re.search(rf"(?<![\w-]){x}(:|`|, |}})", text)} == set()
 
 
+@renewed_in_whole
 def test_the_page_of_fields_is_that_of_the_program() -> None:
     """docs/json-fields.md has every field of every report: where it is, and what it holds."""
     path = ROOT / "docs" / "json-fields.md"

@@ -16,7 +16,7 @@ from garkcli.cli.table import COMMANDS
 from tests.cli.harness import ROOT
 from tests.docs.blocks import pages
 from tests.docs.test_links import prose
-from tests.whole import sample
+from tests.whole import sample_of_files
 
 STYLE = ROOT / "docs" / "contributing" / "style.md"
 PACKAGE = ROOT / "garkcli"
@@ -79,7 +79,7 @@ def texts() -> Iterator[tuple[str, str]]:
     for path in sorted(DATA.glob("*.toml")):
         for number, text in enumerate(strings(tomllib.loads(path.read_text(encoding="utf-8")))):
             yield f"{path.name}, text {number}", plain(text)
-    for path in sample(sorted(PACKAGE.rglob("*.py")), 4):
+    for path in sample_of_files(sorted(PACKAGE.rglob("*.py")), 4):
         for line, text in sentences(path.read_text(encoding="utf-8")):
             yield f"{path.relative_to(ROOT)}:{line}", plain(text)
     for path in sorted(TEMPLATES.iterdir()):

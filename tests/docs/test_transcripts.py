@@ -9,7 +9,7 @@ import pytest
 
 from tests.docs.blocks import pages
 from tests.docs.transcripts import ROOT, agrees, brought_up_to_date, prepare, run, steps
-from tests.whole import IS_WHOLE
+from tests.whole import IS_RENEWED, IS_WHOLE
 
 EMPTY = (
     "README",
@@ -33,7 +33,6 @@ LONG = (
 """Words of commands that take long: they are run in ``make whole``, and where pages
 are renewed.
 """
-IS_RENEWED = os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1"
 
 
 def has_a_session(page: Path) -> bool:
@@ -88,3 +87,13 @@ def test_the_comparison_can_fail() -> None:
     assert agrees("a\n...", ["a"])
     assert not agrees("a\n...\nd", ["a", "b", "c"])
     assert not agrees("a", ["a", "b"])
+
+
+def test_renewed_sessions_keep_the_lines_that_they_show() -> None:
+    """A new line above the last one that is shown is shown too; what cannot be told is refused."""
+    assert brought_up_to_date("a\nb\n...", ["a", "x", "b", "c"]) == "a\nx\nb\n..."
+    assert brought_up_to_date("a\nb\n...", ["a", "b", "c"]) == "a\nb\n..."
+    assert brought_up_to_date("a", ["b", "c"]) == "b\nc"
+    for shown in ("a\nb\n...", "a\n...\nd"):
+        with pytest.raises(AssertionError, match="mend it by hand"):
+            brought_up_to_date(shown, ["a", "x", "c"])

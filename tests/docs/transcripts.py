@@ -96,16 +96,23 @@ def agrees(shown: str, lines: list[str]) -> bool:
 
 
 def brought_up_to_date(shown: str, lines: list[str]) -> str:
-    """The text that a page should show: all lines, or as many as stood before a ``...`` at its end.
+    """The text that a page should show: all lines, or those up to the last one that stood before a
+    ``...`` at its end.
 
-    Texts with ``...`` elsewhere are for a person to mend.
+    Raises AssertionError if that one has changed, or if lines are left out elsewhere.
     """
     old = shown.splitlines()
-    if agrees(shown, lines) or "..." in [line.strip() for line in old[:-1]]:
+    if agrees(shown, lines):
         return shown
-    if old and old[-1].strip() == "...":
-        return "\n".join([*lines[: len(old) - 1], "..."])
-    return "\n".join(lines)
+    *before, end = [line.rstrip() for line in old] or [""]
+    if "..." not in (x.strip() for x in old):
+        return "\n".join(lines)
+    new = [line.rstrip() for line in lines]
+    is_cut_at_its_end = end.strip() == "..." and "..." not in map(str.strip, before)
+    at = [k for k, line in enumerate(new) if is_cut_at_its_end and line == before[-1]]
+    assert at, "mend it by hand, it shows\n\n" + "\n".join(lines)
+    last = min(at, key=lambda k: abs(k + 1 - len(before)))
+    return "\n".join([*lines[: last + 1], "..."])
 
 
 def prepare(folder: Path) -> None:
