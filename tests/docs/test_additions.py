@@ -1,4 +1,4 @@
-"""The five most likely additions, made in a copy of the package as CONTRIBUTING.md says: nothing
+"""The six most likely additions, made in a copy of the package as CONTRIBUTING.md says: nothing
 besides is touched, and every command has them.
 """
 
@@ -195,3 +195,32 @@ def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
     checked, told = copy.gark("check m.yaml --format names", "check --help")
     assert checked == "file m.yaml\n"
     assert "names" in told
+
+
+@in_whole
+def test_a_warning_is_an_entry_and_a_line(copy: Copy) -> None:
+    """Every format, the page and the explanation have it; nothing fails."""
+    assert "`garkcli/check/findings.py`" in row("warning about a method file")
+    copy.insert(
+        "garkcli/glossary/data/findings.toml",
+        "[audit.order]",
+        '[check.four-stages]\ntext = "The method has four stages."\ncure = "Take three."\n\n',
+    )
+    copy.insert(
+        "garkcli/check/findings.py",
+        "    for text in filter(is_lost,",
+        "    if outcome.analysis and len(outcome.analysis.tableau.colours[0].b) == 4:\n"
+        '        yield _warning("four-stages", "there are four stages")\n',
+    )
+    formats = ("text", "json", "sarif", "junit", "github", "markdown", "latex")
+    told = copy.gark(
+        *(f"check m.yaml --format {x}" for x in formats),
+        *("check m.yaml m.yaml", "check m.yaml m.yaml --format markdown", "explain four-stages"),
+        "report m.yaml -o page.html",
+    )
+    page = (copy.folder / "page.html").read_text(encoding="utf-8")
+    for text in (*told[:-2], page):
+        assert "four-stages" in text
+        assert "there are four stages" in text
+        assert "take three" in text
+    assert "Take three." in told[-2]
