@@ -10,9 +10,8 @@ def read(name: str) -> dict[str, Any]:
     """Returns the entries of a file in ``data``, in their order."""
     from importlib.resources import files
 
-    return parsed(
-        f"data/{name}.toml", files(__name__).joinpath(f"data/{name}.toml").read_text("utf-8")
-    )
+    path = f"data/{name}.toml"
+    return parsed(path, files(__name__).joinpath(path).read_text(encoding="utf-8"))
 
 
 def parsed(path: str, text: str) -> dict[str, Any]:
