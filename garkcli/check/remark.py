@@ -94,7 +94,7 @@ def remark_on(
     # the method that was found is the nearest; the one that was meant may be further off, but not
     # by more than a unit of the last place
     off = min(2 * best.off, max(best.off, unit))
-    least = max(off, tolerance + best.off if tolerance else ZERO)
+    least = max(off, (tolerance or fmpq(0)) + best.off)
     exponent = enough(least, order, lambda t: derived(meant(tableau, t), of))
     return None if exponent is None else RoundingHint(order, of, exponent)
 
