@@ -93,8 +93,8 @@ def remark_on(
     unit = max(own.search.box.radii) / (1 if is_short else SLACK)
     # the method that was found is the nearest; the one that was meant may be further off, but not
     # by more than a unit of the last place
-    off = min(2 * best.off, max(best.off, unit))
-    least = max(off, (tolerance or fmpq(0)) + best.off)
+    likely = min(2 * best.off, max(best.off, unit))
+    least = max(likely, (tolerance or fmpq(0)) + best.off)
     exponent = enough(least, order, lambda t: derived(meant(tableau, t), of))
     return None if exponent is None else RoundingHint(order, of, exponent)
 
