@@ -341,7 +341,7 @@ class _Latex(PlainText):
         return f"{sign}\\frac{{{numerator}}}{{{value.q}}}"
 
     def decimal(self, literal: Literal) -> str:
-        # the text is that of the digits alone where a minus stands before them
+        # a literal behind a minus has its digits alone as text
         sign = "-" if literal.value < 0 and not literal.text.startswith("-") else ""
         return sign + decimal_latex(literal.text)
 

@@ -34,7 +34,7 @@ class NoStep(Exception):
         self.looks_like = looks_like
 
 
-class Slope(Frozen):
+class StageSlope(Frozen):
     """An evaluation of f: its name in polynomials, the callee and its arguments."""
 
     name: str
@@ -67,7 +67,7 @@ def terms_of(value: Value | None) -> Terms | None:
 
 
 def step_in(
-    slopes: Sequence[Slope],
+    slopes: Sequence[StageSlope],
     values: Mapping[str, Value],
     returned: Sequence[str],
     counters: Sequence[str],
@@ -83,15 +83,15 @@ def step_in(
     Raises:
         NoStep: there is none.
     """
-    return _Step(slopes, values, returned, counters).roles()
+    return _FollowedStep(slopes, values, returned, counters).roles()
 
 
-class _Step:
+class _FollowedStep:
     """The parts of a step."""
 
     def __init__(
         self,
-        slopes: Sequence[Slope],
+        slopes: Sequence[StageSlope],
         values: Mapping[str, Value],
         returned: Sequence[str],
         counters: Sequence[str],
@@ -324,7 +324,7 @@ class _Step:
         return rows[0]
 
     def _is_bad(
-        self, form: Terms | None, slope: Slope, components: Mapping[str, _Component]
+        self, form: Terms | None, slope: StageSlope, components: Mapping[str, _Component]
     ) -> bool:
         """Whether an argument is unknown, and differs from that of other evaluations; a position
         whose derivative is a velocity has no slopes of its own.

@@ -26,7 +26,7 @@ from garkcli.sources.evaluate import (
 )
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
-from garkcli.sources.stages import NEAR, NoStep, Roles, Slope, step_in, terms_of
+from garkcli.sources.stages import NEAR, NoStep, Roles, StageSlope, step_in, terms_of
 from garkcli.sources.values import (
     NULL,
     ONE,
@@ -86,7 +86,7 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     for symbol, is_inlined in modes:
         own = Space(space)
         own.update({symbol: Form({(symbol,): ONE})} if symbol else {})
-        reader = _Reader(own, like, is_inlined)
+        reader = _StepReader(own, like, is_inlined)
         try:
             if is_function:
                 return [reader.by_every_way(body)]
@@ -126,7 +126,7 @@ def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     return {"drifts": Array([*drifts]), "kicks": Array([*kicks])}
 
 
-class _Reader:
+class _StepReader:
     """Reads the steps of statements.
 
     Args:
@@ -351,7 +351,7 @@ class Follower(Evaluator):
         self._f = max(callees, key=callees.count, default=None)
         self._place = _place_changed(self._f, self._way)
         self._has_step_inside = False
-        self._slopes: list[Slope] = []
+        self._slopes: list[StageSlope] = []
         self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
@@ -675,7 +675,7 @@ class Follower(Evaluator):
         if not any(form and any(form) for form in forms):
             return self.unknown("a call")
         slope = f"slope {len(self._slopes)}"
-        self._slopes.append(Slope(slope, callee, forms))
+        self._slopes.append(StageSlope(slope, callee, forms))
         return Form({(slope,): ONE})
 
     def negated(self, value: Value) -> Value:

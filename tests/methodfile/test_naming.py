@@ -8,6 +8,7 @@ import sys
 from collections.abc import Collection
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -252,9 +253,9 @@ def test_many_missing_names_cost_little(monkeypatch: pytest.MonkeyPatch) -> None
     compared: list[int] = []
     search = difflib.get_close_matches
 
-    def counting(word: str, known: Collection[str], n: int = 3) -> list[str]:
+    def counting(word: str, known: Collection[str], **limits: Any) -> list[str]:
         compared.append(len(known))
-        return search(word, known, n)
+        return search(word, known, **limits)
 
     monkeypatch.setattr(difflib, "get_close_matches", counting)
     words = ["metod", *(f"method-{number}.yaml" for number in range(1000))]

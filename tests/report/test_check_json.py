@@ -183,7 +183,7 @@ def test_what_the_digits_say_is_in_the_report(tmp_path: Path) -> None:
     """The line to add, or the entry that is off, with the order that the method would have."""
     found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\n")
     assert (found["exact"], found["order"]) == (True, 1)
-    line = "tolerance: 1e-15"
+    line = "tolerance: 1e-16"
     assert found["remark"] == {"of": "order", "order": 2, "line": line, "repairs": []}
     off = "[[0.2500000000, -0.0386751346], [0.5386761346, 0.2500000000]]"
     found = one(tmp_path, f"A: {off}\nb: [0.5, 0.5]\n")
