@@ -227,6 +227,9 @@ def blame_of(
     for block in in_every:
         with_block = [x for x in of_order if block in _blocks_in(tableau, x.tree)]
         share[block] = sum(x.tree in failed for x in with_block) / len(with_block)
+    found = repairs(method, missed, failing) if known is None else known
+    # a row that then sums to its node says more than an entry that was zero
+    likely_first = sorted(found, key=lambda x: (not _fits_node(method, x), not x.old))
     most = max(share.values(), default=0.0)
     best = [block for block in in_every if share[block] == most]
     culprit = best[0] if len(best) == 1 else None
@@ -238,7 +241,7 @@ def blame_of(
         in_none=tuple(in_none),
         culprit=culprit,
         only_coupling=all(condition.is_coupling for condition in failing),
-        repairs=tuple(repairs(method, missed, failing)) if known is None else known,
+        repairs=tuple(likely_first),
         of=missed.of,
         names=tuple(colour.name for colour in tableau.colours),
     )

@@ -170,6 +170,28 @@ def test_a_claim_hides_no_wrong_entry(claim: str) -> None:
     assert [(x.old, x.new) for x in wrong.repairs] == [(fmpq(1567, 10**4), fmpq(1667, 10**4))]
 
 
+ARS_232 = """parameters: {g: 1 - sqrt(2)/2, d: -2*sqrt(2)/3}
+ark:
+  c: [0, g, 1]
+  A: [[[], [g], [d, 1 - d]], [[0], [0, g], [0, 1 - g, g]]]
+  b: [0, 1 - g, g]
+expect: {order: 2}
+"""
+
+
+def test_entries_that_mend_a_row_come_first() -> None:
+    """The implicit matrix of ARS(2,3,2) has √2/3 for √2/2: of all entries that would restore the
+    order, the one that mends the sum of its row too is named first.
+    """
+    assert checked(ARS_232).ok
+    wrong = checked(ARS_232.replace("[0, 1 - g, g]]]", "[0, sqrt(2)/3, g]]]")).blame
+    assert wrong is not None
+    assert len(wrong.repairs) > 3
+    first = wrong.repairs[0]
+    assert (first.m, first.i, first.j) == (1, 2, 1)
+    assert str(first.new) == str(checked(ARS_232).analysis.tableau.blocks[0, 1][2][1])
+
+
 NAMES = ["forward-euler", "midpoint", "heun", "kutta", "rk4", "imex-ssp2-222", "theta-23"]
 PUBLISHED = [
     *(*NAMES, "backward-euler", "bogacki-shampine-3"),
