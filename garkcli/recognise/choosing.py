@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
+from typing import TypeAlias
 
 from garkcli.frozen import replace
 from garkcli.recognise.forms import of_velocities, other_readings
-from garkcli.recognise.given import VALUE, Given, Group
+from garkcli.recognise.given import VALUE, DeclaredOrder, Given, Group
 from garkcli.recognise.readings import (
     ENOUGH,
     ENOUGH_FOR_DOUBT,
@@ -18,6 +19,8 @@ from garkcli.recognise.readings import (
     with_beside,
 )
 
+Fellows: TypeAlias = Mapping[int, Set[int]]
+NO_FELLOWS: Fellows = {}
 MOST_ARRAYS = 120
 """The most arrays of a scope that are searched."""
 FEWEST_FRACTIONS = 2
@@ -28,11 +31,12 @@ NEAR = 100
 """Equal numbers within so many lines are one method."""
 
 
-def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:
+def readings_of(groups: Sequence[Group], fellows: Fellows = NO_FELLOWS) -> Iterator[Reading]:
     """Every reading for which something speaks, scope by scope; inner ones come first.
 
     Args:
         groups: each behind those that are in it.
+        fellows: of each array of tables that are read, all arrays of these, by their ``id``.
     """
     left: dict[int, list[Given]] = {}
     seen: dict[object, Group] = {}
@@ -45,7 +49,7 @@ def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:
             inside.setdefault(around, set()).update(within)
         arrays = _unlike([*group.arrays, *left.pop(own, ())])
         used: set[int] = set()
-        for each in _of_group(replace(group, arrays=arrays), used):
+        for each in _of_group(replace(group, arrays=arrays), used, fellows):
             rows = (x[..., VALUE].tobytes() for x in each.rows.values())
             # single numbers of another scope are those of another function
             key = each.used[0].is_made and group.line, each.form, *rows
@@ -67,20 +71,22 @@ def _unlike(arrays: Sequence[Given]) -> list[Given]:
     return list(found.values())
 
 
-def _of_group(group: Group, used: set[int]) -> Iterator[Reading]:
+def _of_group(group: Group, used: set[int], fellows: Fellows) -> Iterator[Reading]:
     """The readings of a scope: those of its records first, then of all that is left."""
     records: dict[str, list[Given]] = {}
     for x in group.arrays:
         records.setdefault(x.owner, []).append(x)
     for owner, arrays in records.items():
         if owner and 2 <= len(arrays) < len(group.arrays):
-            yield from _best(group, arrays, used)
+            yield from _best(group, arrays, used, fellows)
     rest = [x for x in group.arrays if id(x) not in used]
     if rest:
-        yield from _best(group, rest, used)
+        yield from _best(group, rest, used, fellows)
 
 
-def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Reading]:
+def _best(
+    group: Group, arrays: Sequence[Given], used: set[int], fellows: Fellows
+) -> Iterator[Reading]:
     """The readings of some arrays, best first; each array is the matrix of one alone."""
     arrays = arrays[:MOST_ARRAYS]
     if sum(x.fractions for x in arrays) < FEWEST_FRACTIONS:
@@ -107,18 +113,32 @@ def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Rea
             continue
         each = replace(each, bits=bits, group=group, declared=_declared(group, each))
         if each.form == "rk":
-            each = with_beside(each, arrays)
+            own_ids = frozenset(map(id, each.used))
+            beside = [x for x in arrays if not own_ids.isdisjoint(fellows.get(id(x), own_ids))]
+            each = with_beside(each, beside)
         ids = {id(x) for x in (*each.used, *of_velocities(each, arrays))}
         taken |= ids
         used |= ids
         yield each
 
 
-def _declared(group: Group, reading: Reading) -> int | None:
-    """The order that is declared beside a reading: in its record, or in its scope."""
+def _declared(group: Group, reading: Reading) -> DeclaredOrder | None:
+    """The order that is declared beside a reading: in its record, or in its scope, unless its name
+    begins like those of other arrays.
+    """
     owner = reading.used[0].owner
     for wanted in dict.fromkeys([owner, ""]):
-        orders = {order for name, order in group.orders if name == wanted}
-        if len(orders) == 1:
-            return orders.pop()
+        declared = [x for x in group.orders if x.owner == wanted]
+        declared = [x for x in declared if not _is_of_others(x.prefix, group, reading)]
+        if len({x.order for x in declared}) == 1:
+            return declared[0]
     return None
+
+
+def _is_of_others(prefix: str, group: Group, reading: Reading) -> bool:
+    """Whether other arrays of the scope have a prefix, and none of the reading."""
+
+    def have_it(arrays: Sequence[Given]) -> bool:
+        return any(x.name.rpartition(".")[2].lower().startswith(prefix) for x in arrays)
+
+    return bool(prefix) and have_it(group.arrays) and not have_it(reading.used)

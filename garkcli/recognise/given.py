@@ -47,6 +47,31 @@ ALL = Entry(1.0, 0.0, 0.0, 1)
 """A one that nobody wrote."""
 
 
+class DeclaredOrder(NamedTuple):
+    """A whole number that is called an order.
+
+    Attributes:
+        name: of it, behind that of the record that it is in.
+        order: its value.
+        at: where it is in the list of all numbers.
+    """
+
+    name: str
+    order: int
+    at: int
+
+    @property
+    def owner(self) -> str:
+        """The record that it is in; empty for none."""
+        return self.name.rpartition(".")[0]
+
+    @property
+    def prefix(self) -> str:
+        """The name of its table with ``_`` behind it, in ``rk4_order``; empty for none."""
+        stem, mark, _ = self.name.rpartition(".")[2].lower().rpartition("_")
+        return stem + mark
+
+
 class Given(Frozen, eq=False):
     """An array.
 
@@ -104,7 +129,7 @@ class Group(Frozen, eq=False):
         line: where it begins.
         title: what people call it.
         arrays: in it.
-        orders: whole numbers that are called orders, by the records that they are in.
+        orders: whole numbers that are called orders.
         speaks: whether words around it speak of methods.
         unknown: the names of arrays in it with entries that are not known.
     """
@@ -113,7 +138,7 @@ class Group(Frozen, eq=False):
     line: int
     title: str
     arrays: Sequence[Given]
-    orders: Sequence[tuple[str, int]] = ()
+    orders: Sequence[DeclaredOrder] = ()
     speaks: bool = False
     unknown: Sequence[str] = ()
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from garkcli.frozen import Frozen, replace
 from garkcli.recognise.evidence import Evidence, evidence, order_of, row_sums, sums_of_rows, unit_of
-from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given, Group
+from garkcli.recognise.given import LENGTH, UNIT, VALUE, DeclaredOrder, Given, Group
 from garkcli.recognise.hypotheses import Parts, is_lower, parts_of
 from garkcli.recognise.names import BETA, EMBEDDED, MATRIX, NODES, WEIGHTS
 from garkcli.recognise.vectors import Vector, fitted, nodes_in, sums_of, vectors_of
@@ -83,7 +83,7 @@ class Reading(Frozen, eq=False):
     idle: tuple[Given, ...] = ()
     names: int = 0
     group: Group | None = None
-    declared: int | None = None
+    declared: DeclaredOrder | None = None
     evidence: Evidence | None = None
     weights: Given | None = None
     matrix: object = None

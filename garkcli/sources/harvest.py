@@ -15,6 +15,7 @@ from garkcli.recognise.given import (
     MOST_BITS,
     NOTHING,
     PER_DIGIT,
+    DeclaredOrder,
     Entry,
     Given,
     Group,
@@ -160,12 +161,12 @@ class Gathered(Mutable):
     Attributes:
         arrays: of numbers.
         singles: single numbers, with their lines.
-        orders: integers called orders, with the names of their records.
+        orders: integers called orders.
     """
 
     arrays: list[Given] = field(default_factory=list)
     singles: dict[str, tuple[Entry, int]] = field(default_factory=dict)
-    orders: list[tuple[str, int]] = field(default_factory=list)
+    orders: list[DeclaredOrder] = field(default_factory=list)
 
 
 class Harvest:
@@ -186,10 +187,11 @@ class Harvest:
             numbers = {f"{name}.{key}": x for key, x in value.fields.items()}
         for key, x in numbers.items():
             if isinstance(x, Number) and x.is_given and _is_moderate(x):
-                found.singles[key] = self.entry(x), line
+                entry = self.entry(x)
+                found.singles[key] = entry, line
                 n = whole(x)
                 if n is not None and 1 <= n <= MOST_ORDER and _ORDER.search(key):
-                    found.orders.append((key.rpartition(".")[0], n))
+                    found.orders.append(DeclaredOrder(key, n, entry.at))
         if isinstance(value, Array | SourceRecord):
             found.arrays += self.arrays(name, value, line)
 

@@ -71,7 +71,12 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     linked: dict[int, float] = {}
     settled: set[int] = set()
     steps = {x.line for x in tables if x.is_read and STEP in x.notes}
-    for reading in readings_of(finder.groups):
+    holders: dict[int, frozenset[int]] = {}
+    for table, by_role in zip(tables, numbers_of_tables, strict=True):
+        order = finder.told.get(id(table), {}).get("order")
+        if table.is_read and table.order is not None and order is not None:
+            holders[id(order)] = frozenset().union(*by_role.values())
+    for reading in readings_of(finder.groups, source.fellows(read_off)):
         numbers = source.numbers(reading.used)
         about = [i for i, x in enumerate(numbers_of_tables) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].is_read]
@@ -100,6 +105,11 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
             if not _is_same(made_table, tables[i]):
                 rivals.setdefault(i, []).append(made_table)
         if is_new:
+            if reading.declared is not None:
+                # a declared order is of one table, in all its readings
+                holder = holders.setdefault(source.key(reading.declared.at), numbers)
+                is_own = not numbers.isdisjoint(holder)
+                made_table = made_table if is_own else replace(made_table, order=None)
             new.append(made_table)
             made_of.append({"": numbers})
             settled |= {*about, *_in_place_of(reading, tables)}
@@ -149,10 +159,11 @@ class _Source:
         name = next(filter(None, names), reading.used[0].name)
         how = reading.how or "A, b and c by rows"
         note = f"recognised by its numbers: {', '.join(x.name for x in reading.used)}"
-        empty = FoundTable(
-            self._source, reading.line, self._format, name, (), (), order=reading.declared, how=how
+        empty = FoundTable(self._source, reading.line, self._format, name, (), (), how=how)
+        order = None if reading.declared is None else reading.declared.order
+        empty = replace(
+            empty, order=order, notes=(note,), is_recognised=True, linked=reading.linked
         )
-        empty = replace(empty, notes=(note,), is_recognised=True, linked=reading.linked)
         empty = replace(empty, idle=tuple(x.name for x in reading.idle))
         if reading.form == "rk":
             kind = _kind(f"{owner} {group.title}")
@@ -208,7 +219,22 @@ class _Source:
         keys.
         """
         entries = (x for of in arrays for row in of.rows for x in row if x.value)
-        return frozenset(id(self._numbers[x.at]) for x in entries)
+        return frozenset(self.key(x.at) for x in entries)
+
+    def key(self, at: int) -> int:
+        """A key of the occurrence of a number."""
+        return id(self._numbers[at])
+
+    def fellows(self, tables: Iterable[_NumbersByRole]) -> dict[int, set[int]]:
+        """Of each array of tables, all arrays of these, by their ``id``."""
+        arrays = [(id(x), self.numbers([x])) for group in self._groups for x in group.arrays]
+        of: dict[int, set[int]] = {}
+        for table in tables:
+            numbers = frozenset().union(*table.values())
+            own = {x for x, each in arrays if not numbers.isdisjoint(each)}
+            for x in own:
+                of.setdefault(x, set()).update(own)
+        return of
 
     def of_row(self, reading: Reading, role: str) -> frozenset[int]:
         """A key of the occurrences of numbers in one row of a reading."""

@@ -215,3 +215,58 @@ def test_nodes_beside_registers_that_do_not_fit_are_told(tmp_path: Path) -> None
     assert (found.order.order, [x.code for x in found.findings]) == (3, ["stored", "idle"])
     (found,) = found_in(tmp_path, text + "    _C = [0, 1/3, 3/4]\n")
     assert [x for x in found.findings if x.level != "note"] == []
+
+
+KUTTA = """
+static const double rkf_a21 = 1.0/2.0;
+static const double rkf_a31 = -1.0, rkf_a32 = 2.0;
+static const double rkf_b[3] = {1.0/6, 2.0/3, 1.0/6}, rkf_c[3] = {0, 0.5, 1};
+"""
+"""Kutta's method of order 3, its matrix in single numbers; no order is declared."""
+CLASSIC = """
+static const double A[4][4] = {{0}, {0.5}, {0, 0.5}, {0, 0, 1}};
+static const double b[4] = {1.0/6, 1.0/3, 1.0/3, 1.0/6}, c[4] = {0, 0.5, 0.5, 1};
+static const int order = 4;
+"""
+PREFIXED = CLASSIC.replace("A[", "k_A[").replace("b[", "k_b[").replace(" c[", " k_c[")
+SINGLE = """
+static const double k_a21 = 0.5, k_a31 = 0, k_a32 = 0.5, k_a41 = 0, k_a42 = 0, k_a43 = 1;
+static const double k_b[4] = {1.0/6, 1.0/3, 1.0/3, 1.0/6}, k_c[4] = {0, 0.5, 0.5, 1};
+static const int k_order = 4;
+"""
+OF_ANOTHER = {
+    "its arrays have the prefix": PREFIXED.replace("int order", "int k_order"),
+    "its single numbers have the prefix": SINGLE,
+    "all names are without prefix": CLASSIC,
+}
+
+
+@pytest.mark.parametrize("which", OF_ANOTHER)
+def test_an_order_is_of_one_table(which: str, tmp_path: Path) -> None:
+    """The order of another table in the scope: neither a finding nor a claim of this one."""
+    path = tmp_path / "methods.c"
+    path.write_text(KUTTA + OF_ANOTHER[which], encoding="utf-8")
+    orders = {x.order.order: x.table.order for x in audited([str(path)]) if x.order}
+    assert orders == {3: None, 4: 4}
+    files = [x.method.text for x in collected([str(path)]) if x.method]
+    assert [x.count("order: 3") for x in files] == [1, 0]
+
+
+def test_embedded_weights_of_another_method(tmp_path: Path) -> None:
+    """A column of another matrix and its weights have the sum 1, and are of another table."""
+    heun = (
+        "static const double heun_A[2][2] = {{0}, {1}};\n"
+        "static const double heun_b[2] = {0.5, 0.5}, heun_c[2] = {0, 1};\n"
+    )
+    midpoint = (
+        "static const double mid_A[2][2] = {{0}, {0.5}};\n"
+        "static const double mid_b[2] = {0, 1}, mid_c[2] = {0, 0.5};\n"
+    )
+    low = "static const double rkf_bhat[3] = {0, 1, 0};\n"
+    for text, wanted in ((heun + KUTTA + midpoint, None), (heun + KUTTA + low + midpoint, 2)):
+        path = tmp_path / "methods.c"
+        path.write_text(text, encoding="utf-8")
+        found = list(audited([str(path)]))
+        assert [x.order.order for x in found if x.order] == [2, 3, 2]
+        (embedded,) = (x.embedded_order for x in found if x.order and x.order.order == 3)
+        assert (embedded and embedded.order) == wanted
