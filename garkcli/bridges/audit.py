@@ -266,7 +266,11 @@ def _of_rosenbrock(table: FoundTable) -> Audited:
     except MethodFileError as error:
         return _noted(table, error.faults[0].message)
     orders = (judged.order, judged.embedded_order, judged.timed)
-    return Audited(judged.table, judged.method, *orders, tuple(row_findings(judged)))
+    findings = tuple(row_findings(judged))
+    if not table.is_sure and not any(x.help for x in findings if x.code == "order"):
+        # names alone, and no number is known that makes it a method
+        return _noted(judged.table, UNRECOGNISED)
+    return Audited(judged.table, judged.method, *orders, findings)
 
 
 def findings_of(subject: TableSubject) -> tuple[Remark, ...]:

@@ -15,6 +15,7 @@ from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.bridges.subject import TableSubject, read
 from garkcli.check.findings import witness_text
+from garkcli.check.misprint import misprint_text, misprints
 from garkcli.constructions.rosenbrock import seen
 from garkcli.errors import Remark
 from garkcli.exact.display import decimal, to_ball, to_float
@@ -203,7 +204,8 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
     table, order = subject.table, subject.order
     declared = table.order
     if declared is not None and not order.is_limited and order.order != declared:
-        yield _differing("order", order, declared)
+        finding = _differing("order", order, declared)
+        yield replace(finding, help=_mended(subject)) if finding.code == "order" else finding
     timed = subject.timed
     if timed is not None and not timed.is_open and timed.order < order.order:
         by = "by c and d" if table.gamma is not None else "by its nodes"
@@ -219,6 +221,12 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
     elif embedded is not None and not embedded.order and not embedded.is_open:
         message = f"the embedded weights have order 0{_why(embedded)}"
         yield Remark(message, code="embedded-weights", claims={"embedded-order": '">= 1"'})
+
+
+def _mended(subject: RowSubject) -> str:
+    """The numbers of which one keeps the method from its declared order; empty for none."""
+    found = misprints(subject.method, subject.order, subject.table.order)
+    return str(misprint_text(found)) if found else ""
 
 
 def _differing(what: str, found: Judged, declared: int) -> Remark:

@@ -6,32 +6,47 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from flint import fmpq
 
+from garkcli.check.findings import value_text
 from garkcli.frozen import replace
 from garkcli.methodfile.expectations import highest_order
 from garkcli.order.meant import AnyTableau, meant, within_digits
 from garkcli.order.repair import GAIN, HIGHEST_LOW
+from garkcli.reason import Reason, joined
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.printed import Printed
-    from garkcli.order.deciding import AnyOrder
+    from garkcli.order.certificate import Witness
     from garkcli.order.suspects import SuspectedNumber
 
+MOST_TOLD = 3
+"""Most numbers in a text."""
 FINE = fmpq(1, 10**30)
 """The radius of numbers that are taken as exact."""
 SHORT = 10**6
 """Denominators of fractions that stand for a value known to ``FINE``."""
 
 
-def misprints(method: MethodFile, order: AnyOrder) -> tuple[SuspectedNumber, ...]:
+class FoundOrder(Protocol):
+    """The order of a method, and a tree whose condition fails if one is known."""
+
+    @property
+    def order(self) -> int: ...
+    @property
+    def witness(self) -> Witness | None: ...
+
+
+def misprints(
+    method: MethodFile, order: FoundOrder, declared: int | None = None
+) -> tuple[SuspectedNumber, ...]:
     """Returns the numbers of which one seems wrong: with another value the method has the claimed
-    order, or without a claim two orders more. Those that give the highest order come alone.
+    or declared order, or without one two orders more. Those that give the highest order come alone.
     """
-    claimed = highest_order(method.claims, ["order"])
+    claimed = declared or highest_order(method.claims, ["order"])
     goal = claimed or order.order + GAIN
     is_searched = order.witness is not None and order.order < goal
     if not is_searched or not (claimed or order.order <= HIGHEST_LOW):
@@ -51,6 +66,13 @@ def misprints(method: MethodFile, order: AnyOrder) -> tuple[SuspectedNumber, ...
     found = [x for x in suspected_numbers(rounded, goal, goal + 1) if x.order >= goal]
     best = max((x.order for x in found), default=0)
     return tuple(_shortened(x) for x in found if x.order == best)
+
+
+def misprint_text(numbers: Sequence[SuspectedNumber]) -> Reason:
+    """The numbers of which one seems wrong, with their right values and the order with these."""
+    values = [(value_text(x.new), value_text(x.old)) for x in numbers[:MOST_TOLD]]
+    mended = joined(", or ", [Reason("{} instead of {}", *pair) for pair in values])
+    return Reason(f"order {numbers[0].order} would hold with {{}}", mended)
 
 
 def _rounded(method: MethodFile) -> AnyTableau | None:

@@ -678,7 +678,7 @@ RECOVERED: Section[PrintDistance] = Section(
 def hints(o: Outcome) -> list[Reason]:
     """The culprits and repairs that failing conditions show, a sentence or two each."""
     if o.misprints:
-        from garkcli.report.hints import misprint_text  # few files
+        from garkcli.check.misprint import misprint_text  # few files
 
         return [misprint_text(o.misprints)]
     a = o.analysis

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from garkcli.check.findings import names_of, repair_text, value_text
+from garkcli.check.findings import names_of, repair_text
 from garkcli.check.remark import RoundingHint
 from garkcli.errors import counted
 from garkcli.exact.display import decimal
 from garkcli.order.blame import Blame
 from garkcli.order.repair import Repair
-from garkcli.order.suspects import SuspectedNumber
 from garkcli.reason import NO_REASON, Place, Reason, joined
 
 MOST_REPAIRS = 3
@@ -65,13 +64,6 @@ def _involved(
 
 def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
     return joined(", or ", [repair_text(x, names) for x in repairs[:MOST_REPAIRS]])
-
-
-def misprint_text(numbers: Sequence[SuspectedNumber]) -> Reason:
-    """The numbers of which one seems wrong, with their right values and the order with these."""
-    values = [(value_text(x.new), value_text(x.old)) for x in numbers[:MOST_REPAIRS]]
-    mended = joined(", or ", [Reason("{} instead of {}", *pair) for pair in values])
-    return Reason(f"order {numbers[0].order} would hold with {{}}", mended)
 
 
 def remark_text(found: RoundingHint, names: Sequence[str], tolerance: fmpq | None) -> Reason:

@@ -43,6 +43,7 @@ from garkcli.sources.signatures import (
     PRINTED,
     SIGNATURES,
     Signature,
+    kind_of,
     other_kind,
 )
 from garkcli.sources.stages import NoStep
@@ -223,7 +224,8 @@ class TableFinder(Harvester):
         if stored is not None:
             self._of_kpp(stored, scope)
             return
-        if self._count() == count and self._of_rosenbrock(scope, space):
+        says_rosenbrock = kind_of(scope.title) == "Rosenbrock"
+        if self._count() == count and self._of_rosenbrock(scope, space, says_rosenbrock):
             return
         rows = [x for x in self.rows if (role_of(x.name) or "")[1:] == ("A",)]
         values = {x.name: self.harvest.value(x) for x in rows} | dict(space)
@@ -239,7 +241,7 @@ class TableFinder(Harvester):
             arrays = whole_families({name: self.harvest.value(x) for name, x in named.items()})
             self._made = set(map(id, arrays.values()))
             self._of_names(arrays, {name: x.line for name, x in named.items()}, scope)
-        if self._count() > count:
+        if self._count() > count or self._of_rosenbrock(scope, space, is_told=True):
             return
         if scope is not self._scopes[-1] or scope.kind == "entry":
             self._told_lost(scope, space)
@@ -264,8 +266,10 @@ class TableFinder(Harvester):
             if lost is not None and lost.reason != "never assigned" and is_written_out:
                 self._unread(scope.title, line, f"{lost.reason}, line {lost.line}, is not known")
 
-    def _of_rosenbrock(self, scope: ir.Scope, space: Space) -> bool:
-        """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method."""
+    def _of_rosenbrock(self, scope: ir.Scope, space: Space, is_told: bool) -> bool:
+        """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method, with a
+        misprint perhaps; one in printed form then has to be told by more than names of arrays.
+        """
         kinds: tuple[dict[str, Value], ...] = ({}, {}, {})
         lists = {x.name: self.harvest.value(x) for x in self.made if not x.is_matrix}
         blocks = {x.name: self.harvest.value(x) for x in self.made if x.is_matrix}
@@ -276,9 +280,16 @@ class TableFinder(Harvester):
             kind = 2 if isinstance(value, Number) else int(not is_matrix(value))
             kinds[kind].setdefault(plain, value)
             kinds[kind].setdefault(plain.lower(), value)
-        roles, form = roles_by_names(*kinds)
+        matrices, vectors, numbers = kinds
+        roles, form = roles_by_names(matrices, vectors, numbers)
+        is_sure = bool(form) or kind_of(scope.title) == "Rosenbrock"
+        if not form:
+            roles, form = roles_by_names(matrices, vectors, numbers, is_told=True)
+            if form == "rosenbrock" and not is_told:
+                # its α and b may be a Runge–Kutta method
+                return False
         if form:
-            place = self._place(scope.title, scope.line)
+            place = self._place(scope.title, scope.line, is_sure=is_sure)
             self._meant.append(Meant(place, dict(roles), Signature([], form), "Rosenbrock"))
         return bool(form)
 

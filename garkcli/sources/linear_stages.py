@@ -130,28 +130,38 @@ _GAMMAS = ("gamma", "gam", "γ", "Gamma", "GAMMA", "GAM", "g")
 
 
 def roles_by_names(
-    matrices: Mapping[str, Value], vectors: Mapping[str, Value], numbers: Mapping[str, Value]
+    matrices: Mapping[str, Value],
+    vectors: Mapping[str, Value],
+    numbers: Mapping[str, Value],
+    is_told: bool = False,
 ) -> tuple[Mapping[str, Value], str]:
     """The roles of arrays with the letters of papers, and the form of the method: a, c, γ in stored
-    form, or α, γ in printed form. Empty unless they have order 2.
+    form, or α, γ in printed form. Empty unless they have order 2; a method that is told by more
+    than its arrays, and declares its order, may miss it by a misprint.
     """
     gamma = next((numbers[x] for x in _GAMMAS if x in numbers), None)
     A = matrices.get("a", matrices.get("alpha", matrices.get("α")))
     b = next((vectors[x] for x in ("b", "m", "w") if x in vectors), None)
     order = {x: numbers[x] for x in ("order",) if x in numbers}
+    is_told &= bool(order)
     G = matrices.get("gamma", matrices.get("γ"))
     if isinstance(A, Array) and isinstance(G, Array) and isinstance(b, Array):
-        roles = _as_printed(A, G, b, gamma)
+        roles = _as_printed(A, G, b, gamma, is_told)
         return ({**roles, **order}, "rosenbrock") if roles else ({}, "")
     C = matrices.get("c")
     if isinstance(A, Array) and isinstance(C, Array) and isinstance(gamma, Number):
-        roles = _as_stored(A, C, gamma, {**vectors, **({} if b is None else {"b": b})})
+        named = {**vectors, **({} if b is None else {"b": b})}
+        roles = _as_stored(A, C, gamma, named, is_told)
         return ({**roles, **order}, "transformed") if roles else ({}, "")
     return {}, ""
 
 
-def _as_printed(A: Array, G: Array, b: Array, gamma: Value | None) -> dict[str, Value]:
-    """A method from α, Γ and b, with the diagonal of Γ separate; empty unless it has order 2."""
+def _as_printed(
+    A: Array, G: Array, b: Array, gamma: Value | None, is_told: bool
+) -> dict[str, Value]:
+    """A method from α, Γ and b, with the diagonal of Γ separate; empty unless it has order 2, or is
+    told by more than its arrays.
+    """
     stages = len(b.items)
     low_A, low_G = (_triangle(_strict(x), stages) for x in (A, G))
     own = items_of(_diagonal(G))
@@ -167,7 +177,8 @@ def _as_printed(A: Array, G: Array, b: Array, gamma: Value | None) -> dict[str, 
     ]
     weights = [near(x) for x in b.items]
     order_2 = sum(x * y for x, y in zip(weights, sums, strict=True)) - 0.5
-    if abs(sum(weights) - 1) > CLOSE or abs(order_2) > CLOSE or not any(map(near, own)):
+    is_one = abs(sum(weights) - 1) < CLOSE and abs(order_2) < CLOSE
+    if not (is_one or is_told) or not any(map(near, own)):
         return {}
     rows_A, rows_G = (_rows(x, stages) for x in (low_A, low_G))
     for i, row in enumerate(rows_G):
@@ -181,9 +192,11 @@ def _rows(packed: Sequence[Value], stages: int) -> list[Array]:
     return [Array([*row, *[FILL] * (stages - len(row))]) for row in rows]
 
 
-def _as_stored(A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value]) -> dict[str, Value]:
+def _as_stored(
+    A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value], is_told: bool
+) -> dict[str, Value]:
     """A method from A, C and γ; without the last row of A and without weights the step is the last
-    stage value plus its increment. Empty unless it has order 2.
+    stage value plus its increment. Empty unless it has order 2, or is told by more than its arrays.
     """
     stages = max(len(A.items), len(C.items))
     low_A, low_C = (_triangle(x, stages) for x in (A, C))
@@ -205,7 +218,10 @@ def _as_stored(A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value]) 
         if abs(_dot(m, _solved(low_C, gamma.near, both)) - 0.5) < CLOSE:
             break
     else:
-        return {}
+        m, low_A = vectors.get("b", FILL), _triangle(A, stages)
+        rows = {len(items_of(x)) for x in (A, C, m)}
+        if not is_told or rows != {stages} or first_unknown(Array([A, C, m])) is not None:
+            return {}
     nodes = [_below(low_A, i, sums) for i in range(stages)]
     roles: dict[str, Value] = {"A": Array([*_rows(low_A, stages)]), "b": m, "gamma": gamma}
     roles["C"] = Array([*_rows(low_C, stages)])
@@ -351,7 +367,7 @@ def rosenbrock_table(
     stages = len(b)
     A = _matrix(texts.get("A"), stages, is_packed=form == "kpp")
     rows = {role: _row(texts.get(role), stages) for role in ("c", "d", "embedded", "error")}
-    table = replace(empty, A=((A,),), b=(b,), c=(rows["c"],), d=rows["d"], is_sure=True)
+    table = replace(empty, A=((A,),), b=(b,), c=(rows["c"],), d=rows["d"])
     if form == "rosenbrock":
         embedded = rows["embedded"]
         table = replace(table, gamma=_matrix(texts.get("gamma"), stages))

@@ -155,4 +155,9 @@ def other_kind(name: str) -> str:
     """
     if not MAKER.fullmatch(name):
         return ""
-    return next((kind for pattern, kind in OTHER_KINDS if pattern.search(name)), "")
+    return kind_of(name)
+
+
+def kind_of(title: str) -> str:
+    """The kind of other methods that a title names; empty for none."""
+    return next((kind for pattern, kind in OTHER_KINDS if pattern.search(title)), "")

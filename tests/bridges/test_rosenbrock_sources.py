@@ -239,3 +239,62 @@ def test_the_matrices_of_kpp_by_their_row_sums() -> None:
     assert found.order is not None
     assert (found.order.order, found.findings) == (2, ())
     assert not any(x.is_read for x in tables(SQUARE.replace("-2/g", "2/g"), "fortran"))
+
+
+ROS3P = """
+class {name}:
+    order = 3
+    gamma = 7.886751345948129e-01
+    A = [[0, 0, 0], [1.267949192431123, 0, 0], [1.267949192431123, 0, 0]]
+    C = [[0, 0, 0], [-1.607695154586736, 0, 0], [-3.464101615137755, -1.732050807568877, 0]]
+    m = [2.0, 5.773502691896258e-01, 4.226497308103742e-01]
+"""
+"""The stored form of ROS3P."""
+ROS2 = """
+class {name}:
+    order = 2
+    g = 1.707106781186547524
+    alpha = [[0, 0], [1, 0]]
+    gamma = [[g, 0], [-3.414213562373095049, g]]
+    b = [1 / 2, 1 / 2]
+"""
+MISPRINTED = {
+    "digits of C change places": (ROS3P, "1.607695154586736", "1.670695154586736"),
+    "a weight ten times too large": (ROS3P, "5.773502691896258e-01", "5.773502691896258"),
+    "a digit of γ in α and Γ": (ROS2, "-3.414213562373095049", "-3.514213562373095049"),
+}
+
+
+@pytest.mark.parametrize("title", ["ROS3", "Solver"])
+@pytest.mark.parametrize("what", MISPRINTED)
+def test_a_misprint_hides_no_method(what: str, title: str) -> None:
+    """The names and a declared order tell a method, and the number that would mend it is named."""
+    source, right, wrong = MISPRINTED[what]
+    text = source.format(name=title)
+    (table,) = tables(text, "python")
+    assert audit(table).findings == ()  # type: ignore[union-attr]
+    (table,) = tables(text.replace(right, wrong), "python")
+    found = audit(table)
+    assert found is not None
+    (finding,) = (x for x in found.findings if x.code == "order")
+    assert (finding.level, found.has_errors) == ("error", True)
+    declared = 3 if source is ROS3P else 2
+    assert f"order {declared} would hold with " in finding.help
+    assert wrong[:8] in finding.help
+
+
+def test_mathematics_has_a_veto() -> None:
+    """Two wrong signs, which no number mends: an error of a class called ROS3, and no table of
+    another one; without a declared order nothing is known to be wrong.
+    """
+    wrong = ROS3P.replace("-1.6", "1.6").replace("-1.7", "1.7")
+    (table,) = tables(wrong.format(name="ROS3"), "python")
+    found = audit(table)
+    assert found is not None
+    assert [(x.code, x.help) for x in found.findings] == [("order", "")]
+    (table,) = tables(wrong.format(name="Solver"), "python")
+    found = audit(table)
+    assert found is not None
+    assert [(x.code, x.level) for x in found.findings] == [("unread", "note")]
+    (table,) = tables(wrong.format(name="ROS3").replace("order = 3", ""), "python")
+    assert not table.is_read
