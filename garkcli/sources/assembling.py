@@ -51,6 +51,8 @@ Roles: TypeAlias = dict[str, Value]
 
 CLOSE = 0.01
 """Largest distance from 1 of row sums of combinations."""
+SMALL = 0.05
+"""Largest distance from 0 of the sum of differences of weights, misprints included."""
 FAR = 1
 """Largest distance from 1 of the sum of embedded weights, and from 0 of the sum of their
 differences, misprints included.
@@ -492,7 +494,10 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     """The table with embedded weights, from an array of weights or of an error with either sign; a
     further weight is for f at the end of the step.
     """
-    role = next((x for x in ("embedded", "error") if isinstance(roles.get(x), Array)), "")
+    given = [x for x in ("embedded", "error") if isinstance(roles.get(x), Array)]
+    # an error called d may be that of the dense output
+    are_two = len(given) > 1 and _is_difference(roles["embedded"])
+    role = given[-1 if are_two else 0] if given else ""
     if not role or first_unknown(roles[role]) is not None:
         return table
     ((A,),), (b,), (c,) = table.A, table.b, table.c
@@ -501,11 +506,11 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     if meant.maker:
         row += (ZERO,) * (len(b) - len(row))
     total = near(roles[role])
-    is_error = abs(total) < 0.05 or (role == "error" and meant.table.is_assembled)
+    is_error = _is_difference(roles[role]) or (role == "error" and meant.table.is_assembled)
     off = total if role == "error" else total - 1
     if not (meant.table.is_sure or meant.table.is_assembled or is_error) and abs(off) > FAR:
         # another array with that name
-        return table
+        return _without(table, role, f"the sum is {total:.3g}")
     if len(row) == len(b) + 1 and is_zero(row[-1]):
         row = row[:-1]
     elif len(row) == len(b) + 1:
@@ -514,7 +519,7 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     if len(row) != len(b):
         if meant.table.is_sure:
             raise Misshapen(f"{role} has {len(row)} entries, b has {len(b)}")
-        return table
+        return _without(table, role, f"{len(row)} entries for {len(b)} stages")
     if not is_error:
         return replace(table, embedded=(row,))
     if all(map(is_zero, row)):
@@ -527,6 +532,16 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
         # and b − b̂ in NDSolve and torchdiffeq
         return replace(table, embedded=(low,))
     return replace(table, embedded=(low,), turned=(high,))
+
+
+def _is_difference(row: Value) -> bool:
+    """Whether a row has the sum 0 of differences of weights, a misprint aside."""
+    return abs(near(row)) < SMALL
+
+
+def _without(table: FoundTable, role: str, why: str) -> FoundTable:
+    """The table with a note on an array that is not read."""
+    return replace(table, notes=(*table.notes, f"{BESIDE[role]} not read: {why}"))
 
 
 def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:

@@ -126,6 +126,9 @@ def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
 
 CLOSE = 1e-6
 """Residuals of conditions below this are evidence for a method."""
+_ERRORS = ("e", "err", "error")
+FAR = 1
+"""Largest sum of the differences of weights, misprints included."""
 _GAMMAS = ("gamma", "gam", "γ", "Gamma", "GAMMA", "GAM", "g")
 
 
@@ -228,6 +231,10 @@ def _as_stored(
     for role, name, known in (("c", "c", nodes), ("d", "d", sums)):
         row = _completed(vectors.get(name), known)
         roles |= {} if row is None else {role: row}
+    error = next((vectors[x] for x in _ERRORS if x in vectors), None)
+    if isinstance(error, Array) and len(error.items) == stages and is_written(error):
+        # m − m̂ has the sum 0 with these, a misprint aside
+        roles |= {"error": error} if abs(_dot(error, sums)) < FAR else {}
     return roles
 
 

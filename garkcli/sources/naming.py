@@ -45,10 +45,11 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
 }
 ROLES = {word: role for role, words in _WORDS.items() for word in words}
 """The role of each name; if several names have a role, the first one counts."""
-_PREFIX = re.compile(r"(?P<word>[AaBbCcEdw]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
+_PREFIX = re.compile(r"(?P<word>[AaBbCcEedw]|err|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
+_ESTIMATES = "|".join([*_WORDS["embedded"], *_WORDS["error"]])
 _SUFFIX = re.compile(
-    r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|w|bh|bhat|b_hat|bembed|b2|order"
-    r"|embedded_order|embedded|dense|nodes|weights|stages|fsal|name|[ab]_type)"
+    rf"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|w|order|{_ESTIMATES}"
+    r"|embedded_order|dense|nodes|weights|stages|fsal|name|[ab]_type)"
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""
@@ -105,8 +106,8 @@ def role_of(name: str) -> tuple[str, str] | None:
 
     >>> role_of("rk4_A"), role_of("b_heun"), role_of("bhat"), role_of("velocity")
     (('rk4', 'A'), ('heun', 'b'), ('', 'embedded'), None)
-    >>> role_of("rk4a")
-    ('rk4', 'A')
+    >>> role_of("rk4a"), role_of("dp_e"), role_of("dp_b_err")
+    (('rk4', 'A'), ('dp', 'error'), ('dp', 'error'))
     """
     # d_A is on the device
     plain = name[2:] if name.startswith("d_") and name[2:] in ROLES else name

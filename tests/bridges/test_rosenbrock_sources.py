@@ -298,3 +298,19 @@ def test_mathematics_has_a_veto() -> None:
     assert [(x.code, x.level) for x in found.findings] == [("unread", "note")]
     (table,) = tables(wrong.format(name="ROS3").replace("order = 3", ""), "python")
     assert not table.is_read
+
+
+@pytest.mark.parametrize("name", ["e", "err"])
+def test_the_estimate_of_a_stored_form(name: str) -> None:
+    """The difference of the weights of ROS3P and its embedded ones of order 2; a row with another
+    sum is no such difference.
+    """
+    text = ROS3P.format(name="Solver")
+    row = f"    {name} = [-0.113248654051871, -0.4226497308103742, 0.0]\n"
+    found = audit(tables(text + row, "python")[0])
+    assert found is not None
+    assert found.embedded_order is not None
+    assert (found.embedded_order.order, found.has_errors) == (2, False)
+    found = audit(tables(text + row.replace("-0.1", "-9.1"), "python")[0])
+    assert found is not None
+    assert (found.embedded_order, found.has_errors) == (None, False)
