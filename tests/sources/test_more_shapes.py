@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from types import ModuleType
 
 import pytest
@@ -323,11 +324,58 @@ def test_the_same_method_however_it_is_stored(language: ModuleType, text: str) -
 
 
 def test_loops_of_data_statements_make_no_zeros() -> None:
-    """Which entries ``data`` fills by loops is not followed: the table is told as unread."""
-    data = "data ((a(i, j), j = 1, i-1), i = 2, 3), b /1d0, 2*0.25d0, 2*0.1666666666666667d0, 0.6666666666666667d0/"
+    """Which entries ``data`` fills by loops with unknown ends is not followed: the table is told as
+    unread.
+    """
+    data = "data ((a(i, j), j = 1, i-1), i = 2, n), b /1d0, 2*0.25d0, 2*0.1666666666666667d0, 0.6666666666666667d0/"
     text = f"program p\nreal(8) :: A(3,3) = 0d0, b(3), c(3)\n{data}\nc = [0d0, 1d0, 0.5d0]\nend program\n"
     (table,) = fortran.find(text, "x.f90")
     assert (table.trouble, table.b) == ("an entry at an unknown place, line 3, is not known", ())
+
+
+@pytest.mark.parametrize(
+    "many",
+    [
+        "(a(2,j), j=1,999999999)",
+        "a(1:99999999999999999999999,1)",
+        "(((b(k), i=2,1), j=1,200), k=1,200)",
+    ],
+)
+def test_data_statements_without_end(many: str) -> None:
+    """More entries than a method has, or loops that fill none: not followed, and soon."""
+    text = (
+        f"program p\nreal(8) :: A(2,2) = 0d0, b(2)\ndata {many} / 1d0 /\nb = 0.5d0\nend program\n"
+    )
+    assert not any(x.b for x in fortran.find(text, "x.f90"))
+
+
+ENTRIES = {
+    "sets for single entries": "a(2,1) / 1d0 /, a(3, 1) / 0.25d0 /, a(3,2)/0.25d0/",
+    "a set for several entries": "a(2,1), a(3,1), a(3,2) / 1d0, 2*0.25d0 /",
+    "loops": "(a(2,j), j = 1, 2) / 1d0, 0d0 /, (a(3,j), j=1,2) / 2*0.25d0 /",
+    "nested loops": "((a(i, j), j = 1, i-1), i = 2, 3) / 1d0, 2*0.25d0 /",
+    "loops backwards": "((a(i, j), j = i-1, 1, -1), i = 3, 2, -1) / 2*0.25d0, 1d0 /",
+    "several entries in a loop": "(a(i,1), a(i,2), i = 2, 3) / 1d0, 0d0, 0.25d0, 0.25d0 /",
+    "rows": "a(2,:) / 1d0, 2*0d0 /, a(3,:2) / 2*0.25d0 /",
+    "a block": "a(2:3, 1:2) / 1d0, 0.25d0, 0d0, 0.25d0 /",
+}
+
+
+@pytest.mark.parametrize("how", ENTRIES)
+def test_entries_of_data_statements(how: str) -> None:
+    """SSP 3: entries by their indices, by loops, by slices."""
+    text = (
+        f"program p\nreal(8) :: A(3,3) = 0d0, b(3), c(3)\ndata {ENTRIES[how]}\n"
+        "b = [1d0/6, 1d0/6, 2d0/3]\nc = [0d0, 1d0, 0.5d0]\nend program\n"
+    )
+    (table,) = fortran.find(text, "x.f90")
+    ((A,),) = table.A
+    assert A is not None
+    assert [[float(Fraction(x)) for x in row] for row in A] == [[0] * 3, [1, 0, 0], [0.25, 0.25, 0]]
+    judged = audit(table)
+    assert judged is not None
+    assert judged.order is not None
+    assert judged.order.order == 3
 
 
 @pytest.mark.parametrize("part", ["A.bottomRows(1)", "A.row(2).head(2)", "A.coeffRef(2, 0) ="])

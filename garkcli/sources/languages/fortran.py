@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
+from itertools import islice, product
 from typing import TYPE_CHECKING
 
 from garkcli.frozen import replace
@@ -37,6 +38,10 @@ _FUNCTIONS = frozenset(
 _RESHAPE = ir.Name("reshape")
 _UNKNOWN = ir.Opaque("a data statement")
 _ONE = ir.Literal("1", is_whole=True)
+
+
+class _UnknownEntry(Exception):
+    """An index in a data statement is no known number."""
 
 
 class FortranLowering(Lowering):
@@ -146,8 +151,8 @@ class FortranLowering(Lowering):
         return tuple(extents)
 
     def _data_set(self, named: list[Node], values: Node, line: int) -> Iterator[ir.Statement]:
-        """``data a, x / 1.0, 3*0.0 /``: entries of arrays by columns; entries in loops, and of
-        arrays of unknown size, are unknown.
+        """``data a, x(1), (y(1, j), j = 1, 2) / 1.0, 3*0.0 /``: entries of arrays by columns;
+        those of arrays of unknown size, and at unknown indices, are unknown.
         """
         items: list[ir.Expr] = []
         value: ir.Expr
@@ -160,6 +165,12 @@ class FortranLowering(Lowering):
                 count = 1
         is_known, written = True, next(iter(items), _UNKNOWN)
         for node in named:
+            entries = None if self.is_a("name", node) else self._entries(node, len(items))
+            if is_known and entries is not None:
+                for entry, value in zip(entries, items, strict=False):
+                    yield ir.Assign(entry, value, line, is_real=True)
+                items = items[len(entries) :]
+                continue
             name = self.first_name(node)
             extents = self._extents.get(name, ())
             sizes = [self._number(x) or 0 for x in extents]
@@ -176,6 +187,57 @@ class FortranLowering(Lowering):
                 value = items[0]
             yield ir.Assign(target, value, line, is_real=True)
             items = items[count:]
+
+    def _entries(self, node: Node, most: int) -> list[ir.Expr] | None:
+        """The entries of an array in a data statement, or in a loop there; None if they are more,
+        or unknown.
+        """
+        before = dict(self._numbers)
+        try:
+            found = list(islice(self._each_entry(node), most + 1))
+        except _UnknownEntry:
+            return None
+        finally:
+            # without the counters
+            self._numbers = before
+        return found if len(found) <= most else None
+
+    def _each_entry(self, node: Node, levels: int = 2) -> Iterator[ir.Expr]:
+        inside = self.children(node)
+        if node.type == "call_expression" and len(inside) == 2:
+            name, given = self.name(inside[0]), self.children(inside[1])
+            sizes = [self._number(x) for x in self._extents.get(name, ())]
+            ends = [None if x else n for n, x in zip(sizes, self._lower.get(name, ()), strict=True)]
+            ends = ends if len(ends) == len(given) else [None] * len(given)
+            at = [*map(self._indices, given, ends)]
+            # the first index varies fastest
+            for backwards in product(*reversed(at)):
+                indices = tuple(ir.Literal(str(i), is_whole=True) for i in reversed(backwards))
+                yield ir.Index(ir.Name(name), self._from_one(name, indices))
+            return
+        control = self.children(inside[-1]) if inside else []
+        bounds = [self._number(x) for x in self.exprs(control[1:])]
+        bounds = [*bounds, 1] if len(bounds) == 2 else bounds
+        if node.type != "implied_do_loop_expression" or len(bounds) != 3 or not levels:
+            raise _UnknownEntry
+        first, last, by = bounds
+        if not by:
+            raise _UnknownEntry
+        for k in _range(first, last, by):
+            self._numbers[self.name(control[0])] = k
+            for each in inside[:-1]:
+                yield from self._each_entry(each, levels - 1)
+
+    def _indices(self, node: Node, size: int | None) -> range:
+        """The values of an index, or those of a slice, which may end at the size of the array."""
+        value = self.expr(node)
+        ends = (value.first, value.last) if isinstance(value, ir.Range) else (value, value)
+        # an array without a known size may begin at any index
+        first, last = (
+            default if x is None else self._number(x)
+            for x, default in zip(ends, (size and 1, size), strict=True)
+        )
+        return _range(first, last)
 
     def _loop(self, node: Node, inside: list[Node]) -> ir.Loop:
         for control in inside[0].named_children:
@@ -245,6 +307,13 @@ class FortranLowering(Lowering):
                 a, b = self._number(left), self._number(right)
                 return None if a is None or b is None else a + b if sign == "+" else a - b
         return None
+
+
+def _range(first: int | None, last: int | None, by: int = 1) -> range:
+    """The numbers from the first to the last one, few enough for the entries of a method."""
+    if first is None or last is None or abs(last - first) >= MAX_STAGES * abs(by):
+        raise _UnknownEntry
+    return range(first, last + (1 if by > 0 else -1), by)
 
 
 def _less(expr: ir.Expr, by: ir.Expr) -> ir.Expr:
