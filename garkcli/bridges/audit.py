@@ -26,6 +26,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.folders import no_one
 from garkcli.methodfile.printed import SLACK
+from garkcli.order.repair import Repair
 from garkcli.order.tolerance import within
 from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import FoundTable
@@ -390,22 +391,53 @@ def _witness(found: Judged, tableau: Tableau) -> str:
 
 
 def _culprit(subject: TableSubject, declared: int) -> str:
-    """The row that does not sum to its node, or the entry that restores the order."""
-    if len(subject.wrong_rows) == 1:
-        return subject.wrong_rows[0]
-    stages = sum(space.stages for space in subject.tableau.spaces)
-    witness = subject.order.witness
-    if stages > MAX_BLAMED or witness is None:
-        return ""
-    from garkcli.order.blame import MissedOrder, blame_of
+    """The row that does not sum to its node, and the entry that restores the order."""
+    row = subject.wrong_rows[0] if len(subject.wrong_rows) == 1 else ""
+    return "; ".join(filter(None, [row, _entry(subject, declared)]))
 
-    rounded = subject.digits.of(subject.tableau, slack=100 * SLACK)
-    missed = MissedOrder(witness.tree.order, declared)
-    blame = blame_of(rounded if rounded.tolerance else subject.tableau, missed)
-    if blame is None or len(blame.repairs) != 1:
+
+def _entry(subject: TableSubject, declared: int | None) -> str:
+    """The only entry that restores an order; empty if there is none."""
+    tableau = subject.tableau
+    repairs, order, _ = repairs_of(subject, tableau, subject.order, declared)
+    if len(repairs) != 1:
         return ""
-    repair = repair_text(blame.repairs[0], [colour.name for colour in subject.tableau.colours])
-    return f"order {declared} would hold with {repair}"
+    repair = repair_text(repairs[0], [colour.name for colour in tableau.colours])
+    return f"order {order} would hold with {repair}"
+
+
+def repairs_of(
+    subject: TableSubject,
+    tableau: Tableau,
+    found: Judged | None,
+    declared: int | None,
+    is_embedded: bool = False,
+) -> tuple[Sequence[Repair], int, bool]:
+    """The single entries that restore the declared order, or without one several orders; that
+    order, and whether it holds exactly with them. Within the rounding if it does not.
+
+    Args:
+        subject: the table.
+        tableau: the method, or the one with its embedded weights.
+        found: its order.
+        declared: the order declared in the source.
+        is_embedded: whether these are embedded weights.
+    """
+    stages = sum(space.stages for space in tableau.spaces)
+    if found is None or found.witness is None or stages > MAX_BLAMED:
+        return (), 0, False
+    if declared and found.order >= declared:
+        return (), 0, False
+    from garkcli.order.blame import MissedOrder, blame_of, slip_of
+    from garkcli.order.deciding import order_of
+
+    rounded = subject.digits.of(tableau, slack=100 * SLACK)
+    for method in (tableau, rounded) if rounded.tolerance else (tableau,):
+        missed = MissedOrder(found.witness.tree.order, declared or 0, is_embedded=is_embedded)
+        blame = blame_of(method, missed) if declared else slip_of(method, missed, order_of(method))
+        if blame is not None and blame.repairs:
+            return blame.repairs, declared or blame.restored or 0, method is tableau
+    return (), 0, False
 
 
 def _embedded(subject: TableSubject) -> Iterator[Remark]:
@@ -441,7 +473,7 @@ def _weights(subject: TableSubject) -> Iterator[Remark]:
     if not (found.order or found.is_open) and subject.table.order is None:
         sums = (sum(colour.b, ZERO) for colour in subject.tableau.colours)
         message = f"the weights have the sum {' and '.join(str(total_text(x)) for x in sums)}"
-        yield Remark(message, code="weights", claims={"order": ONE})
+        yield Remark(message, code="weights", claims={"order": ONE}, help=_entry(subject, None))
 
 
 def _nodes(subject: TableSubject) -> Iterator[Remark]:
@@ -462,7 +494,9 @@ def _nodes(subject: TableSubject) -> Iterator[Remark]:
         claims = {"nonautonomous-order": at_least(min(wanted, subject.order.order))}
         yield Remark(message, code="nodes", claims=claims)
     elif declared is None or subject.is_misprinted or is_one_row(subject):
-        yield Remark(_listed(rows), code="nodes", claims=ROW_SUMS)
+        is_of_weights = not subject.order.order
+        entry = "" if declared or len(rows) > 1 or is_of_weights else _entry(subject, None)
+        yield Remark(_listed(rows), code="nodes", claims=ROW_SUMS, help=entry)
     else:
         yield Remark(_listed(rows), code="nodes", level="note")
 

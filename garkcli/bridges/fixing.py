@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from flint import fmpq
 
-from garkcli.bridges.audit import MAX_BLAMED, Audited, audit, subject_of
+from garkcli.bridges.audit import Audited, audit, repairs_of, subject_of
 from garkcli.bridges.elsewhere import declared_orders, with_declared
 from garkcli.bridges.misprints import Wanted, mistyped, places, written
 from garkcli.bridges.readers.registry import find_tables, readers_for
@@ -24,8 +24,6 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.files import is_stream, read_bytes
 from garkcli.frozen import Frozen
-from garkcli.methodfile.printed import SLACK
-from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.sums import WrongSum, wrong_rows
 from garkcli.sources.found import MAX_CHARACTERS, FoundTable
 from garkcli.tableau.embedded import with_weights
@@ -232,14 +230,13 @@ def _wanted(subject: TableSubject) -> Iterator[Wanted]:
                 continue
             # a long number is no misprint of 0
             if abs(new - old) > allowed and (old or not rounding):
-                is_any = is_sure and not rounding
-                yield Wanted(old, new, slope * allowed, is_any, is_estimate)
+                yield Wanted(old, new, slope * allowed, is_sure, is_estimate)
 
     rows = list(wrong_rows(subject.rounded.defects, tableau.edges()))
     if len(rows) == 1:
         (row,) = rows
         entries = _entries(tableau, row)
-        is_met = not subject.misses_order and subject.order.order >= SURE_ORDER
+        is_met = not rounding and not subject.misses_order and subject.order.order >= SURE_ORDER
         yield from values([(row.wanted, row.total)], is_sure=is_met)
         yield from values((x, x - row.off) for x in entries)
     embedded = subject.method.embedded or ()
@@ -257,7 +254,7 @@ def _wanted(subject: TableSubject) -> Iterator[Wanted]:
             for x, y in zip(b, other, strict=True)
         ]
         yield from values([*pairs, *((x, x - total) for x in other)], is_estimate=True)
-    if subject.misses_order:
+    if subject.misses_order or rows:
         entries_and_certainty = _blamed(subject, tableau, table.order, is_embedded=False)
         yield from values(*entries_and_certainty, slope=SLOPE)
     elif subject.embedded_order is not None:
@@ -278,17 +275,12 @@ def _blamed(
     subject: TableSubject, tableau: Tableau, declared: int | None, is_embedded: bool
 ) -> tuple[list[tuple[Number, Number]], bool]:
     """Entries with the values that restore a declared order, and whether there is only one."""
-    order = subject.embedded_order if is_embedded else subject.order
-    stages = sum(space.stages for space in tableau.spaces)
-    if order is None or order.witness is None or stages > MAX_BLAMED or not declared:
+    found = subject.embedded_order if is_embedded else subject.order
+    if is_embedded and not declared:
         return [], False
-    if order.order >= declared:
-        return [], False
-    rounded = subject.digits.of(tableau, slack=100 * SLACK)
-    missed = MissedOrder(order.witness.tree.order, declared, is_embedded=is_embedded)
-    blame = blame_of(rounded if rounded.tolerance else tableau, missed)
-    repairs = () if blame is None else blame.repairs
-    return [(x.old, x.new) for x in repairs], len(repairs) == 1 and declared >= SURE_ORDER
+    repairs, order, is_exact = repairs_of(subject, tableau, found, declared, is_embedded)
+    is_sure = len(repairs) == 1 and order >= SURE_ORDER and is_exact
+    return [(x.old, x.new) for x in repairs], is_sure
 
 
 def _edits(text: str, line: int, wanted: Sequence[Wanted], is_whole: bool) -> Iterator[_Edit]:

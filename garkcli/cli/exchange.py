@@ -424,6 +424,9 @@ def audit(given: AuditOptions, output: Output) -> int:
     return 0 if any(x.is_read for x in found) else 2
 
 
+NOT_MENDED = "the others have no single sign, digit or number that is certain to mend them"
+
+
 def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output) -> None:
     """Writes the certain repairs, and notes the number of tables."""
     from garkcli.bridges.patching import patches
@@ -431,7 +434,7 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
     if any(map(is_stream, files)):
         message = "standard input is not a file, which a patch needs"
         raise UsageProblem(message, "name files or folders", code="cannot-write")
-    pieces, mended = [], 0
+    pieces, mended, left_out = [], 0, 0
     for source, piece in patches(found, files):
         pieces.append(piece)
         mended += source.mended if piece else 0
@@ -441,11 +444,13 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
         elif source.mended and not piece:
             why = "it is not below this folder, or its lines have signs that do not print"
         if why:
+            left_out += 1
             output.note(f"{printable(source.source)} is left out of the patch: {why}")
     output.write_exactly("".join(pieces))
     wrong = sum(x.has_errors for x in found)
     if wrong:
-        output.note(f"the patch mends {mended} of {counted(wrong, 'wrong table')}")
+        left = f": {NOT_MENDED}" if mended < wrong and not left_out else ""
+        output.note(f"the patch mends {mended} of {counted(wrong, 'wrong table')}{left}")
 
 
 def _claim(files: Sequence[str], place: str, output: Output) -> None:

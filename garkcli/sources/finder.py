@@ -267,8 +267,8 @@ class TableFinder(Harvester):
                 self._unread(scope.title, line, f"{lost.reason}, line {lost.line}, is not known")
 
     def _of_rosenbrock(self, scope: ir.Scope, space: Space, is_told: bool) -> bool:
-        """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method, with a
-        misprint perhaps; one in printed form then has to be told by more than names of arrays.
+        """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method, perhaps
+        with a misprint: one in printed form only if ``is_told`` says what it is.
         """
         kinds: tuple[dict[str, Value], ...] = ({}, {}, {})
         lists = {x.name: self.harvest.value(x) for x in self.made if not x.is_matrix}

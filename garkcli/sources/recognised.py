@@ -226,7 +226,7 @@ class _Source:
         return id(self._numbers[at])
 
     def fellows(self, tables: Iterable[_NumbersByRole]) -> dict[int, set[int]]:
-        """Of each array of tables, all arrays of these, by their ``id``."""
+        """The arrays of the tables with an array, by the ``id`` of each."""
         arrays = [(id(x), self.numbers([x])) for group in self._groups for x in group.arrays]
         of: dict[int, set[int]] = {}
         for table in tables:

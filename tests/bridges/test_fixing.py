@@ -93,7 +93,7 @@ def test_what_is_not_sure_is_left(name: str, tmp_path: Path) -> None:
     file, _, wrong = planted(name, tmp_path)
     run = gark("audit", file, "--fix", cwd=tmp_path)
     assert (run.code, run.out) == (1, "")
-    assert run.err == "the patch mends 0 of 1 wrong table\n"
+    assert "mends 0 of 1 wrong table: the others have no single sign, digit or number" in run.err
     assert (tmp_path / file).read_bytes() == wrong.encode()
 
 
@@ -225,3 +225,47 @@ def test_claims_fail_where_declarations_are_false(tmp_path: Path) -> None:
     one = gark("audit", "right.py", "--claim", "m.gark.yaml", cwd=tmp_path)
     assert one.code == 0
     assert "expect: {order: 4}" in (tmp_path / "m.gark.yaml").read_text(encoding="utf-8")
+
+
+DORMAND_PRINCE = """
+static const double dp_c[7] = {0.0, 1.0/5.0, 3.0/10.0, 4.0/5.0, 8.0/9.0, 1.0, 1.0};
+static const double dp_a[7][7] = {
+  {0},
+  {1.0/5.0},
+  {3.0/40.0, 9.0/40.0},
+  {44.0/45.0, -56.0/15.0, 32.0/9.0},
+  {19372.0/6561.0, -25360.0/2187.0, 64448.0/6561.0, -212.0/729.0},
+  {9017.0/3168.0, -355.0/33.0, 46732.0/5247.0, 49.0/176.0, -5103.0/18656.0},
+  {35.0/384.0, 0.0, 500.0/1113.0, 125.0/192.0, -2187.0/6784.0, 11.0/84.0}
+};
+static const double dp_b[7] =
+  {35.0/384.0, 0.0, 500.0/1113.0, 125.0/192.0, -2187.0/6784.0, 11.0/84.0, 0.0};
+static const double dp_e[7] =
+  {71.0/57600.0, 0.0, -71.0/16695.0, 71.0/1920.0, -17253.0/339200.0, 22.0/525.0, -1.0/40.0};
+"""
+"""The pair of Dormand and Prince, with an estimate of long denominators."""
+
+
+@pytest.mark.parametrize("order", ["", "static const int dp_order = 5;\n"])
+def test_the_entry_of_a_wrong_row(order: str, tmp_path: Path) -> None:
+    """Three digits of a fraction change places: the row does not sum to its node, and one entry has
+    a value with which the order holds, declared or not. The patch writes that.
+    """
+    path = tmp_path / "dopri.c"
+    text = DORMAND_PRINCE + order
+    path.write_text(text.replace("18656", "18565"), encoding="utf-8")
+    run = gark("audit", path.name, cwd=tmp_path)
+    said = " ".join(run.out.split())
+    assert "row 6 has the sum" in said
+    assert "order 5 would hold with a[6,5] = -5103/18656 instead of -5103/18565" in said
+    run = gark("audit", path.name, "--fix", cwd=tmp_path)
+    applied(run.out, tmp_path)
+    assert path.read_text(encoding="utf-8") == text
+
+
+def test_the_weight_of_a_wrong_sum(tmp_path: Path) -> None:
+    """Without a declared order the wrong sum of the weights names the weight."""
+    path = tmp_path / "dopri.c"
+    path.write_text(DORMAND_PRINCE.replace("2187.0/6784", "2187.0/6748"), encoding="utf-8")
+    said = " ".join(gark("audit", path.name, cwd=tmp_path).out.split())
+    assert "order 5 would hold with b[5] = -2187/6784 instead of -2187/6748" in said
