@@ -139,8 +139,8 @@ def roles_by_names(
     is_told: bool = False,
 ) -> tuple[Mapping[str, Value], str]:
     """The roles of arrays with the letters of papers, and the form of the method: a, c, γ in stored
-    form, or α, γ in printed form. Empty unless they have order 2; a method that is told by more
-    than its arrays, and declares its order, may miss it by a misprint.
+    form, or α, γ in printed form. Empty unless they have order 2; with ``is_told``, beside a
+    declared order, they may miss it by a misprint.
     """
     gamma = next((numbers[x] for x in _GAMMAS if x in numbers), None)
     A = matrices.get("a", matrices.get("alpha", matrices.get("α")))
@@ -162,8 +162,8 @@ def roles_by_names(
 def _as_printed(
     A: Array, G: Array, b: Array, gamma: Value | None, is_told: bool
 ) -> dict[str, Value]:
-    """A method from α, Γ and b, with the diagonal of Γ separate; empty unless it has order 2, or is
-    told by more than its arrays.
+    """A method from α, Γ and b, with the diagonal of Γ separate; empty unless it has order 2, or
+    ``is_told``.
     """
     stages = len(b.items)
     low_A, low_G = (_triangle(_strict(x), stages) for x in (A, G))
@@ -199,7 +199,7 @@ def _as_stored(
     A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value], is_told: bool
 ) -> dict[str, Value]:
     """A method from A, C and γ; without the last row of A and without weights the step is the last
-    stage value plus its increment. Empty unless it has order 2, or is told by more than its arrays.
+    stage value plus its increment. Empty unless it has order 2, or ``is_told``.
     """
     stages = max(len(A.items), len(C.items))
     low_A, low_C = (_triangle(x, stages) for x in (A, C))

@@ -286,7 +286,12 @@ def test_what_only_has_such_names(tmp_path: Path) -> None:
         (tmp_path / name).write_text(text, encoding="utf-8")
     run = gark("audit", str(tmp_path), "--format", "json")
     tables = json.loads(run.out)["tables"]
-    assert [(x["order"], x["embedded_order"], x["findings"]) for x in tables] == [(3, None, [])]
+    assert [(x["order"], x["embedded_order"]) for x in tables] == [(3, None)]
+    (finding,) = tables[0]["findings"]
+    assert (finding["level"], finding["message"]) == (
+        "note",
+        "error weights are not read: the sum is -8.67",
+    )
 
 
 SCALARS = """
