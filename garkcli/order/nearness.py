@@ -70,11 +70,11 @@ def nearness(search: Recovery, order: int) -> Nearness:
     """Returns the distance from the print to the method of a search."""
     place = search.settled
     shifts = np.array([to_float(x) for x in place.shifts])
-    sizes = np.array([_two_digits(x) for x in np.abs(shifts)])
+    sizes = [_two_digits(x) for x in np.abs(shifts)]
     distance = max(sizes, default=fmpq(0))
     entry = suspect = None
     if distance:
-        entry = _entry_of(search, int(np.argmax(np.abs(shifts) > to_float(distance) * (1 - 1e-4))))
+        entry = _entry_of(search, sizes.index(distance))
         k = _suspect(search, shifts)
         suspect = None if k is None else _entry_of(search, k)
     is_full = not place.slack

@@ -55,6 +55,14 @@ def test_one_entry_is_far_off() -> None:
     assert nearness_of(THREE_EIGHTHS.replace("{b3}", "0.375")).suspect is None
 
 
+@pytest.mark.parametrize("off", ["0.1666666666", "0.16666666672", "0.1666666667"])
+def test_the_entry_with_the_largest_shift_is_named(off: str) -> None:
+    """Whether its size is rounded up or down: not the first rounded entry of the file."""
+    rows = "[[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 0.500000000000, 0, 0], [0, 0, 1, 0]]"
+    text = f"tolerance: 1e-10\nA: {rows}\nb: [{off}, 1/3, 1/3, 1/6]\n"
+    assert nearness_of(text).entry == EntryAddress("b", 0, None, None, 0)
+
+
 def test_an_entry_of_dense_output_is_far_off() -> None:
     """The coefficient of θ³ in the last weight of an interpolant, 0.7 t off, with and without
     embedded weights before it.
