@@ -274,6 +274,12 @@ def _warning(code: str, message: str) -> Remark:
     return Remark(message, cure_of("check", code), code=code, level="warning")
 
 
+def cure_of_lacks(outcome: Outcome) -> str:
+    """Returns the command that writes the missing claims; without keys it keeps to those made."""
+    keys = (f" --key {key}" for key in outcome.keys_lacking)
+    return cure_of("check", "no-claim") + "".join(keys)
+
+
 def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
     """Yields rules and remarks, with keys that do not depend on the place in the file."""
     seen: Counter[str] = Counter()
@@ -285,7 +291,7 @@ def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
         yield remark.code, remark, claim.claim
     for message in outcome.lacks:
         is_any = outcome.makes_no_claim and outcome.needs_claims
-        lack = Remark(message, cure_of("check", "no-claim"), code="no-claim")
+        lack = Remark(message, cure_of_lacks(outcome), code="no-claim")
         yield lack.code, lack, "" if is_any else message
     for remark in warnings(outcome):
         yield remark.code, remark, remark.message

@@ -142,8 +142,13 @@ class Outcome(Shown, Frozen):
             return ()
         if self.needs_claims and not self.claims:
             return ("the file makes no claim",)
+        return tuple(f"the file does not claim {key}" for key in self.keys_lacking)
+
+    @property
+    def keys_lacking(self) -> tuple[str, ...]:
+        """The required claims that the file does not make."""
         made = {claim.claim for claim in self.claims}
-        return tuple(f"the file does not claim {key}" for key in self.needed if key not in made)
+        return tuple(key for key in self.needed if key not in made)
 
     @property
     def ok(self) -> bool:

@@ -10,6 +10,7 @@ from garkcli.check.findings import (
     BOUND,
     SHARP_BOUND,
     bound_numbers,
+    cure_of_lacks,
     dense_witness_text,
     order_of,
     predictor_witness_text,
@@ -21,7 +22,6 @@ from garkcli.check.pair_reasons import is_lost, pair_reason
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, plain_decimal, to_float, to_text
 from garkcli.frozen import replace
-from garkcli.glossary.faults import cure_of
 from garkcli.glossary.labels import label_of
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
@@ -970,7 +970,7 @@ def claim_rows(outcome: Outcome, d: Plain) -> list[tuple[str, str]]:
         place = f" ({outcome.file}:{c.line}:{c.column})"
         rows.append((kinds.claim_word(c.holds, d), d.prose(said) + why + d.prose(place)))
     if outcome.lacks:
-        cure = cure_of("check", "no-claim")
+        cure = cure_of_lacks(outcome)
         missing = [cure] if outcome.makes_no_claim else [*outcome.lacks, cure]
         rows += [(d.bad("NO CLAIM"), d.prose(message)) for message in missing]
     held = [f"{c.claim}: {c.expected}" for c in outcome.claims if c.holds]

@@ -77,13 +77,28 @@ def test_other_tools_are_not_read(project: Path) -> None:
         assert gark("check", "tables", cwd=project).code == 0
 
 
+def test_the_cure_adds_the_claims_that_are_required(project: Path) -> None:
+    """Also to a file that makes other claims."""
+    put(project, ".gark.toml", 'require-claims = ["order", "stage-order"]\n')
+    file = "tables/with.gark.yaml"
+    run = gark("check", file, cwd=project)
+    assert (run.code, run.out.count("NO CLAIM")) == (1, 2)
+    _, command, line = " ".join(run.out.split()).partition("gark claims FILE --write")
+    keys = line.split()[: 2 * line.count("--key")]
+    typed = [*command.replace("FILE", file).split()[1:], *keys]
+    assert gark(*typed, cwd=project).code == 0
+    assert gark("check", file, cwd=project).code == 0
+
+
 def test_claims_that_are_required(project: Path) -> None:
     """A list names claims without which a file fails; true asks for any."""
     put(project, ".gark.toml", 'require-claims = ["order", "symplectic"]\n')
     run = gark("check", "tables", cwd=project)
     assert run.code == 1
     assert run.out.count("the file does not claim symplectic") == 1
-    assert run.out.count("gark claims FILE --write") == 2
+    text = " ".join(run.out.split())
+    assert "gark claims FILE --write --key symplectic" in text
+    assert "gark claims FILE --write --key order --key symplectic" in text
     for format in ("github", "junit", "sarif", "markdown"):
         told = gark("check", "tables", "--format", format, cwd=project)
         assert told.code == 1
