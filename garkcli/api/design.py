@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -327,21 +328,28 @@ class FoundFile(Frozen):
 
 
 def found_files(
-    found: Design | DesignWithin | Minimum | SearchResult, family: FamilyFile
+    found: Design | DesignWithin | Minimum | SearchResult, family: FamilyFile, wishes: str = ""
 ) -> Iterator[FoundFile]:
-    source = f"found by gark design {family.source}"
+    """Yields the files of the methods; the head of each is the command line that finds it again.
+
+    ``wishes`` are options of that line that neither the family nor what was found shows.
+    """
+    source = f"found by gark design {shlex.quote(family.source)}"
+    source += "".join(f" --set {shlex.quote(f'{k}={v}')}" for k, v in family.settings.items())
+    source += wishes
     if isinstance(found, DesignWithin):
         yield from _files_within(found, family, source)
         return
     if isinstance(found, Design):
         further = _wanted(found.family, found.whose)
+        if found.last.has_methods:  # it ended at the wanted order
+            source += _aim(family, found.whose, found.last.order)
         for method in accepted_methods(found):
             claim = f"{_orders(method, found.whose)}{further}"
             yield FoundFile(family, method, f"{source}: {claim}", claim)
     elif isinstance(found, Minimum):
         whose, order = found.design.whose, found.step.order
-        options = "" if whose == "method" else f" --{whose}"
-        options += f" --order {order} --minimise {found.objective.key}"
+        options = f"{_aim(family, whose, order)} --minimise {found.objective.key}"
         further = _wanted(found.design.family, whose)
         further += _claim(found) if whose == "method" else ""
         for candidate in found.minimisers:
@@ -355,15 +363,20 @@ def found_files(
             beside = "" if find.embedded is None else f", embedded-order: {find.embedded}"
             claim = f"{CLAIMS[found.whose]}: {find.order}{beside}{_wanted(family, found.whose)}"
             goal = "" if found.objective is None else f" --minimise {found.objective.key}"
-            head = (
-                f"{source} --order {found.order}{goal}, start {find.start} of seed {found.seed}\n"
-            )
+            aim = _aim(family, found.whose, found.order)
+            head = f"{source}{aim}{goal}, start {find.start} of seed {found.seed}\n"
             if found.objective is not None:
                 head += f"{found.objective.key.removeprefix('-')} {find.objective}\n"
             head += f"{HEADS[find.proof]}: {claim}"
             if not find.is_exact:
                 head += f", residuals below {find.residual} before rounding"
             yield FoundFile(family, find, head, claim, find.is_exact)
+
+
+def _aim(family: Family, whose: Whose, order: int) -> str:
+    """Returns the options for an order that the file does not wish for itself."""
+    options = "" if whose == "method" else f" --{whose}"
+    return options if order == family.order else f"{options} --order {order}"
 
 
 def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Iterator[FoundFile]:
@@ -374,7 +387,8 @@ def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Itera
         claim = f"{CLAIMS[found.whose]}: {values.order}"
         if values.embedded:
             claim += f", embedded-order: {values.embedded}"
-        head = f"{source}: {claim} within {decimal(found.tolerance)}, numerical"
+        aim = _aim(family, found.whose, values.order) if found.steps[-1].has_methods else ""
+        head = f"{source}{aim}: {claim} within {decimal(found.tolerance)}, numerical"
         member = FoundMethod(1, "numerical", values.order, texts, "0")
         yield FoundFile(family, member, head, claim, is_exact=False)
 

@@ -332,6 +332,12 @@ def _half(given: DesignOptions) -> Iterator[None]:
             yield
 
 
+def _wishes(given: DesignOptions) -> str:
+    """Returns the options of stability, as they are typed."""
+    colour = "" if given.colour is None else f" --colour {given.colour}"
+    return "" if given.stability is None else f" --{given.stability}{colour}"
+
+
 def _asked(family: FamilyFile, given: DesignOptions) -> RequiredStability | None:
     """Returns the stability that an option requests, if any.
 
@@ -519,7 +525,7 @@ def _emit(
     from garkcli.api.design import found_files
     from garkcli.design.minimise.result import Minimum
 
-    files = list(found_files(found, family))
+    files = list(found_files(found, family, _wishes(given)))
     if not files and isinstance(found, Minimum):
         message = f"--emit: no method has the infimum of {given.minimise}"
         cure = "a range for the parameter, closed at its ends, has a minimum"
@@ -688,7 +694,7 @@ def _written(
     """
     from garkcli.api.design import found_files
 
-    found = list(found_files(result, family))
+    found = list(found_files(result, family, _wishes(given)))
     files: list[str | None] = [None] * len(found)
     if given.folder is not None:
         files = list(islice(file_names(given.folder, family.source), len(found)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shlex
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
@@ -360,6 +361,33 @@ def test_coefficients_at_irrational_nodes() -> None:
     total = sum(float(to_ball(x, 25)) ** 2 for row in rows for x in row)
     assert minimum.value is not None
     assert float(minimum.value.ball(80)) == pytest.approx(total)
+
+
+@pytest.mark.parametrize(
+    ("wishes", "command"),
+    [
+        ("", "--set a2=2/3 --order 2 --minimise error"),
+        ("design: {order: 2}", "--set a2=2/3 --minimise error"),
+        ("", "--set a2=2/3 --set 'b1=1 - 3/4' --order 2"),
+        ("design: {order: 2}", "--set a2=2/3 --set b1=1/4"),
+        ("", "--set a2=2/3 --conjugate --set b1=1/4 --order 1"),
+    ],
+)
+def test_the_head_is_the_command(wishes: str, command: str, tmp_path: Path) -> None:
+    """It has every option that was typed, and none else: typed again it gives the same file."""
+    file = "parameters: {a2: free, b1: free, b2: free}\nA: [[0, 0], [a2, 0]]\nb: [b1, b2]\n"
+    (tmp_path / "my family.yaml").write_text(f"{file}{wishes}\n", encoding="utf-8")
+    line = f"gark design 'my family.yaml' {command}"
+    texts = []
+    for path in ("one.yaml", "two.yaml"):
+        out = gark(*shlex.split(line)[1:], "--emit", path, cwd=tmp_path)
+        assert out.code == 0, out.err
+        texts.append((tmp_path / path).read_text())
+        line = texts[-1].splitlines()[0].removeprefix("# found by ").partition(": ")[0]
+    assert sorted(shlex.split(line)) == sorted(
+        ["gark", "design", "my family.yaml", *shlex.split(command)]
+    )
+    assert texts[0] == texts[1]
 
 
 @in_whole
