@@ -13,7 +13,7 @@ from flint import fmpq
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.importing import fmpq_of
 from garkcli.bridges.readers.registry import find_tables, reader_named
-from garkcli.bridges.registry import bridges
+from garkcli.bridges.registry import EVERYTHING, bridges
 from garkcli.bridges.structure import table, with_first_stage, with_last_stage
 from garkcli.bridges.targets import python_solvers
 from garkcli.methodfile.load import loads
@@ -120,6 +120,24 @@ def test_a_target_is_recorded_documented_and_read_back(target: str) -> None:
     rows = re.findall(r"^\| (`[^|]+) \|", TARGETS, re.MULTILINE)
     assert sum(f"`{target}`" in row for row in rows) == 1
     assert bridge.reads_back == (target in READERS)
+
+
+KIND_WORDS = {"row": "Rosenbrock", "nystrom": "Nyström"}
+
+
+@pytest.mark.parametrize("target", sorted(set(bridges()) - {"json", "certificate"}))
+def test_the_page_names_the_kinds(target: str) -> None:
+    """A row of docs/export.md names the kinds beside Runge-Kutta methods that the target has, and
+    says that it has all those where it refuses none.
+    """
+    bridge = bridges()[target]
+    row = next(x for x in TARGETS.splitlines() if re.match(rf"\| [^|]*`{target}`", x))
+    row = row.replace("as `numpy`", next(x for x in TARGETS.splitlines() if "| `numpy`" in x))
+    for kind, word in KIND_WORDS.items():
+        assert (kind in bridge.kinds) == (word in row)
+    is_for_all = set(EVERYTHING) <= set(bridge.kinds) and bridge.stages == "any"
+    assert not ("all Runge–Kutta and GARK" in row) or is_for_all
+    assert not re.search(r"\| all\b(?! Runge)", row)
 
 
 def test_the_page_names_no_other_target() -> None:
