@@ -199,6 +199,27 @@ class Convergence(Shown, Frozen):
             return "agree" if self.observed_order > 0 else "undecided"
         return "disagree"
 
+    @property
+    def is_left_to_tiny_steps(self) -> bool:
+        """Whether the visible order is observed with tiny steps only: at the step sizes of the rows
+        the errors of another order are larger.
+        """
+        observed, short = self.observed_order, self.short_order
+        if self.verdict != "agree" or observed is None or short is None:
+            return False
+        return abs(observed - short) > CLOSE
+
+    @property
+    def shown_order(self) -> int:
+        """The order to which the errors of the rows are compared: the visible one, or that which
+        they have if it is left to tiny steps.
+        """
+        observed = self.observed_order
+        if not self.is_left_to_tiny_steps or observed is None:
+            return self.visible_order
+        nearest = round(observed)
+        return nearest if abs(observed - nearest) <= CLOSE else self.visible_order
+
     def _stiff_verdict(self, observed: float) -> Verdict:
         assert self.stiff is not None
         if not self.stiff.is_stable:

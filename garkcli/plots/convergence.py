@@ -158,7 +158,7 @@ def errors_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -
 
 def errors_panel(result: Convergence) -> scene.Panel:
     """Returns the error and the energy error against h, with a line for the observed order."""
-    order = result.visible_order
+    order = result.shown_order
     energies = [(row.h, row.energy_error) for row in result.rows if row.energy_error is not None]
     errors = scene.Curve(0, _decades(curve(result, "h")), "error", has_dots=True)
     energy = scene.Curve(2, _decades(energies), "energy error", has_dots=True)
@@ -183,7 +183,7 @@ def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h
         errors = scene.Curve(style, _decades(curve(result, against)), name, has_dots=True)
         if errors.points:
             curves.append(errors)
-            of_order.setdefault(result.visible_order, []).append(errors)
+            of_order.setdefault(result.shown_order, []).append(errors)
     # errors rise with h, and fall with what they cost
     sign = 1 if against == "h" else -1
     rules = [

@@ -102,7 +102,7 @@ def _verdict(x: LetteredMethod, d: Plain) -> str:
     if x.entry.result is None:
         return d.bad("FAILED")
     verdict = x.entry.result.verdict
-    return d.note(verdict) if verdict == "reduced" else alone.verdict_words(verdict, d)
+    return d.note(verdict) if verdict == "reduced" else alone.verdict_words(x.entry.result, d)
 
 
 OF_TEST: Rows[Convergence] = (

@@ -187,7 +187,10 @@ def predicted(x: Convergence) -> Answer[int]:
     )
 
 
-def verdict_words(verdict: str, d: Plain) -> str:
+def verdict_words(x: Convergence, d: Plain) -> str:
+    verdict = x.verdict
+    if x.is_left_to_tiny_steps:
+        return d.good("tiny steps agree")
     if verdict == "reduced":
         return d.note("reduced by stiffness")
     if verdict == "undecided":
@@ -200,7 +203,7 @@ def _answer(x: Convergence, d: Plain) -> str:
     observed = f"order {order_text(x.observed_order)} observed"
     if x.observed_order is None:
         observed = "no order observed"
-    return f"{observed}, {seen} visible: {verdict_words(x.verdict, d)}"
+    return f"{observed}, {seen} visible: {verdict_words(x, d)}"
 
 
 def remarks(result: Convergence) -> list[str]:

@@ -256,7 +256,7 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     note = (
         f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
         f"Observed order {observed}, visible order {result.visible_order}: "
-        f"{verdict_words(result.verdict, Plain())}."
+        f"{verdict_words(result, Plain())}."
     )
     if result.plateau:
         note += " The last errors are those of the rounded coefficients."

@@ -299,6 +299,31 @@ def test_a_file_that_is_no_method_is_a_report() -> None:
         assert all(error["line"] for error in errors)
 
 
+def test_rounded_coefficients_agree_for_tiny_steps_only(tmp_path: Path) -> None:
+    """A method of order 3 in ten digits has order 1, and shows 3: words, table and the slope of the
+    reference do not say that 3 is 1.
+    """
+    file = tmp_path / "ten.yaml"
+    file.write_text(
+        """
+A:
+  - [0.4358665215, 0, 0]
+  - [0.2820667392, 0.4358665215, 0]
+  - [1.2084966492, -0.6443631707, 0.4358665215]
+b: [1.2084966492, -0.6443631707, 0.4358665215]
+""",
+        encoding="utf-8",
+    )
+    run = gark("converge", str(file), "-v")
+    assert run.code == 0
+    assert "order 3.00 observed, 1 visible: tiny steps agree" in " ".join(run.out.split())
+    assert "reference, slope 3" in run.out
+    assert "they agree" not in gark("converge", str(file), "alexander-3").out.split("alexander")[0]
+    exact = gark("converge", "alexander-3", "-v").out
+    assert "they agree" in exact
+    assert "reference, slope 3" in exact
+
+
 @in_whole
 def test_rounded_coefficients_are_hinted_at(tmp_path: Path) -> None:
     """Gauss 2 in 13 digits has order 1 or 2 and shows 4, over a short time what it is: then the line
