@@ -61,10 +61,15 @@ def new(given: New, output: Output) -> None:
 
     Paste a tableau as a book prints it: a line per stage, with or without a bar after the node,
     and a line of weights below. You may leave out zeros on the right. Without options gark asks.
+
+    If a number looks wrong or rounded, a hint names it, and the file makes no claims.
     """
     from garkcli.api.calls import with_claims
+    from garkcli.check.check_file import check_method
     from garkcli.methodfile.load import loads
     from garkcli.methodfile.template import of_families
+    from garkcli.report.check import hints, wrong_row_sums
+    from garkcli.tell.dialect import Plain
 
     place: str | None = output.path if given.file is None else given.file
     if given.file is not None:
@@ -84,14 +89,24 @@ def new(given: New, output: Output) -> None:
         raise UsageProblem("--transfer goes with --family", "leave it out", code="option-alone")
     else:
         text = of_tableau_text(name, given.tableau)
-    text = with_claims(loads(text, "the new file"))
+    method = loads(text, "the new file")
+    outcome = check_method(method)
+    doubts = hints(outcome)
+    for reason in (*wrong_row_sums(outcome), *doubts):
+        output.note(f"hint: {Plain().reason(reason)}")
+    if not doubts:
+        text = with_claims(method)
     if place is None:
         output.write(text)
         return
     from garkcli.page.writing import write_whole
 
     write_whole(place, [text])
-    output.note(f"wrote {place}; gark check {place} proves its claims")
+    output.note(
+        f"wrote {place} without claims; if the numbers are meant, gark claims {place} --write"
+        if doubts
+        else f"wrote {place}; gark check {place} proves its claims"
+    )
 
 
 def of_tableau_text(name: str, text: str) -> str:

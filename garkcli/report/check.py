@@ -327,6 +327,11 @@ def consistent(a: Analysis) -> Answer[bool]:
     return replace(answer, level=USUAL if a.inconsistent else DETAIL)
 
 
+def wrong_row_sums(o: Outcome) -> list[Reason]:
+    """The reason why nodes are not the row sums, if they are not."""
+    return [consistent(o.analysis).reason] if o.analysis and o.analysis.inconsistent else []
+
+
 def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
     """Whether the nodes of the conjugate are its row sums; told of several colours."""
     if a.conjugate is None:

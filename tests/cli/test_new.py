@@ -49,6 +49,25 @@ def test_a_tableau_of_a_book(tmp_path: Path) -> None:
     assert method.tableau == load("methods/rk4.gark.yaml").tableau
 
 
+@pytest.mark.parametrize(
+    ("tableau", "said"),
+    [
+        ("0|;1/2|1/2;1/2|0 1/3;1|0 0 1;|1/6 1/3 1/3 1/6", "a[3,2] = 1/2 instead of 1/3"),
+        ("0|;1/2|1/2;1/2|0 1/3;1|0 0 1;|1/6 1/3 1/3 1/6", "row 3 has the sum 1/3"),
+        ("0|;0.3333333333|0.3333333333;0.6666666667|0 0.6666666667;|0.25 0 0.75", "tolerance: "),
+    ],
+)
+def test_a_slip_is_hinted_at_and_not_claimed(tableau: str, said: str, tmp_path: Path) -> None:
+    """The hints are those of gark check, which has them still when it reads the file."""
+    path = tmp_path / "slip.yaml"
+    run = gark("new", str(path), "--tableau", tableau)
+    assert (run.code, said in run.err) == (0, True)
+    assert "without claims" in run.err
+    assert not load(str(path)).claims
+    assert said in " ".join(gark("check", str(path)).out.split())
+    assert "hint" not in gark("new", "--tableau", RK4).err
+
+
 def test_comments_say_what_keys_mean() -> None:
     """They are the first words of what is declared of each key."""
     run = gark("new", "--tableau", "0 |; 1/2 | 1/2; | 0 1; | 1 0")
