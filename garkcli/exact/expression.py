@@ -17,6 +17,7 @@ problems.
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Iterator
 from typing import ClassVar, NoReturn
 
@@ -56,6 +57,18 @@ _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
 }
 FUNCTIONS = frozenset({*INDEX_OF_ROOT, "root", "root_of"})
 """Names that parameters cannot have."""
+
+
+def named_sign(sign: str) -> str:
+    """A sign in quotes, beyond ASCII with its number and name: many look like a sign of ASCII.
+
+    >>> named_sign("["), named_sign("−")
+    ("'['", "'−' (U+2212, minus sign)")
+    """
+    name = unicodedata.name(sign, "").lower()
+    if sign.isascii() or not name:
+        return repr(sign)
+    return f"{sign!r} (U+{ord(sign):04X}, {name})"
 
 
 def parse(text: str) -> Expression:
@@ -106,7 +119,7 @@ class Parser:
                 offset = position + len(rest) - len(rest.lstrip(" \t\r\n"))
                 sign = self.text[offset]
                 cure = _SIGN_CURES.get(sign, self.cure)
-                message = f"the sign {sign!r} is not allowed in a {self.value_noun}"
+                message = f"the sign {named_sign(sign)} is not allowed in a {self.value_noun}"
                 raise ExpressionError(message, cure, offset, offset + 1, code="not-a-number")
             kind = match.lastgroup or "end"
             start, end = match.span(kind)

@@ -340,6 +340,12 @@ ONE_FAULT = {
         "a list of rows",
         "write it as one row, [0, 1]",
     ),
+    "a minus sign of a page": (
+        "A: [[0, 0], [−1/2, 0]]\nb: [0, 1]",
+        "−1/2",
+        "the sign '−' (U+2212, minus sign) is not allowed in a number",
+        "use the sign - (hyphen)",
+    ),
     "a slash of fractions": (
         "A: [[0, 0], [1⁄2, 0]]\nb: [0, 1]",
         "⁄2",
