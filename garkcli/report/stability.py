@@ -118,6 +118,8 @@ def _around_zero(
 
     def words(found: Extent, d: Plain) -> str:
         if isinstance(found, Bounds):
+            if found.low is None:
+                return d.prose(everywhere)
             return nowhere if found.high == 0 else d.bounds(found, d.prose(bounds))
         first = found[0] if found else None
         if first is None or first.is_point or first.start is None or first.start.exact != 0:
@@ -755,7 +757,26 @@ WAVES: dict[str, Rows[StabilityReport]] = {
     "known": via(lambda x: x.found.oscillator, OSCILLATOR),
 }
 """Rows about the oscillator, by the state of knowledge."""
-TAIL: Rows[StabilityReport] = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
+
+
+def _left_out_words(_: StabilityReport, d: Plain) -> str:
+    return d.prose(
+        "A(α), oscillator, P- and I-stability, phase lag: they need exact coefficients; "
+        "R(z), R(∞): with -v, of the digits as printed"
+    )
+
+
+LEFT_OUT: Row[StabilityReport] = maybe(
+    "left_out",
+    Kind(None, Words(_left_out_words)),
+    lambda x: x if x.found.linear and x.found.tolerance is not None else None,
+    label="not within a tolerance",
+)
+TAIL: Rows[StabilityReport] = [
+    maybe("algebraically_stable", kinds.TRUTH, algebraic),
+    LEFT_OUT,
+    PLOT,
+]
 LINEARS: dict[str, Rows[StabilityReport]] = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, ALONE, EMBEDDED],

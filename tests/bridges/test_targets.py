@@ -136,7 +136,7 @@ def test_the_page_names_the_kinds(target: str) -> None:
     for kind, word in KIND_WORDS.items():
         assert (kind in bridge.kinds) == (word in row)
     is_for_all = set(EVERYTHING) <= set(bridge.kinds) and bridge.stages == "any"
-    assert not ("all Runge–Kutta and GARK" in row) or is_for_all
+    assert "all Runge–Kutta and GARK" not in row or is_for_all
     assert not re.search(r"\| all\b(?! Runge)", row)
 
 

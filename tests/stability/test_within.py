@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 from flint import arb, fmpq
 from hypothesis import given
@@ -14,6 +17,7 @@ from garkcli.stability.linear import is_a_stable, is_l_stable, stability_functio
 from garkcli.stability.summary import stability_of_rounded
 from garkcli.stability.within import stability_within
 from garkcli.tableau.forms import gark
+from tests.cli.harness import gark as command
 
 TOLERANCE = fmpq(1, 10**9)
 
@@ -112,3 +116,19 @@ def test_negative_weights_are_not_algebraically_stable(b: str, is_stable: bool) 
     a = "1.0" if is_stable else "-1.0"
     tableau = loads(f"A: [[{a}]]\nb: [{b}]").tableau
     assert algebraic_within(tableau, fmpq(1, 100)) is is_stable
+
+
+def test_a_tolerance_changes_no_words(tmp_path: Path) -> None:
+    """The intervals of an A-stable method are called as those of exact coefficients, and what only
+    these have is said.
+    """
+    exact, rounded = tmp_path / "exact.yaml", tmp_path / "rounded.yaml"
+    exact.write_text("A: [[1/2]]\nb: [1]\n", encoding="utf-8")
+    rounded.write_text("A: [[0.6000000000]]\nb: [1]\ntolerance: 1e-10\n", encoding="utf-8")
+    told = [command("stability", str(x)).out for x in (exact, rounded)]
+    for line in ("real axis", "imaginary axis"):
+        [first, second] = [re.search(f"{line} +(.*)", x) for x in told]
+        assert first is not None
+        assert second is not None
+        assert first[1] == second[1]
+    assert ["need exact coefficients" in " ".join(x.split()) for x in told] == [False, True]
