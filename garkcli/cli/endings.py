@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
 from os.path import splitext
+
+import click
 
 from garkcli.errors import UsageProblem
 
@@ -44,14 +47,17 @@ ENDINGS: Mapping[str, tuple[str, ...]] = {
 """Formats by endings; of several, a command writes the first that it can."""
 CURES = {
     "yaml": "gark convert, design --emit and claims --write write method files",
-    **dict.fromkeys(("png", "svg", "pdf"), "--plot FILE draws, where a command can"),
     "html": "gark report writes pages",
+    "latex": "gark check, tableau and trees write LaTeX",
     **dict.fromkeys(
         ("c", "fortran", "inputs", "julia", "matlab", "mathematica", "python", "r", "tsv"),
         "gark export writes tables for programs",
     ),
 }
 """Commands that write the formats which others cannot."""
+PICTURES = ("png", "svg", "pdf")
+DRAWING = {"convergence": "converge", "energy": "energy"}
+"""Commands that draw what ``gark plot`` shows, but for stability."""
 
 
 def ending_of(path: str) -> str:
@@ -86,7 +92,26 @@ def settled(
         message = f"{option} {path}: no {ending} file can be written here"
         cure = f"choose another ending: {_listed(formats)}"
     further = [CURES[x] for x in held[:1] if x in CURES and x not in formats]
+    if held[0] in PICTURES and option == "-o":
+        further = [_drawing(path)]
     raise UsageProblem(message, "; ".join([cure, *further]), code="wrong-ending")
+
+
+def _drawing(path: str) -> str:
+    """Returns the option of this command that draws into a file, or the line of another one."""
+    context = click.get_current_context(silent=True)
+    options = [] if context is None else [x for y in context.command.params for x in y.opts]
+    given = {} if context is None else context.params
+    place = shlex.quote(path)
+    if "--svg" in options:
+        return f"--svg {shlex.quote(splitext(path)[0] + '.svg')} draws"
+    if "--plot" in options:
+        return f"--plot {place} draws"
+    if context is not None and context.info_name == "report":
+        return "a browser prints the page as PDF"
+    file, what = given.get("file"), given.get("what")
+    file = shlex.quote(file) if isinstance(file, str) else "FILE"
+    return f"gark {DRAWING.get(what or '', 'stability')} {file} --plot {place} draws"
 
 
 def _listed(formats: Sequence[str]) -> str:

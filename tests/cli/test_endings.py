@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import re
+import shlex
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -216,3 +217,34 @@ def test_several_methods_are_no_method_file(tmp_path: Path) -> None:
         assert refused(run, path, "2 methods are found: One, Two", "--output-dir DIR writes")
     assert gark("import", "one.py", "-o", "m.gark.yaml", cwd=tmp_path).code == 0
     assert gark("check", "-q", "m.gark.yaml", cwd=tmp_path).code == 0
+
+
+@pytest.mark.parametrize(
+    ("typed", "path", "said"),
+    [
+        ("plot heun", "region.png", "gark stability heun --plot region.png"),
+        (
+            "plot heun --what convergence",
+            "an error.pdf",
+            "gark converge heun --plot 'an error.pdf'",
+        ),
+        ("stability heun", "a.png", "gark stability heun --plot a.png"),
+        ("trees 3", "t.svg", "gark trees 3 --svg t.svg"),
+        ("trees 3", "t.png", "gark trees 3 --svg t.svg"),
+    ],
+)
+def test_the_cure_of_a_picture_draws_it(tmp_path: Path, typed: str, path: str, said: str) -> None:
+    """The line to type, or the option of the command, is told and works."""
+    run = gark(*typed.split(), "-o", path, cwd=tmp_path)
+    told = said if said.startswith("gark plot") else said.removeprefix(f"gark {typed} ")
+    assert (run.code, f"; {told} draws" in run.err) == (2, True), run.err
+    assert gark(*shlex.split(said)[1:], cwd=tmp_path).code == 0
+    assert [x.suffix for x in tmp_path.iterdir()] == [Path(shlex.split(said)[-1]).suffix]
+
+
+def test_the_cure_of_a_page_is_of_pages(tmp_path: Path) -> None:
+    """``gark report`` draws no picture and writes no LaTeX."""
+    for path, said in (("r.pdf", "a browser prints the page"), ("r.tex", "gark check, tableau")):
+        run = gark("report", "heun", "-o", path, cwd=tmp_path)
+        assert (run.code, said in run.err) == (2, True)
+        assert "--plot" not in run.err
