@@ -44,6 +44,8 @@ PREFIX = "catalogue:"
 """The prefix of a name that is never a file; alone, or with a folder, it stands for all methods."""
 _OF_FILES = (".yaml", ".yml", ".json")
 """Endings of files, which names do not have."""
+METHOD_FILES = (".gark.yaml", ".yaml", ".yml", ".json")
+"""Endings that the name of a method file may lack."""
 _MOST_SHOWN = 6
 """The number of methods listed for an ambiguous alias, or for the start of a name."""
 
@@ -73,7 +75,8 @@ def find_named(argument: str, path: str = "") -> Shelved | None:
         return None
     method = look_up(name)
     if method is None and not is_file:
-        raise MethodFileError(argument, [_unknown(name)])
+        files = [x for x in (name + ending for ending in METHOD_FILES) if os.path.isfile(x)]
+        raise MethodFileError(argument, [_unknown(name, files)])
     if method is not None and is_file:
         both = f"there is a file of this name here, and the method {method.name} in the catalogue"
         cure = f"write .{os.sep}{argument} for the file, {PREFIX}{argument} for the method"
@@ -204,8 +207,14 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
     raise MethodFileError(name, [Remark(message, "name one of them", code="name-in-doubt")])
 
 
-def _unknown(name: str) -> Remark:
-    """Returns the fault for an argument that is neither a file nor a name."""
+def _unknown(name: str, files: Sequence[str]) -> Remark:
+    """Returns the fault for an argument that is neither a file nor a name, beside files that have
+    this name with an ending.
+    """
+    message = "no such file, and no method of this name in the catalogue"
+    if files:
+        cure = f"did you mean {' or '.join(map(repr, files))}?"
+        return Remark(message, cure, code="no-such-file")
     family = _family(name)
     if family is not None:
         needs = " and ".join(option.name for option in family.needed)
@@ -214,7 +223,6 @@ def _unknown(name: str) -> Remark:
         if alike := _called(letters_of(name), (shelf.spellings for shelf in every_shelf())):
             cure += f", or {_first([x.name for x in alike])} for the method of the catalogue"
         return Remark(message, cure, code="missing-key")
-    message = "no such file, and no method of this name in the catalogue"
     known = [
         word
         for shelf in every_shelf()

@@ -203,3 +203,11 @@ def test_a_star_tells_methods_apart() -> None:
 def test_a_name_is_never_read_as_json(name: str) -> None:
     """Half a sign, quotes and a backslash are in no name, although the index is text."""
     assert look_up(name) is None
+
+
+@pytest.mark.parametrize("stem", ["sdirk10", "gauss", "rk44x"])
+def test_a_file_of_this_stem_comes_first(stem: str, tmp_path: Path) -> None:
+    """Before names of the catalogue that look alike, and before families."""
+    (tmp_path / f"{stem}.yaml").write_text("A: [[1/2]]\nb: [1]\n", encoding="utf-8")
+    run = gark("check", stem, cwd=tmp_path)
+    assert (run.code, f"did you mean '{stem}.yaml'?" in run.err + run.out) == (2, True)
