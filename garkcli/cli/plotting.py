@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from contextlib import suppress
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -54,7 +55,7 @@ def plot(given: PlotOptions, output: Output) -> None:
     elif what == "tree":
         _tree(_last_tree(method), method, output)
     else:
-        _panel(panel or _panel_of(what, method), method.name, output)
+        _panel(panel or _panel_of(what, method, file), method.name, output)
     if given.open and output.path is not None:
         output.show(output.path)
 
@@ -67,7 +68,7 @@ def _temporary(what: str) -> str:
     return str(Path(mkdtemp(prefix="gark-")) / f"{what}.svg")
 
 
-def _panel_of(what: str, method: GarkMethod) -> Panel:
+def _panel_of(what: str, method: GarkMethod, file: str) -> Panel:
     """Returns the picture of a method.
 
     Raises UsageProblem with the pictures that the method may have if it has no such one.
@@ -80,7 +81,10 @@ def _panel_of(what: str, method: GarkMethod) -> Panel:
         why = str(error).rstrip(".")
         others = ", ".join(x for x in (*_possible(method), "tableau", "tree") if x != what)
         message = f"--what {what}: {why[:1].lower()}{why[1:]}"
-        raise UsageProblem(message, f"choose among {others}", code="option-value") from None
+        cure = f"choose among {others}"
+        if what == "energy":
+            cure += f"; or follow another problem: gark energy {shlex.quote(file)} --plot e.svg"
+        raise UsageProblem(message, cure, code="option-value") from None
 
 
 def _possible(method: GarkMethod) -> list[str]:

@@ -271,7 +271,7 @@ def _energy(method: GarkMethod) -> tuple[Panel, str]:
     try:
         run = long_run(method, problem, STEPS * step, step, points=_POINTS)
     except StepFailed as error:
-        raise NotDrawn(f"A step fails on Kepler's problem: {error}.") from None
+        raise NotDrawn(f"A step fails on Kepler's problem: {error.message}.") from None
     history, steps = run.invariants[0], f"{run.steps} steps of {run.step}"
     if history.verdict in ("exact", "round-off"):
         where = f"{steps} on the problem {run.problem.name}"

@@ -164,3 +164,16 @@ def test_a_notebook_shows_tableau_and_region() -> None:
     assert "<table" in shown
     assert "Stability region" in shown
     assert "Stability region" not in load("leapfrog-2")._repr_html_()
+
+
+def test_a_step_that_fails_leads_to_another_problem(tmp_path: Path) -> None:
+    """The stages of this method are not solved on Kepler's problem: gark plot has no step size to
+    choose, and the line of gark energy works.
+    """
+    (tmp_path / "own.yaml").write_text("A: [[1/4, 0], [1/2, 1/3]]\nb: [1/2, 1/2]\n")
+    run = gark("plot", "own.yaml", "--what", "energy", cwd=tmp_path)
+    assert run.code == 2
+    assert "smaller step" not in run.err
+    line = "gark energy own.yaml --plot e.svg"
+    assert line in " ".join(run.err.split())
+    assert gark(*line.split()[1:], cwd=tmp_path).code == 0
