@@ -98,15 +98,17 @@ def _filters() -> list[click.Option]:
     """
     from garkcli.catalogue.entries import ORDERS
     from garkcli.properties.registry import every_property
-    from garkcli.report.methods import BY_KIND
+    from garkcli.report.methods import BY_KIND, KEYS_OF_KINDS
 
     counts, truths = {**_COUNTS}, {**_TRUTHS}
     for x in every_property():
         if x.kind in ("count", "truth"):
             (counts if x.kind == "count" else truths).setdefault(x.key, "")
     kinds = ", ".join(f"{word} ({kind})" for kind, word in BY_KIND.items())
+    of_kind = click.Choice([*BY_KIND, *KEYS_OF_KINDS])
+    told = f"{kinds}, or the key of their files."
     return [
-        _filter("--kind", _METHODS, f"{kinds}.", type=click.Choice([*BY_KIND])),
+        _filter("--kind", _METHODS, told, type=of_kind, metavar="KIND", callback=_kind),
         _filter("--structure", _METHODS, _STRUCTURE, metavar="WORD"),
         _filter("--folder", _METHODS, _FOLDER, metavar="NAME"),
         _filter("--judge", _METHODS, _JUDGING, is_flag=True, default=None),
@@ -114,6 +116,12 @@ def _filters() -> list[click.Option]:
         *(_filter(f"--{x}/--no-{x}", _PROPERTIES, y, default=None) for x, y in truths.items()),
         _filter("--sort", "Output", _SORT, type=click.Choice(ORDERS)),
     ]
+
+
+def _kind(_: click.Context, __: click.Parameter, word: str | None) -> str | None:
+    from garkcli.report.methods import KEYS_OF_KINDS
+
+    return None if word is None else KEYS_OF_KINDS.get(word, word)
 
 
 def _filter(flag: str, heading: str, help: str, **settings: Any) -> GroupedOption:

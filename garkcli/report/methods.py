@@ -98,6 +98,8 @@ BY_KIND = {
     "family": "with free parameters",
 }
 """Kinds of methods, in words."""
+KEYS_OF_KINDS = {"rosenbrock": "row", "nystrom": "rkn", "derivatives": "mdrk", "multirate": "mri"}
+"""Kinds by the keys of their files, where these differ."""
 _KIND = choice(*BY_KIND, None)
 METHOD: Rows[Entry] = [
     _field("name", TEXT, USUAL, has_null=False),

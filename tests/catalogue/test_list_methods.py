@@ -15,7 +15,9 @@ import pytest
 from garkcli.catalogue.entries import ORDERS, NumberRange, all_entries, read_range, sorted_by
 from garkcli.cli.command import command_of
 from garkcli.errors import UsageProblem
+from garkcli.methodfile.file_keys import KEYS
 from garkcli.properties.registry import every_property
+from garkcli.report.methods import KEYS_OF_KINDS
 from tests.cli.harness import gark
 
 HALF = "name: Halves\nA: [[1/2]]\nb: [1]\n"
@@ -243,3 +245,14 @@ def test_filters_are_for_methods(arguments: tuple[str, ...]) -> None:
     run = gark(*arguments)
     assert run.code == 2
     assert "gark list methods" in run.err
+
+
+@pytest.mark.parametrize("key", [*KEYS_OF_KINDS])
+def test_kinds_by_the_keys_of_files(key: str) -> None:
+    """The key under which a file has such a method names the kind: there are methods of each."""
+    assert key in {x.name for x in KEYS.values()}
+    by_key, by_kind = (
+        gark("list", "methods", "--kind", word).out for word in (key, KEYS_OF_KINDS[key])
+    )
+    assert by_key == by_kind
+    assert not by_key.startswith("0 methods")
