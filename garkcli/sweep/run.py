@@ -48,7 +48,8 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
     each task.
 
     ``scheduler`` is the address of a Dask scheduler to use instead of ``jobs`` processes. Raises
-    UsageProblem if the rows of the file belong to another sweep, or there is no cluster.
+    UsageProblem if the rows of the file belong to another sweep, if rows are missing in a file that
+    is not resumed, or if there is no cluster.
     """
     missing = []
     for point in plan.points():
@@ -59,6 +60,8 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
             message = f"{store.path} has rows of another spec, such as that of {point.key}"
             cure = "columns, conditions or a method file have changed: choose another --rows"
             raise UsageProblem(message, cure, code="other-file")
+    if missing and store.rows and not store.is_resumed:
+        raise store.exists
     progress = Progress(len(plan), len(plan) - len(missing))
     yield progress
     quick = [x for x in missing if not x.template.is_searched]

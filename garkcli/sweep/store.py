@@ -22,13 +22,14 @@ _BLOCK = 1 << 16
 class RowStore:
     """A file of rows that is read once and then appended to.
 
-    ``rows`` has those of the file and the added ones by their keys. Raises UsageProblem if the file
-    exists although ``is_resumed`` is false, if it is not a file of rows, or if another process
-    writes to it.
+    ``rows`` has those of the file and the added ones by their keys; without ``is_resumed`` a file
+    with rows gets no further ones. Raises UsageProblem if it is not a file of rows, or if another
+    process writes to it.
     """
 
     def __init__(self, path: str, is_resumed: bool) -> None:
         self.path = path
+        self.is_resumed = is_resumed
         self.rows: dict[str, Row] = {}
         try:
             self._file = os.open(path, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
@@ -57,6 +58,13 @@ class RowStore:
         traceback: TracebackType | None,
     ) -> None:
         os.close(self._file)
+
+    @property
+    def exists(self) -> UsageProblem:
+        """The error of a sweep that would add rows to those of another run."""
+        message = f"{self.path} exists"
+        cure = "--resume adds the missing rows; or choose another --rows"
+        return UsageProblem(message, cure, code="cannot-write")
 
     def _is_file(self) -> bool:
         """Returns whether the file is regular; False for the null device, which keeps nothing."""
@@ -89,15 +97,13 @@ class RowStore:
         data = bytearray()
         while block := os.read(self._file, _BLOCK):
             data += block
-        if data and not is_resumed:
-            message = f"{self.path} exists"
-            cure = "--resume adds the missing rows; or choose another --rows"
-            raise UsageProblem(message, cure, code="cannot-write")
         whole = data.rfind(b"\n") + 1
         for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
             row = self._row(line, number)
             self.rows.setdefault(str(row["key"]), row)
         if whole < len(data):
+            if not is_resumed:
+                raise self.exists
             os.ftruncate(self._file, whole)
         os.lseek(self._file, whole, os.SEEK_SET)
 

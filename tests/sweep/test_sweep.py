@@ -574,3 +574,22 @@ def test_columns_of_rosenbrock_methods_of_others(tmp_path: Path) -> None:
     [row] = [row_of(plan.criteria, point) for point in plan.points()]
     names = ("w-order", "index-1-order", "nonautonomous-order")
     assert [row[name] for name in names] == [None, None, 4]
+
+
+def test_a_finished_sweep_is_told_again(tmp_path: Path) -> None:
+    """In another format, and without work; with rows that are missing --resume is demanded."""
+    spec = tmp_path / "spec.yaml"
+    text = "methods: [{family: gauss, stages: 1..2}]\ncolumns: [order]\n"
+    spec.write_text(text, encoding="utf-8")
+    first, second = (
+        gark("sweep", "spec.yaml", *x, cwd=tmp_path) for x in ((), ("--format", "csv"))
+    )
+    assert first.code == second.code == 0
+    assert "0 rows added" in second.err
+    assert len(second.out.splitlines()) == 3
+    rows = (tmp_path / "spec.jsonl").read_bytes()
+    for cut in (rows[: rows.index(b"\n") + 1], rows[:-9]):
+        (tmp_path / "spec.jsonl").write_bytes(cut)
+        refused = gark("sweep", "spec.yaml", cwd=tmp_path)
+        assert (refused.code, "--resume adds the missing rows" in refused.err) == (2, True)
+        assert (tmp_path / "spec.jsonl").read_bytes() == cut
