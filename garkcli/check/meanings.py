@@ -206,6 +206,17 @@ _SURELY = 8
 """The number of letters that a pasted message shares with one of the program."""
 
 
+LETTERS = {"γ": ("gamma", "density")}
+"""Letters of formulas by their meanings, the usual one first."""
+GENERAL = {
+    re.compile(r"^b ?\(\d+\)$"): "b(r)",
+    re.compile(r"^c ?\(\d+\)$"): "c(η)",
+    re.compile(r"^d ?\(\d+\)$"): "d(ζ)",
+    re.compile(r"\bstability$"): "stable",
+}
+"""Words of reports with a number or an ending of their own, and the words that are known."""
+
+
 def explain(word: str) -> list[Meaning]:
     """The meanings of a word, as in ``gark explain``.
 
@@ -222,6 +233,9 @@ def explain(word: str) -> list[Meaning]:
     >>> explain("density")[0].formula
     'γ(u) = ρ(u) Π γ(u_i), over the branches u_i'
     """
+    if word in LETTERS:
+        first = [explain(x)[0] for x in LETTERS[word]]
+        return list(dict.fromkeys([*first, *explain(LETTERS[word][0])]))
     exactly, nearly = [], []
     for sense, name in _known(plain(word)):
         if name == word:
@@ -238,6 +252,8 @@ def explain(word: str) -> list[Meaning]:
 def _known(word: str) -> list[tuple[Sense, str]]:
     """Returns the senses of a word, or of the label of a line from a report."""
     every = _by_plain()
+    for pattern, general in GENERAL.items():
+        word = word if word in every else pattern.sub(general, word)
     if word not in every:
         label = _FIRST_VALUE.split(word)[0]
         return every.get(label, []) if len(label) > 1 else []

@@ -175,7 +175,7 @@ def test_every_label_of_the_renderers_is_explained() -> None:
     has them.
     """
     found = {label for form in declared_forms() for label in row_labels(form)}
-    assert {"order", "A-stable", "two norm", "R(z1, z2, …)", "claims", "dense output"} <= found
+    assert {"order", "A-stable", "2-norm", "R(z1, z2, …)", "claims", "dense output"} <= found
     written = re.compile(r'^\s+\(\s*"([a-z][^"{}]*)",\s+[a-z]', re.MULTILINE)
     for path in sorted((ROOT / "garkcli/report").glob("*_text.py")):
         found |= {*written.findall(path.read_text(encoding="utf-8"))}
@@ -215,3 +215,23 @@ def test_words_are_told() -> None:
     run = gark("explain", "densty")
     assert (run.code, "did you mean 'density'" in run.err) == (2, True)
     assert "elementary weight" in gark("explain").out
+
+
+@pytest.mark.parametrize(
+    ("word", "names"),
+    [
+        ("ξ", ["bound"]),
+        ("even condition", ["even condition"]),
+        ("within t", ["tolerance"]),
+        ("[]", ["tree"]),
+        ("B(2)", ["B(r)"]),
+        ("C(1)", ["C(η)"]),
+        ("D(0)", ["D(ζ)"]),
+        ("A-stability", ["A-stable"]),
+        ("L-stability", ["L-stable"]),
+        ("γ", ["gamma", "density"]),
+    ],
+)
+def test_words_as_reports_and_books_have_them(word: str, names: list[str]) -> None:
+    """With a number, an ending or a letter for the word itself; γ has two usual meanings."""
+    assert [x.name for x in explain(word)][: len(names)] == names
