@@ -722,11 +722,11 @@ def _norms_words(n: Norms, d: Plain) -> str:
 VALUE_TEXT: Kind[Number] = Kind(Json(S.TEXT, lambda x, _: to_text(x)), kinds.EXACT.shown)
 NORMS: Section[Norms] = Section(
     Row("trees", kinds.COUNT, lambda x: x.trees),
-    maybe("two_norm_squared", VALUE_TEXT, lambda x: x.two_squared),
-    Row("two_norm", kinds.FLOAT, lambda x: x.two),
-    Row("inf_norm", kinds.FLOAT, lambda x: x.largest),
-    maybe("worst", kinds.TREE, lambda x: x.worst),
-    maybe("worst_value", VALUE_TEXT, lambda x: x.worst_value),
+    maybe("two_norm_squared", VALUE_TEXT, lambda x: x.two_squared, label="sum of squares"),
+    Row("two_norm", kinds.FLOAT, lambda x: x.two, label="2-norm"),
+    Row("inf_norm", kinds.FLOAT, lambda x: x.largest, label="largest"),
+    maybe("worst", kinds.TREE, lambda x: x.worst, label="at"),
+    maybe("worst_value", VALUE_TEXT, lambda x: x.worst_value, label="value there"),
     title=lambda n, d: f"norms over {counted(n.trees, 'tree')}",
 )
 

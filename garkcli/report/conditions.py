@@ -264,12 +264,20 @@ def _in_words(row: ConditionRow, d: Plain) -> str:
     condition = row.condition
     if condition is not None and not (condition.is_exact and d.is_brief):
         kind = _kind(condition)
-        kind = f"  ({kind} condition)" if kind and len(d.colours) > 1 else ""
+        kind = f"  ({_seen(condition, d)}{kind} condition)" if kind and len(d.colours) > 1 else ""
         off = "" if condition.is_exact else f", off by {_number(condition, 'residual', d)}"
         lines.append(f"is {_number(condition, 'value', d)}{off}{kind}")
     if row.members:
         lines.append("  ".join(map(d.tree, row.members)))
     return "\n".join(lines)
+
+
+def _seen(condition: Condition, d: Plain) -> str:
+    """The tree of one colour that makes a condition a diagonal one, unless it is shown."""
+    alone = [tree for tree in condition.trees if len(tree.colours) == 1]
+    if not alone or condition.tree in alone:
+        return ""
+    return f"also of {d.tree(alone[0])}: "
 
 
 def _kind(condition: Condition) -> str | None:

@@ -37,29 +37,33 @@ def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
     """The conditions that fail, and their blocks; the sum of weights needs no more."""
     names = blame.names or own
     letter = "Â" if blame.of == "conjugate-order" else "A"
-    fail = f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
+    verb = "fails" if blame.failing == 1 else "fail"
+    fail = f"{blame.failing} of the {blame.total} conditions of order {blame.order} {verb}"
     if blame.total == 1:
         fail = f"the one condition of order {blame.order} fails"
     if blame.of != "order":
         fail = f"{blame.of}: {fail}"
+    is_one = blame.failing == 1
     if blame.only_coupling and len(names) > 1:
-        fail += ", all of them coupling conditions"
+        fail += ", a coupling condition" if is_one else ", all of them coupling conditions"
     texts = [Reason(fail)]
+    every = "it involves" if is_one else "all of them involve"
     if blame.culprit is not None and len(names) > 1:
         culprit = Place(letter, names_of(blame.culprit, names))
-        texts.append(Reason("all of them involve {}: look there first", culprit))
+        texts.append(Reason(f"{every} {{}}: look there first", culprit))
     elif len(blame.in_every) > 1:
-        texts.append(_involved(letter, blame.in_every, names, "all"))
+        texts.append(_involved(letter, blame.in_every, names, every))
     if blame.in_none:
-        texts.append(_involved(letter, blame.in_none, names, "none"))
+        none = "it does not involve" if is_one else "none of them involves"
+        texts.append(_involved(letter, blame.in_none, names, none))
     return texts
 
 
 def _involved(
-    letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str], which: str
+    letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str], verb: str
 ) -> Reason:
     places = joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
-    return Reason(f"{which} of them involve{'s' if which == 'none' else ''} {{}}", places)
+    return Reason(f"{verb} {{}}", places)
 
 
 def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:

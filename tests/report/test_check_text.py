@@ -17,6 +17,7 @@ from garkcli.page.look import Look
 from garkcli.report.check_text import render
 from garkcli.report.hints import blame_text
 from garkcli.tell.terminal import Coloured
+from tests.cli.harness import gark
 from tests.whole import in_whole
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
@@ -281,3 +282,29 @@ def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         found = render([check_file("m.gark.yaml")], Look())
         assert shown in words(found)
         assert max(map(len, found.splitlines())) <= 80
+
+
+def test_norms_have_words_not_fields() -> None:
+    """Labels are those of people: names of fields stay in JSON."""
+    told = gark("check", "-v", "dopri5", "--error-constants").out
+    for field in ("two norm", "inf norm", "worst value"):
+        assert field not in told
+    assert re.search(r"^ +2-norm +0\.0011", told, re.MULTILINE)
+
+
+def test_one_condition_fails(tmp_path: Path) -> None:
+    """In the singular; where a row stands for a tree of one colour too, that tree is named."""
+    text = """
+ark:
+  A:
+    - [[0, 0], [1/2, 0]]
+    - [[0, 0], [0, 1/3]]
+  b: [0, 1]
+expect: {order: 2}
+"""
+    (tmp_path / "one.yaml").write_text(text, encoding="utf-8")
+    told = " ".join(gark("check", "one.yaml", cwd=tmp_path).out.split())
+    assert "1 of the 2 conditions of order 2 fails; it involves A{1,2}" in told
+    assert "of them" not in told
+    told = " ".join(gark("conditions", "one.yaml", "-n", "2", cwd=tmp_path).out.split())
+    assert "(also of [[]_2]_2: diagonal condition)" in told
