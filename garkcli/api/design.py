@@ -334,7 +334,8 @@ def found_files(
 
     ``wishes`` are options of that line that neither the family nor what was found shows.
     """
-    source = f"found by gark design {shlex.quote(family.source)}"
+    path = family.source if family.source.startswith("<") else shlex.quote(family.source)
+    source = f"found by gark design {path}"
     source += "".join(f" --set {shlex.quote(f'{k}={v}')}" for k, v in family.settings.items())
     source += wishes
     if isinstance(found, DesignWithin):

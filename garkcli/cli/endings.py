@@ -57,7 +57,7 @@ CURES = {
 """Commands that write the formats which others cannot."""
 PICTURES = ("png", "svg", "pdf")
 DRAWING = {"convergence": "converge", "energy": "energy"}
-"""Commands that draw what ``gark plot`` shows, but for stability."""
+"""Commands that draw the pictures of ``gark plot`` that are not of stability."""
 
 
 def ending_of(path: str) -> str:
