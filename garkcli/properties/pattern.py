@@ -40,16 +40,26 @@ class StageGraph(Frozen):
             this false.
         loops: for each stage value that depends on itself directly, the nonzero entries, one per
             colour; None for one that is not known exactly.
+        fields: for each of these stage values the colours of the entries.
     """
 
     successors: Mapping[Vertex, frozenset[Vertex]]
     is_certain: bool
     loops: Mapping[Vertex, tuple[Number | None, ...]]
+    fields: Mapping[Vertex, frozenset[int]]
 
     @property
     def systems(self) -> list[list[Vertex]]:
         """The strongly connected components in the order of computation."""
         return components(self.successors)[::-1]
+
+    @property
+    def changes_fields(self) -> bool:
+        """Whether stages of one space depend on themselves through different vector fields: the
+        matrices of their systems differ.
+        """
+        found = {(space, fields) for (space, _), fields in self.fields.items()}
+        return len(found) > len({space for space, _ in found})
 
     def is_loop(self, vertex: Vertex) -> bool:
         return vertex in self.successors[vertex]
@@ -95,6 +105,7 @@ def stage_graph(
         blocks = {**tableau.blocks, **blocks}
     successors: dict[Vertex, set[Vertex]] = {}
     loops: dict[Vertex, list[Number | None]] = {}
+    fields: dict[Vertex, set[int]] = {}
     is_certain = True
     for space in dict.fromkeys(tableau.colours[l].space for l in chosen):
         if colours is None and space not in matters:
@@ -114,10 +125,12 @@ def stage_graph(
                         successors[seer].add(seen)
                     if nonzero and seer == seen:
                         loops.setdefault(seen, []).append(None if isinstance(entry, arb) else entry)
+                        fields.setdefault(seen, set()).add(m)
     return StageGraph(
         {x: frozenset(found) for x, found in successors.items()},
         is_certain,
         {x: tuple(found) for x, found in loops.items()},
+        {x: frozenset(found) for x, found in fields.items()},
     )
 
 
@@ -143,7 +156,8 @@ class Shape(Frozen):
         systems: groups of at least two stages that are solved together, as (space, stage) from 0.
         gamma: the common value of all a_ii^{l,l} ≠ 0; None if they differ.
         singly: ``SDIRK`` if all stages are implicit with the same γ, ``ESDIRK`` if the first one of
-            each stage space is explicit and all others are implicit; else empty.
+            each stage space is explicit and all others are implicit; else empty. Stages of one
+            space have the same vector fields beside γ.
     """
 
     kind: Kind | None
@@ -178,6 +192,8 @@ def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
 
 def _singly(graph: StageGraph, implicit: Sequence[Vertex]) -> Literal["SDIRK", "ESDIRK", ""]:
     stages = set(graph.successors)
+    if graph.changes_fields:
+        return ""
     if set(implicit) == stages:
         return "SDIRK"
     first = {vertex for vertex in stages if vertex[1] == 0}

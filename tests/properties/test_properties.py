@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import find_property
+from garkcli.check.analysis import analyse
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import Matrix, identity, is_singular
 from garkcli.exact.polynomial import Polynomial
@@ -714,3 +715,20 @@ def test_shapes_within_a_tolerance(off: str, is_one: bool, small: str, kind: str
         assert found.singly == ("SDIRK" if is_one else "")
     if not above:
         assert found.implicit_stages == 2
+
+
+def test_stages_of_different_fields_are_not_singly() -> None:
+    """Störmer and Verlet's method for general problems solves with I − ½hJ_p in its first stage and
+    with I − ½hJ_q in its second: one γ, and not one matrix. The same field in both is SDIRK.
+    """
+    q = "{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}"
+    p = "{A: [[1/2, 0], [1/2, 0]], b: [1/2, 1/2]}"
+    subject = analyse(loads(f"prk: {{q: {q}, p: {p}}}\nstructure: general\n").tableau).subject
+    assert subject.shape.name == "diagonally implicit"
+    found = subject.verdict("sdirk")
+    assert found.value is False
+    assert "different vector fields" in str(found.why)
+    both = loads(
+        "ark:\n  A: [[[1/2, 0], [0, 1/2]], [[0, 0], [1, 0]]]\n  b: [[1/2, 1/2], [1/2, 1/2]]\n"
+    )
+    assert analyse(both.tableau).subject.shape.name == "SDIRK"

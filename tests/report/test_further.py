@@ -56,7 +56,7 @@ def test_text_tells_orders_estimate_and_how_pieces_fit() -> None:
     ):
         assert line in text
     detailed = words(render([outcome], Look(), verbosity=1))
-    assert " two norm 0.0294628 inf norm 0.0208333 worst [[],[]] " in detailed
+    assert " 2-norm 0.0294628 largest 0.0208333 at [[],[]] " in detailed
     assert " degree 3 continuous yes smooth yes " in detailed
 
 

@@ -55,6 +55,8 @@ def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdi
     if shape.singly == wanted:
         return Verdict(True)
     why = what_is_not_singly(subject)
+    if not why and subject.graph.changes_fields:
+        why = Reason("stages depend on themselves through different vector fields")
     if not why:
         explicit = set(subject.graph.successors) - set(subject.graph.loops)
         why = Reason("no stage is explicit")
@@ -89,8 +91,8 @@ def diagonally_implicit(subject: Subject) -> Verdict:
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.6", asks="equations")
 def sdirk(subject: Subject) -> Verdict:
-    """Every stage value depends on itself directly, all with the same coefficient γ, and no two
-    depend on each other. The claim `gamma` says which γ it is.
+    """Every stage value depends on itself directly, all with the same coefficient γ and through the
+    same vector fields, and no two depend on each other. The claim `gamma` says which γ it is.
     """
     return decide_singly(subject, "SDIRK")
 
@@ -98,8 +100,8 @@ def sdirk(subject: Subject) -> Verdict:
 @claimed("C. A. Kennedy, M. H. Carpenter, NASA/TM-2016-219173", asks="equations")
 def esdirk(subject: Subject) -> Verdict:
     """The first stage value is the old value; every other one depends on itself directly, all with
-    the same coefficient γ, and no two depend on each other. With several methods this holds for
-    each. The claim `gamma` says which γ it is.
+    the same coefficient γ and through the same vector fields, and no two depend on each other. With
+    several methods this holds for each. The claim `gamma` says which γ it is.
     """
     return decide_singly(subject, "ESDIRK")
 
