@@ -533,6 +533,8 @@ def _emit(
     if not files:
         message = "there is no single method to be written: no order has finitely many"
         cure = "choose values with --set, or ask for a higher order"
+        if given.emit is not None and given.minimise is None and family.tolerance is None:
+            cure += "; or let --minimise error choose one"
         raise UsageProblem(message, cure, code="not-found")
     if given.emit is not None:
         output.save(given.emit, [files[0].text])

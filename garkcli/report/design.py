@@ -433,6 +433,8 @@ def stable_rows(x: DesignReport, d: Plain) -> Texts:
         if last.found:  # all real ones, each with its verdict
             return []
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
+        if x.minimum is not None and x.minimum.minimisers:
+            text = f"the best method is {kinds}; {text.partition(': ')[2]}"
         if last.has_methods is False:
             text = f"{kinds}: no real value of order {last.order} that the file admits"
         return [("stable", d.prose(text))]

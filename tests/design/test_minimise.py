@@ -1033,3 +1033,20 @@ def test_a_bounded_set_has_a_least_value() -> None:
         # trees of order 2: b1 (g, h) - 1/2 for both children of colour 1, -1/2 for those of colour 2
         errors.append((g - 0.5) ** 2 + (h - 0.5) ** 2 + 2 * 0.5**2)
     assert 0 <= min(errors) - float(minimum.value) < 1e-3
+
+
+def test_the_best_method_is_as_stable_as_wanted(tmp_path: Path) -> None:
+    """Though all methods of the family are not decided; alone it cannot be written, and the cure
+    leads to the best one.
+    """
+    text = """
+unknown: {stages: 4, shape: [esdirk, stiffly-accurate], embedded: true}
+design: {order: 3, embedded-order: 2, stage-order: 2, l-stable: true}
+"""
+    (tmp_path / "esdirk.yaml").write_text(text, encoding="utf-8")
+    given = ("design", "esdirk.yaml", "--set", "bh4=0", "--set", "bh3=1/2")
+    told = " ".join(gark(*given, "--minimise", "error", cwd=tmp_path).out.split())
+    assert "the best method is L-stable; not decided for all methods of the family" in told
+    alone = gark(*given, "--emit", "x.yaml", cwd=tmp_path)
+    assert (alone.code, "--minimise error" in alone.err) == (2, True)
+    assert "the best method" not in alone.out
