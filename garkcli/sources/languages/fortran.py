@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from itertools import islice, product
 from typing import TYPE_CHECKING
 
+from garkcli.deadline import check_time
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES, FoundTable
@@ -212,6 +213,7 @@ class FortranLowering(Lowering):
             at = [*map(self._indices, given, ends)]
             # the first index varies fastest
             for backwards in product(*reversed(at)):
+                check_time()
                 indices = tuple(ir.Literal(str(i), is_whole=True) for i in reversed(backwards))
                 yield ir.Index(ir.Name(name), self._from_one(name, indices))
             return
