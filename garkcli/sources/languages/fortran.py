@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from itertools import islice, product
 from typing import TYPE_CHECKING
 
-from garkcli.deadline import check_time
+from garkcli.deadline import checked
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES, FoundTable
@@ -212,8 +212,7 @@ class FortranLowering(Lowering):
             ends = ends if len(ends) == len(given) else [None] * len(given)
             at = [*map(self._indices, given, ends)]
             # the first index varies fastest
-            for backwards in product(*reversed(at)):
-                check_time()
+            for backwards in checked(product(*reversed(at))):
                 indices = tuple(ir.Literal(str(i), is_whole=True) for i in reversed(backwards))
                 yield ir.Index(ir.Name(name), self._from_one(name, indices))
             return
