@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from flint import arb, fmpq
 
+from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
+from garkcli.order.tolerance import rounded_up
 from garkcli.tableau.pointwise import in_points, numeric_entries
 
 if TYPE_CHECKING:
@@ -24,6 +26,8 @@ WINDOW = 1e-5
 ROUNDINGS = tuple(fmpq(1, 10**digits) for digits in (15, 14, 13, 12, 11, 10, 9, 8, 7, 6))
 """The distances that a report may state."""
 MOST_STAGES = 100
+LONGEST = 8
+"""The most characters of a rounding that is shown as it is."""
 _DIGITS = 9
 _ROUNDS = 2
 
@@ -140,8 +144,13 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
                 found.append((same.step_only, same.is_reduced, name, same.allowed, not is_apart))
         if found:
             step_only, _, name, within, is_same = min(found, key=lambda x: x[:3])
-            return Known(name, within or None, step_only, is_same)
+            return Known(name, _in_few_digits(within) or None, step_only, is_same)
     return None
+
+
+def _in_few_digits(rounding: fmpq) -> fmpq:
+    """Returns a rounding; one with many digits, a sum of two, is rounded up."""
+    return rounding if len(decimal(rounding)) <= LONGEST else rounded_up(arb(rounding))
 
 
 @lru_cache(maxsize=100)  # many files may be near to one method

@@ -119,3 +119,16 @@ def test_fingerprints_of_the_index() -> None:
     numbers = sorted(x["fingerprint"] for x in methods)
     near = [b - a for a, b in pairwise(numbers) if b - a <= WINDOW]
     assert len(near) < len(numbers) / 4
+
+
+def test_a_sum_of_roundings_has_few_digits() -> None:
+    """The rounding of a copy with ten digits and that of the catalogue with forty are one of two
+    digits, which is at least their sum.
+    """
+    text = """tolerance: 1e-10
+A: [[0, 0, 0, 0], [0.4358665215, 0.4358665215, 0, 0],
+    [0.2576482460, -0.0935147675, 0.4358665215, 0],
+    [0.1876410243, -0.5952974735, 0.9717899277, 0.4358665215]]
+b: [0.1876410243, -0.5952974735, 0.9717899277, 0.4358665215]
+"""
+    assert known(text) == Known("esdirk-324", fmpq(11, 10**11), True)
