@@ -1,4 +1,4 @@
-"""Terminals: which streams are one, and how wide it is."""
+"""Terminals: which streams are terminals, and their width."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ def misprints(
     is_searched = order.witness is not None and order.order < goal
     if not is_searched or not (claimed or order.order <= HIGHEST_LOW):
         return ()
-    # what right methods do without
+    # imported here: few methods miss an order
     from garkcli.order.blame import FEW_CONDITIONS_UNASKED, MAX_CONDITIONS
     from garkcli.order.conditions import count_conditions
     from garkcli.order.rounded import RoundedTableau

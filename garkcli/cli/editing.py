@@ -34,8 +34,8 @@ def lsp(given: LspOptions, output: Output) -> int:
     It shows remarks at their places, the orders above the tableau, the meaning of keys, families
     and rules under the cursor, what may come next, and entries that would mend a claim.
 
-    Exit code with --once: 0 every claim holds, or numbers are free, 1 a claim fails, 2 FILE cannot
-    be read as a method, 3 a claim is undecided.
+    Exit code with --once: 0 every claim holds, or nothing is claimed, 1 a claim fails, 2 FILE
+    cannot be read as a method, 3 a claim is undecided, or is one about free numbers.
     """
     if given.once is not None:
         from msgspec import json

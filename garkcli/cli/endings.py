@@ -56,6 +56,10 @@ CURES = {
 }
 """Commands that write the formats which others cannot."""
 PICTURES = ("png", "svg", "pdf")
+UNDRAWN = ("tableau", "tree")
+"""Pictures of ``gark plot`` that no other command draws."""
+DRAWN_BY_OTHERS = ("check", "plot", "show", "stability")
+"""Commands on one method, of which other commands draw a picture."""
 DRAWING = {"convergence": "converge", "energy": "energy"}
 """Commands that draw the pictures of ``gark plot`` that are not of stability."""
 
@@ -94,7 +98,7 @@ def settled(
     further = [CURES[x] for x in held[:1] if x in CURES and x not in formats]
     if held[0] in PICTURES and option == "-o":
         further = [_drawing(path)]
-    raise UsageProblem(message, "; ".join([cure, *further]), code="wrong-ending")
+    raise UsageProblem(message, "; ".join(filter(None, [cure, *further])), code="wrong-ending")
 
 
 def _drawing(path: str) -> str:
@@ -109,7 +113,9 @@ def _drawing(path: str) -> str:
         return f"--plot {place} draws"
     if context is not None and context.info_name == "report":
         return "a browser prints the page as PDF"
-    file, what = given.get("file"), given.get("what")
+    file, what = given.get("file") or next(iter(given.get("files") or ()), None), given.get("what")
+    if what in UNDRAWN or context is None or context.info_name not in DRAWN_BY_OTHERS:
+        return ""
     file = shlex.quote(file) if isinstance(file, str) else "FILE"
     return f"gark {DRAWING.get(what or '', 'stability')} {file} --plot {place} draws"
 

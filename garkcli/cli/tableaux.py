@@ -384,8 +384,8 @@ def convert(given: Convert, output: Output) -> None:
 
     Name, reference, tolerance, embedded weights and dense output stay. So do the claims that hold
     for the result; a note names the others. The file of the pair has the claims of FILE about the
-    pair. --to reduced writes the smallest equivalent method, without claims if stages go:
-    stages that do not influence the step are removed, and equal ones merged.
+    pair. --to reduced writes the smallest equivalent method: stages that do not influence the
+    step are removed, and equal ones merged. If any are, the file makes no claims.
     """
     if given.to == REDUCED:
         _reduce(given, output)

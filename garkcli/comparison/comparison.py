@@ -32,7 +32,9 @@ from garkcli.upward import Shown
 Relation: TypeAlias = Literal[
     "identical", "same", "within-rounding", "same-step", "different", "undecided"
 ]
-"""By entries; as methods; up to the rounding that the files admit; different; not known."""
+"""By entries; as methods; up to the rounding that the files admit; as steps, one having further
+weights; different; not known.
+"""
 
 
 WITH_TIME = "order with time"

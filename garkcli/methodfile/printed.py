@@ -20,9 +20,9 @@ Units: TypeAlias = Mapping[Number, fmpq]
 FEWEST_DIGITS = 6
 """A number with fewer digits is taken as exact."""
 FEW_PLACES = range(4, 6)
-"""Decimals are rounded where the longest have so many places, as on a sheet of exercises, …"""
+"""Decimals of so many places look rounded if none is longer, as on a sheet of exercises."""
 SEVERAL = 3
-"""… and where there are so many."""
+"""Fewest such decimals."""
 SHORTENED = 4
 """In lowest terms, the denominator of a decimal has at most so many digits less."""
 MANY_DIGITS = 14

@@ -68,9 +68,10 @@ def suspected_numbers(
     """
     numbers = rounded.search.box.numbers
 
-    def changed(k: int, change: fmpq) -> tuple[fmpq, fmpq] | None:
+    def changed(k: int, change: fmpq) -> tuple[fmpq, fmpq]:
         old = numbers[k]
-        return (old, old + change) if isinstance(old, fmpq) else None
+        assert isinstance(old, fmpq)
+        return old, old + change
 
     return [
         SuspectedNumber(*change.made, change.order)
@@ -97,7 +98,7 @@ def _changes(
     rounded: RoundedTableau, order: int, limit: int, made_of: Callable[[int, fmpq], T | None]
 ) -> list[_ChangedNumber[T]]:
     """The suspected numbers, each made by ``made_of`` of its index and its change, with the order
-    that the change gives; numbers of which that makes None are left out.
+    that the change gives; numbers for which it returns None are left out.
     """
     search = rounded.search
     limit = min(limit, rounded.tableau.exact_to or limit)

@@ -909,7 +909,7 @@ def _quotient(x: kinds.Quotient, variable: str) -> str:
 
 
 def _in_decimals(texts: Sequence[str]) -> str:
-    top, bottom = (expression_latex(text) or "" for text in texts)
+    top, bottom = (expression_latex(text) or rf"\text{{{text}}}" for text in texts)
     return _over(top, bottom, r"\approx")
 
 

@@ -302,7 +302,13 @@ def _moved(x: Transformation | None, d: Plain) -> list[str]:
 
 def _rounded(x: Transformation, rows: Sequence[Sequence[arb]]) -> list[list[str]]:
     """The texts of some rows of balls."""
-    return [["0" if y.contains(0) else y.str(x.digits, radius=False) for y in row] for row in rows]
+    least = arb(10) ** -x.digits
+
+    def text(y: arb) -> str:
+        is_zero = y.contains(0) and abs(y) < least
+        return "0" if is_zero else y.str(x.digits, radius=False)
+
+    return [[text(y) for y in row] for row in rows]
 
 
 ONE: Kind[Sequence[object]] = Kind(Json(array(NUMERAL)))

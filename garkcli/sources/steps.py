@@ -216,9 +216,8 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
     for statement in ir.statements(body):
         for x in ir.inside(getattr(statement, "value", None)):
             match x:
-                case ir.Binary("*" | "/" as sign, left, right):
+                case ir.Binary("*" | "/", left, right):
                     names |= {y.name: None for y in (left, right) if isinstance(y, ir.Name)}
-                    del sign
     found = [x for x in names if isinstance(space.find(x), Number)]
     return found if len(found) <= MAX_NUMBERS else []
 
@@ -346,6 +345,7 @@ class Follower(Evaluator):
         self._counters = counters
         self._ignores_others = ignores_others
         self.has_others = False
+        self._given: set[str] = set()
         calls = [x.value for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
         callees = [x.callee for x in calls]
         self._f = max(callees, key=callees.count, default=None)
@@ -440,6 +440,9 @@ class Follower(Evaluator):
         )
         is_other = not has_slope and not _name(call.callee).endswith("!")
         self.has_others |= is_other
+        if is_other:
+            values = (terms_of(self.value(x, space)) or {} for x in call.args)
+            self._given |= {at[0] for form in values for at in form if len(at) == 1}
         return self._ignores_others and is_other
 
     def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
@@ -734,8 +737,20 @@ class Follower(Evaluator):
             roles = step_in(slopes, space, self._returned, self._counters)
         except NoStep:
             raise NoStep(self.looks_like) from None
-        if self._ignores_others and len(items_of(roles["b"])) < len(slopes):
+        factors = {
+            name
+            for slope in slopes
+            for form in slope.args
+            for at in form or ()
+            for name in at
+            if len(at) == 2 and " " not in name
+        }
+        if self._ignores_others and (
             # a slope that nothing uses may have changed
+            len(items_of(roles["b"])) < len(slopes)
+            # what is given the step may go on with it
+            or factors & self._given
+        ):
             raise NoStep(self.looks_like)
         return roles
 

@@ -230,8 +230,8 @@ class PointSpace(StageSpace):
 
 
 OF_OTHERS = (
-    "gark check, show, tableau, conditions, stability, plot, converge, diff, report and export "
-    "know such methods"
+    "gark check, show, tableau, conditions, converge, diff, report and export know such methods; "
+    "gark stability and plot know them but for nonlinearly partitioned ones"
 )
 """The cure if a command is not defined for a method that is no GARK method."""
 

@@ -524,7 +524,7 @@ def test_a_start_has_the_stages_of_the_file(tmp_path: Path) -> None:
     path.write_text(FOUR % ("", 4), encoding="utf-8")
     run = gark("design", str(path), "--search", "1", "--start", "heun")
     assert run.code == 2
-    assert "the start has 2 stages, the methods of the file 4" in run.err
+    assert "the start has 2 stages for 1 vector field, the methods of the file 4" in run.err
     run = gark("design", str(path), "--start", "rk4")
     assert run.code == 2
     assert "--start goes with --search" in run.err

@@ -461,11 +461,13 @@ def test_a_wrong_number_is_found() -> None:
         PYTHON.replace("0.5 * (k1", "0.4 * (k1"),
         PYTHON.replace("t + dt", "t + 1"),
         "def g(a, b):\n    c = max(a, b)\n    d = max(a + c, b)\n    return c + d\n",
+        "def step(sim, rhs, h):\n    k1 = rhs(sim.u)\n    sim.predict(h/2)\n    k2 = rhs(sim.u)\n"
+        "    k3 = rhs(sim.u + h/4*k2)\n    sim.u = sim.u + h*(k1 + k3)/2\n",
     ],
 )
 def test_what_is_no_step(text: str) -> None:
     """Slopes squared, in a loop, weights whose sum is not 1, times without the step; arguments in
-    another order.
+    another order; a call that is given the step and may go on with the state.
     """
     find = julia.find if text is JULIA else python.find
     assert not any(x.b for x in find(text, "x"))

@@ -8,7 +8,7 @@ from flint import arb, fmpq
 
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.rational import RationalFunction, System
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, counted
 from garkcli.exact.display import to_ball
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number
@@ -39,9 +39,12 @@ def nearest_member(family: Family, method: Tableau, further: Further) -> list[fl
 
     is_alike = family.tableau.size == method.size
     if not is_alike or _shape(family.tableau) != _shape(method):
-        sizes = [" + ".join(map(str, _shape(x))) for x in (method, family.tableau)]
-        message = f"the start has {sizes[0]} stages, the methods of the file {sizes[1]}"
-        raise UsageProblem(message, "name a method with as many", code="option-value")
+        sizes = [
+            f"{' + '.join(map(str, _shape(x)))} stages for {counted(x.size, 'vector field')}"
+            for x in (method, family.tableau)
+        ]
+        message = f"the start has {sizes[0]}, the methods of the file {sizes[1]}"
+        raise UsageProblem(message, "name a method with the same", code="option-value")
     pairs = list(_pairs(family.tableau, method))
     if family.further.embedded is not None and further.embedded is not None:
         own = with_weights(family.tableau, family.further.embedded)
