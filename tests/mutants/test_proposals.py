@@ -39,6 +39,12 @@ SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 RNG = np.random.default_rng(5)
 
 
+@pytest.fixture(autouse=True)
+def same_numbers_in_every_test() -> None:
+    """A test gets the same errors alone and among others."""
+    RNG.bit_generator.state = np.random.default_rng(5).bit_generator.state
+
+
 def astray(x: Any) -> Any:
     """A point, or points, some way off."""
     return np.asarray(x, float) + RNG.normal(0.0, 0.3, np.shape(x))
@@ -243,7 +249,8 @@ b: [0.5, 0.5]
 """
     method: Any = as_meant(loads(gauss.format("0.53867513559481288")))
     found = suspects.suspects(method, 4)
-    assert found or off or doubt != 5
+    if (off, doubt) == (0, 5):
+        assert found
     for repair, order in found.items():
         assert order == 4
         mended = RoundedTableau.within(repair.carried_out(method.tableau), fmpq(1, 10**10))
