@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import PathPatch
+from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
 from garkcli.plots.scene import (
@@ -154,7 +154,12 @@ def _add_legend(axes: Axes, named: Sequence[Curve | Area], distance: float) -> N
     """Adds the legend below the axes."""
     if not named:
         return
-    handles = [Line2D([], [], **_line(shape)) for shape in named]
+    handles = [
+        Patch(facecolor=_line(shape)["color"], alpha=shape.opacity, linewidth=0)
+        if isinstance(shape, Area) and not shape.has_outline
+        else Line2D([], [], **_line(shape))
+        for shape in named
+    ]
     legend = axes.legend(
         handles,
         ["name"] * len(named),

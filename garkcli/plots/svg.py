@@ -218,7 +218,11 @@ class _Frame:
 def _legend_rows(named: Sequence[scene.Curve | scene.Area], y: float) -> Iterator[str]:
     for shape in named:
         start, end = (_LEFT - 46, y), (_LEFT - 12, y)
-        if not isinstance(shape, scene.Curve) or shape.has_line:
+        if isinstance(shape, scene.Area) and not shape.has_outline:
+            style = f"fill:{colour(shape.style)}"
+            place = {"x": start[0], "y": y - 5, "width": end[0] - start[0], "height": 10}
+            yield element("rect", **place, style=style, fill_opacity=f"{shape.opacity:g}")
+        elif not isinstance(shape, scene.Curve) or shape.has_line:
             yield element("path", d=_path([start, end]), **_stroke(shape) | {"stroke_width": 2.0})
         else:
             place = {"cx": (start[0] + end[0]) / 2, "cy": y, "r": _RADIUS}

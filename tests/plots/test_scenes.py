@@ -168,3 +168,17 @@ def test_steps_of_a_run_are_exact_marks() -> None:
     result = converge("rk4", steps=[fmpq(1, 3), fmpq(1, 9)])
     (panel,) = errors_scene([("RK4", result)]).panels
     assert [mark.label for mark in panel.x.marks(6)] == ["1/3", "1/9"]
+
+
+def test_a_region_without_outline_has_a_patch_in_the_legend() -> None:
+    """Of the stable z of an explicit part, in both outputs; curves have their line there."""
+    scene = stability_of("ars-343")
+    panel = scene.panels[-1]
+    kinds = [isinstance(x, Area) and not x.has_outline for x in panel.legend]
+    assert kinds == [True, False]
+    (*_, axes) = figure(scene).axes
+    legend = axes.get_legend()
+    assert legend is not None
+    assert [type(x).__name__ for x in legend.legend_handles] == ["Rectangle", "Line2D"]
+    patches = [x for x in ET.fromstring(svg(panel)).iter() if x.tag.endswith("rect")]
+    assert sum(x.get("height") == "10" for x in patches) == 1
