@@ -19,6 +19,7 @@ from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, c
 from garkcli.methodfile.load import loads
 from garkcli.order.repair import Repair
 from garkcli.report.checked import REPORT
+from garkcli.tell.facts import Level
 from garkcli.tell.outputs import label, words
 
 SECONDS = 5.0
@@ -116,9 +117,8 @@ def _orders(outcome: Outcome) -> tuple[str, ...]:
         return ()
     dialect = REPORT.dialect(outcome, "text", width=COLUMNS)
     facts = REPORT.form(outcome).named(outcome, ORDERS)
-    return tuple(
-        f"{label(x, dialect)} {words(x, dialect)}" for x in facts.values() if x.is_something
-    )
+    usual = [x for x in facts.values() if x.is_something and x.level <= Level.USUAL]
+    return tuple(f"{label(x, dialect)} {words(x, dialect)}" for x in usual)
 
 
 def span_of(lines: list[str], remark: Remark) -> TextSpan:

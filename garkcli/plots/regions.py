@@ -33,7 +33,7 @@ from garkcli.plots.scene import (
     Shape,
     polygons,
 )
-from garkcli.stability.damping import ImexPair
+from garkcli.stability.damping import ImexPair, explicit_colour
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.summary import Stability, directions
@@ -197,7 +197,9 @@ def stability_scene(
     if others:
         named = [(name, x.linear[0].R) for name, x in methods]
     else:
-        named = of_directions([(x.name, x.R) for x in found.linear])
+        pair = found.colours.pair if found.colours is not None else None
+        explicit = pair.explicit if pair is not None else None
+        named = of_directions([(x.name, x.R) for x in found.linear], explicit)
     region = region_panel(named, is_order_star)
     if any(x.tolerance is not None for _, x in methods):
         region = replace(region, note=f"{region.note} {PRINTED}")
@@ -220,20 +222,28 @@ def region_of(
     if linear is None or not found:
         return None
     named = [(name, stability_function(linear, shares)) for name, shares in found[:most]]
-    panel = region_panel(of_directions(named), is_order_star)
+    panel = region_panel(of_directions(named, explicit_colour(linear)), is_order_star)
     more = len(found) - len(named)
     left_out = f" The regions of the last {more} colours alone are left out." if more else ""
     printed = f" {PRINTED}" if tolerance is not None else ""
     return replace(panel, note=panel.note + left_out + printed)
 
 
-def of_directions(found: Sequence[Named]) -> list[Named]:
-    """Returns the stability functions of a method with labels for the legend, "all" first."""
+def of_directions(found: Sequence[Named], explicit: int | None = None) -> list[Named]:
+    """Returns the stability functions of a method with labels for the legend, "all" first.
+
+    ``explicit`` is the explicit colour of two, the other being implicit.
+    """
     if len(found) == 1:
         return [("", R) for _, R in found]
-    return [
-        ("all colours alike" if name == "all" else f"colour {name} alone", R) for name, R in found
-    ]
+    if explicit is not None:
+        parts = [f"{'explicit' if l == explicit else 'implicit'} part" for l in range(2)]
+        labels = ["one λ for both parts", *parts]
+    else:
+        labels = [
+            "all colours alike" if name == "all" else f"colour {name} alone" for name, _ in found
+        ]
+    return [(label, R) for label, (_, R) in zip(labels, found, strict=True)]
 
 
 def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:

@@ -48,7 +48,8 @@ def test_remarks_are_those_of_the_command() -> None:
     assert [x.remark for x in found.remarks] == [x.remark for x in findings(outcome)]
     assert found.remarks[0].span == TextSpan(3, 16, 17)
     assert found.line == 1
-    assert found.lens[0] == "order 1, proved; order 2 fails at [[]] by -1/18"
+    # the conjugate and the pair of a method of one colour are not asked for
+    assert found.lens == ("order 1, proved; order 2 fails at [[]] by -1/18",)
 
 
 def test_couplings_have_a_lens_and_no_wrong_fix() -> None:

@@ -10,13 +10,13 @@ import pytest
 from flint import fmpq
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from garkcli import converge, find_stability, long_run
+from garkcli import converge, find_stability, load, long_run
 from garkcli.frozen import replace
 from garkcli.plots import terminal
 from garkcli.plots.convergence import errors_scene
 from garkcli.plots.curves import energy_scene
 from garkcli.plots.figure import figure
-from garkcli.plots.regions import springs_panel, stability_scene
+from garkcli.plots.regions import of_directions, region_of, springs_panel, stability_scene
 from garkcli.plots.scene import (
     Area,
     Axis,
@@ -182,3 +182,20 @@ def test_a_region_without_outline_has_a_patch_in_the_legend() -> None:
     assert [type(x).__name__ for x in legend.legend_handles] == ["Rectangle", "Line2D"]
     patches = [x for x in ET.fromstring(svg(panel)).iter() if x.tag.endswith("rect")]
     assert sum(x.get("height") == "10" for x in patches) == 1
+
+
+def test_parts_of_an_implicit_explicit_method_have_their_names() -> None:
+    """In the picture of ``stability``, and in that of a method file."""
+    (panel, _) = stability_of("ars-343").panels
+    method = load("ars-343")
+    alone = region_of(method.tableau, method.tolerance)
+    assert alone is not None
+    wanted = ["one λ for both parts", "explicit part", "implicit part"]
+    for drawn in (panel, alone):
+        assert [x.label for x in drawn.shapes if isinstance(x, Area)] == wanted
+    R = find_stability("rk4").linear[0].R
+    assert [label for label, _ in of_directions([("all", R), ("1", R), ("2", R)])] == [
+        "all colours alike",
+        "colour 1 alone",
+        "colour 2 alone",
+    ]
