@@ -113,7 +113,7 @@ _SPELLINGS: tuple[tuple[str, str], ...] = (
     (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
     (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
     (r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])", "coefficients are real here: no complex ones"),
-    (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
+    (r"[0-9)][ \t]+[0-9.]+", "put commas between entries and points in decimals: [0.5, 1/2]"),
 )
 """Numbers as other languages write them, and the spelling in a method file."""
 
