@@ -4,13 +4,15 @@ The pages are plain Markdown that reads well where the code is hosted, so
 they have no directives, but for the cells of the notebook. What the site has
 besides is made here: the contents in the margin, from the headings and lists
 of `all-pages.md`; `CONTRIBUTING.md`, which stands outside of this folder, as the
-first page for contributors; titles in place of the names of files, in links
-that show these; and formulas, drawn as MathML.
+first page for contributors; at the ends of two pages what ``gark schema``,
+``gark explain`` and ``gark COMMAND --help`` print; titles in place of the names
+of files, in links that show these; and formulas, drawn as MathML.
 """
 
 from __future__ import annotations
 
 import re
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -114,12 +116,34 @@ def typeset(text: str) -> str:
     return "".join(parts)
 
 
+MADE = {
+    "json-fields": "tests.docs.tables:fields_page",
+    "command-line": "tests.docs.command_reference:reference",
+}
+"""Functions that make the ends of pages of the site, which programs print as well."""
+
+
+def made(page: str) -> str:
+    """What the program says of itself at the end of a page; empty for most.
+
+    Args:
+        page: its name without ending.
+    """
+    if page not in MADE:
+        return ""
+    module, _, name = MADE[page].partition(":")
+    text: str = getattr(import_module(module), name)()
+    return text
+
+
 def _complete(_: Sphinx, page: str, source: list[str]) -> None:
     if page == "index":
         pages = Path(__file__).with_name("all-pages.md").read_text(encoding="utf-8")
         source[0] += "\n" + contents(pages)
     elif page == "contributing/index":
         source[0] = contributing()
+    if end := made(page):
+        source[0] += "\n" + end
     folder = (Path(__file__).parent / page).parent
     source[0] = typeset(titled(source[0], folder))
 

@@ -321,3 +321,35 @@ def test_the_errors_of_gauss_2_and_lobatto_4() -> None:
     p_stable = tableau_of("p-stable-least-error-gauss2-lobatto4")
     for found, squared in ((least, fmpq(31811, 2332800)), (p_stable, fmpq(793, 46656))):
         assert error_constants(pair(found), 5).all.two_squared == squared
+
+
+@pytest.mark.parametrize(
+    ("ask", "options", "answers"),
+    [
+        ("p-stable-conjugate-gauss2-lobatto3", ["--p-stable", "--pair"], ["tau = -2"]),
+        ("imex6-order4", [], ["order 4 for 1 solution"]),
+        ("splitting6-order4", ["--minimise", "error"], ["1.32452909706e-7", "2 solutions"]),
+        ("esdirk6-order4", [], ["a53 = 8289175/1464067"]),
+        ("nystrom4-order5", ["--minimise", "error"], ["20129/153664000000"]),
+        ("imaginary-interval-5-stages", ["--minimise=-imaginary-interval"], ["2*sqrt(3)"]),
+        ("low-storage5-order4-imaginary", ["--search", "10"], ["1 method of order 4"]),
+        pytest.param(
+            "least-error-gauss2-lobatto3",
+            ["--pair", "--order", "4", "--minimise", "error"],
+            ["0.0272829949071", "790*x^3 - 2370*x^2 + 9219*x - 3103"],
+            marks=in_whole,
+        ),
+        pytest.param(
+            "explicit7-order5",
+            ["--search", "1", "--minimise", "error", "--start", "tsitouras-5"],
+            ["4.02180729741e-9"],
+            marks=in_whole,
+        ),
+    ],
+)
+def test_what_docs_found_says_of_questions(
+    ask: str, options: list[str], answers: list[str]
+) -> None:
+    """The numbers of docs/found.md are the answers of gark design."""
+    shown = " ".join(gark("design", str(ASKS / f"{ask}.yaml"), *options).out.split())
+    assert all(x in shown for x in answers), shown

@@ -13,10 +13,8 @@ from itertools import pairwise
 from typing import Any
 
 import garkcli
-from garkcli.cli.command import declaration_of
-from garkcli.cli.table import COMMANDS
+from garkcli.errors import GarkError
 from garkcli.frozen import Frozen, fields
-from tests.docs.tables import cell, table
 
 TYPES = {
     "AnyMethod": "api.anymethod",
@@ -30,26 +28,13 @@ TYPES = {
     "AnyPath": "bridges.calls",
 }
 """Types of arguments: where each is defined, and as what where that differs."""
-OWN = {"AnyMethod", "AnyTree", "AnyProblem", "AnyFamily", "AnyPath", "Settings"}
-"""Those that say all of an argument: it stands in the signature alone."""
-SAID = {"the rounding of the coefficients", "what errors call it.", "of the file."}
-OF_COMMANDS = {x.of for name in COMMANDS for x in declaration_of(name).all_options}
-"""Arguments that are options, by their functions: the reference of commands tells these."""
-USUAL_ERRORS = {"MethodError", "MethodFileError", "UsageProblem"}
-"""Errors of most functions, which the head of the page tells."""
-"""What the head of the page says of ``tolerance``, ``source`` and ``text``."""
 COMMON = {
     "limit": "the order at which a search stops",
-    "h": "the step size",
-    "step": "the step size",
     "steps": "step sizes that divide `t_end`, the largest first",
-    "count": "how many steps",
     "t_end": "the final time, a whole number of steps",
     "initial": "the start, shape (2d,) for (q, p) or (d,) for y",
     "integrator": "`bind(method, problem)`, or that `.at(digits)`",
-    "stiffness": "the parameter `stiffness` of a stiff problem",
     "terms": "one for each colour of a method",
-    "seconds": "when to give up",
     "deadline": "the reading of `time.monotonic` at which to give up",
     "max_order": "the order of the largest trees",
     "seed": "of what is random",
@@ -57,11 +42,8 @@ COMMON = {
     "fast": "the colour of the fast spring, from 1",
     "slow": "(hω_s)² of the slow spring, or an interval of it",
     "up_to": "a bound on (hω_f)²",
-    "keys": "claims, or one of them",
 }
 """Arguments of several functions, which the page tells once."""
-PLAIN = {"h", "step", "count", "seconds", "stiffness", "keys"}
-"""Those whose names say all."""
 VALUES = (
     "order.certificate:Order",
     "order.certificate:Witness",
@@ -161,16 +143,9 @@ def items(section: str) -> Iterator[tuple[str, str]]:
             yield "", " ".join(entry.split())
 
 
-def linked(text: str, own: str = "") -> str:
-    """Markdown of a docstring: code in single quotes, public names as links."""
-
-    def code(match: re.Match[str]) -> str:
-        word = match[1]
-        if word in garkcli.__all__ and word not in {own, "catalogue"}:
-            return f"[`{word}`](#{word.lower()})"
-        return f"`{word}`"
-
-    return re.sub(r"``([^`]+)``", code, text)
+def plain(text: str) -> str:
+    """Markdown of a docstring: code in single quotes."""
+    return re.sub(r"``([^`]+)``", r"`\1`", text)
 
 
 def brief(text: str) -> str:
@@ -190,20 +165,12 @@ class _Plain(str):
 
 
 def signature(name: str, thing: Any) -> str:
-    """How a function is called, or a value made; most types of arguments stand with these."""
+    """How a function is called, or a value made; what arguments are stands with their types."""
     shape = inspect.signature(thing)
     empty = inspect.Signature.empty
-    shown = [
-        parameter.replace(annotation=_Plain(kind) if (kind := type_of(x, thing)) in OWN else empty)
-        for x, parameter in shape.parameters.items()
-    ]
+    shown = [x.replace(annotation=empty) for x in shape.parameters.values()]
     answer: Any = empty if isinstance(thing, type) else _Plain(shape.return_annotation)
     return f"{name}{shape.replace(parameters=shown, return_annotation=answer)}"
-
-
-def type_of(name: str, thing: Any) -> str:
-    """The type of an argument."""
-    return str(inspect.signature(thing).parameters[name].annotation).replace('"', "")
 
 
 def members(kind: type) -> Iterator[tuple[str, Any]]:
@@ -221,15 +188,14 @@ def members(kind: type) -> Iterator[tuple[str, Any]]:
                 yield name, value
 
 
-def member(name: str, value: Any) -> tuple[str, str]:
-    """A property or a method: how it is written, and what it is."""
+def member(name: str, value: Any) -> str:
+    """How a property or a method is written."""
     if isinstance(value, classmethod):
         value = value.__func__
-    shape = ""
-    if inspect.isfunction(value):
-        names = [x for x in inspect.signature(value).parameters if x not in ("self", "cls")]
-        shape = f"({', '.join(names)})"
-    return f"{name}{shape}", Docstring.of(value).prose
+    if not inspect.isfunction(value):
+        return name
+    names = [x for x in inspect.signature(value).parameters if x not in ("self", "cls")]
+    return f"{name}({', '.join(names)})"
 
 
 def of_page(kind: type) -> list[type]:
@@ -244,77 +210,30 @@ def of_page(kind: type) -> list[type]:
     return [kind, *bases]
 
 
-def more_general(kind: type) -> str:
-    """What leads to the section of a base; empty where none has one."""
-    own = of_page(kind)
-    for base in kind.__mro__:
-        if base not in own and base.__name__ in garkcli.__all__:
-            return f" A [`{base.__name__}`](#{base.__name__.lower()})."
-    return ""
-
-
-def told(name: str, thing: Any) -> list[tuple[str, str]]:
-    """The arguments of a function whose types do not tell all, or what a value has."""
-    doc = of_class(thing)
-    if isinstance(thing, type):
-        entries = list(items(doc.sections.get("Attributes", "")))
-        entries += [member(x, value) for x, value in members(thing)]
-        return [(x, linked(brief(text).partition("; ")[0], name)) for x, text in entries]
-    entries = [
-        (
-            f"{x}: {type_of(x, thing).removesuffix(' | None')}",
-            _DEFAULT.sub("", brief(text)).partition("; ")[0],
-        )
-        for x, text in items(doc.sections.get("Args", ""))
-        if type_of(x, thing) not in OWN and x not in COMMON and f"{name}.{x}" not in OF_COMMANDS
-    ]
-    return [
-        (x, linked(text, name))
-        for x, text in entries
-        if text not in SAID and not text.startswith("as in ")
-    ]
-
-
-_DEFAULT = re.compile(r"[;,] (by default|None for|that of the method where) .*")
-"""What is said of defaults, which the signature shows."""
+def told(kind: type) -> list[str]:
+    """What values of a class have: attributes, properties and methods."""
+    names = [x for x, _ in items(of_class(kind).sections.get("Attributes", ""))]
+    return [*names, *(member(x, value) for x, value in members(kind))]
 
 
 def described(name: str, thing: Any) -> str:
-    """The section of one name."""
+    """The row of one name: how it is called, what it is, what it has, and from which error it is
+    made.
+    """
     doc = of_class(thing)
-    is_value = isinstance(thing, type)
-    parts = [f"### {name}"]
-    if not is_value or is_made(thing):
-        parts.append(f"`{signature(name, thing)}`")
-    general = more_general(thing) if is_value else ""
-    parts.append(linked(brief(doc.prose) + answer(thing, doc), name) + general)
-    own = told(name, thing)
-    if own and is_value:
-        parts.append(f"Has {', '.join(f'`{x}`' for x, _ in own)}.")
-    elif own:
-        parts.append("\n".join(f"* `{x}`: {text.rstrip('.')}" for x, text in own))
-    if "Raises" in doc.sections:
-        errors = [x for x, _ in items(doc.sections["Raises"]) if x not in USUAL_ERRORS]
-        if errors:
-            parts.append(f"Raises {', '.join(linked(f'``{x}``', name) for x in errors)}.")
-    return "\n\n".join(parts)
+    shown = signature(name, thing) if not isinstance(thing, type) or is_made(thing) else name
+    if isinstance(thing, type) and issubclass(thing, GarkError) and thing is not GarkError:
+        shown += f"({thing.__bases__[0].__name__})"
+    own = told(thing) if isinstance(thing, type) else []
+    parts = [f"* `{shown}`: {plain(brief(doc.prose))}"]
+    if own:
+        parts.append(f"Has {', '.join(f'`{x}`' for x in own)}.")
+    return " ".join(parts)
 
 
-def answer(thing: Any, doc: Docstring) -> str:
-    """What a call returns; empty where its type has a place on the page, which says it."""
-    sections = {*garkcli.__all__, *(x.partition(":")[2] for x in VALUES)}
-    if (
-        "Returns" not in doc.sections
-        or {*re.findall(r"\w+", str(inspect.signature(thing).return_annotation))} & sections
-    ):
-        return ""
-    return f" Returns: {brief(doc.sections['Returns']).partition('; ')[0].rstrip('.')}."
-
-
-def value_row(name: str, kind: type) -> tuple[str, str, str]:
-    """The row of what calls return: what it is, and the names that it has."""
-    names = ", ".join(f"`{x}`" for x, _ in told(name, kind))
-    return f"`{name}`", cell(linked(brief(of_class(kind).prose))), names.replace("|", "\\|")
+def value_row(name: str, kind: type) -> str:
+    """The row of what calls return."""
+    return f"* `{name}`: {plain(brief(of_class(kind).prose))}"
 
 
 def of_class(thing: Any) -> Docstring:
@@ -362,7 +281,7 @@ def type_text(name: str, place: str) -> str:
         if is_named and node.target.id == (other or name):
             assert isinstance(after, ast.Expr)
             told = ast.literal_eval(after.value)
-            return linked(" ".join(told.split()))
+            return plain(" ".join(told.split()))
     raise LookupError(name)
 
 
@@ -371,17 +290,16 @@ def page() -> str:
     parts = ["## Types of arguments\n"]
     parts += [f"* `{name}`: {type_text(name, place)}" for name, place in TYPES.items()]
     parts.append("\n## Arguments of several functions\n")
-    parts += [f"* `{name}`: {text}" for name, text in COMMON.items() if name not in PLAIN]
+    parts += [f"* `{name}`: {text}" for name, text in COMMON.items()]
     shown: set[str] = set()
     for head, names in groups():
         things = {name: getattr(garkcli, name) for name in names if name not in shown}
         things |= {x: type(thing) for x, thing in things.items() if x == "catalogue"}
         shown |= {*things}
-        sections = [described(name, thing) for name, thing in things.items()]
-        parts.append(f"\n## {head}\n\n" + "\n\n".join(sections))
+        parts.append(f"\n## {head}\n")
+        parts += [described(name, thing) for name, thing in things.items()]
     parts.append("\n## Values\n")
-    rows = (value_row(*home(place)) for place in VALUES)
-    parts.append(table(("value", "what it is", "what it has"), rows).rstrip())
+    parts += [value_row(*home(place)) for place in VALUES]
     return "\n".join(parts) + "\n"
 
 

@@ -1,4 +1,4 @@
-"""docs/json-fields.md names what reports hold, docs/json.md the columns of CSV, with real examples."""
+"""The outlines of reports name what they hold, docs/json.md the columns of CSV, with examples."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ import pytest
 
 from garkcli.properties.registry import KEYS
 from tests.cli.harness import ROOT, gark
+from tests.docs.tables import fields_page
 
 PAGE = (ROOT / "docs" / "json.md").read_text(encoding="utf-8")
-FIELDS = (ROOT / "docs" / "json-fields.md").read_text(encoding="utf-8")
-NESTED = {*re.findall(r"[\w-]+", FIELDS.partition("\n## Fields\n")[0]), *KEYS}
+NESTED = {*re.findall(r"[\w-]+", fields_page().partition("\n## Fields\n")[0]), *KEYS}
 NESTED |= {x.replace("-", "_") for x in KEYS}
 """The names that the outlines of reports have; these are made of the schemas. An entry of them has
 all properties.
@@ -80,7 +80,7 @@ REPORTS = {
 }
 """Of each command runs with a report."""
 
-GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum|g|\w+order_is_lower_bound|\w+_tolerance")
+GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum|g|\w*order_is_lower_bound|\w+_tolerance")
 """Keys that are names of colours, invariants or parameters, or stand beside any order or weights."""
 
 

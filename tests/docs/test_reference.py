@@ -14,10 +14,8 @@ from garkcli.glossary.key import KINDS as FILES
 from garkcli.glossary.key import keys_of
 from tests.cli.harness import ROOT
 from tests.docs.tables import IN_SECTIONS, fields_page, keys_table
-from tests.whole import renewed_in_whole
 
 BEGIN, END = "<!-- keys -->\n", "<!-- end of keys -->"
-FIELDS = "<!-- fields -->\n\n"
 UPDATE = "GARK_UPDATE_SNAPSHOTS"
 
 
@@ -46,19 +44,6 @@ def test_keys_without_a_row_are_in_their_sections() -> None:
     assert {path.partition(".")[0] for path in left_out} == {*IN_SECTIONS}
     names = {path.rpartition(".")[2] for path in left_out}
     assert {x for x in names if not re.search(rf"(?<![\w-]){x}(:|`|, |}})", text)} == set()
-
-
-@renewed_in_whole
-def test_the_page_of_fields_is_that_of_the_program() -> None:
-    """docs/json-fields.md has every field of every report: where it is, and what it holds."""
-    path = ROOT / "docs" / "json-fields.md"
-    head, begin, found = path.read_text(encoding="utf-8").partition(FIELDS)
-    assert begin
-    wanted = fields_page()
-    if os.environ.get(UPDATE):
-        path.write_text(head + begin + wanted, encoding="utf-8")
-        return
-    assert found == wanted
 
 
 def test_every_field_is_defined() -> None:

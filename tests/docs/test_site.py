@@ -47,6 +47,15 @@ def test_contributing_is_on_the_site() -> None:
         assert (folder / link.partition("#")[0]).is_file(), link
 
 
+def test_the_site_has_what_programs_print() -> None:
+    """Every field of JSON and every option, below pages that are there."""
+    conf = runpy.run_path(str(DOCS / "conf.py"))
+    assert {f"{name}.md" for name in conf["MADE"]} <= set(pages())
+    assert "\n### check\n" in conf["made"]("json-fields")
+    assert "\n### gark check\n" in conf["made"]("command-line")
+    assert conf["made"]("gallery") == ""
+
+
 def test_no_page_is_hidden_by_one_of_sphinx() -> None:
     """Sphinx has pages of its own for these names, and the margin would lead to them."""
     taken = {"search.md", "genindex.md", "modindex.md"}
