@@ -100,7 +100,7 @@ def keys_table(kind: str) -> str:
     """The keys of a kind of files as a table in Markdown; ``kind`` is of ``glossary.key.KINDS``."""
     paths: dict[str, list[str]] = {}
     for key in keys_of(kind).values():
-        if kind == "method" and key.path.partition(".")[0] in IN_SECTIONS:
+        if kind == "method" and key.path.partition(".")[0] in (*IN_SECTIONS, *OF_DESIGNS):
             continue
         paths.setdefault(_said(key, ";" if kind == "method" else ""), []).append(f"`{key.path}`")
     return table(("key", "what it is"), ((", ".join(x), cell(text)) for text, x in paths.items()))
@@ -109,17 +109,16 @@ def keys_table(kind: str) -> str:
 IN_SECTIONS = (
     *("A", "b", "c", "embedded", "dense", "methods", "transfer", "tableau", "ark", "prk"),
     *("compose", "adjoint", "extrapolate", "splitting", "multirate", "conjugate", "structure"),
-    *("reference", "tolerance", "expect"),
+    *("reference", "tolerance", "expect", "predictor", "shu-osher", "low-storage", "rosenbrock"),
+    *("nystrom", "nprk", "derivatives"),
 )
 """Keys of method files with a section on the page, which tells of them and what is below."""
+OF_DESIGNS = ("unknown", "design")
+"""Keys that docs/design.md tells of, with what is below."""
 
 
 def _said(key: KeyMeaning, end: str) -> str:
     """What a key is, and what holds without it."""
-    parent, _, name = key.path.rpartition(".")
-    for of, names, said in _ALIKE:
-        if re.fullmatch(of, parent) and (not names or name in names):
-            return said
     text = _phrase(_first_sentence(key.text), end)
     if key.default is None:
         return text
@@ -127,12 +126,6 @@ def _said(key: KeyMeaning, end: str) -> str:
     if isinstance(key.default, bool):
         default = default.lower()
     return f"{text}; by default {default}"
-
-
-_ALIKE = (
-    ("design", [x.key for x in every_definition()], "Wanted: what the claim of the name says"),
-)
-"""Keys that one row tells together: below which key, which ones, or all of them, and the text."""
 
 
 def findings_table(command: str) -> str:

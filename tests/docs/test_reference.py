@@ -13,7 +13,7 @@ from garkcli.glossary.faults import findings_of
 from garkcli.glossary.key import KINDS as FILES
 from garkcli.glossary.key import keys_of
 from tests.cli.harness import ROOT
-from tests.docs.tables import IN_SECTIONS, fields_page, keys_table
+from tests.docs.tables import IN_SECTIONS, OF_DESIGNS, fields_page, keys_table
 
 BEGIN, END = "<!-- keys -->\n", "<!-- end of keys -->"
 UPDATE = "GARK_UPDATE_SNAPSHOTS"
@@ -38,12 +38,16 @@ def test_the_keys_of_a_page_are_those_of_the_program(kind: str) -> None:
 
 
 def test_keys_without_a_row_are_in_their_sections() -> None:
-    """The page of method files names each key that its table leaves to a section."""
+    """The pages of method files and of designs name each key that the table leaves to them."""
     text, _, table = (ROOT / "docs" / "method-file.md").read_text(encoding="utf-8").partition(BEGIN)
+    of_designs = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     left_out = {x.path for x in keys_of("method").values() if f"`{x.path}`" not in table}
-    assert {path.partition(".")[0] for path in left_out} == {*IN_SECTIONS}
-    names = {path.rpartition(".")[2] for path in left_out}
-    assert {x for x in names if not re.search(rf"(?<![\w-]){x}(:|`|, |}})", text)} == set()
+    assert {path.partition(".")[0] for path in left_out} == {*IN_SECTIONS, *OF_DESIGNS}
+    for path in left_out:
+        first, _, name = path.rpartition(".")
+        page = of_designs if path.startswith(OF_DESIGNS) else text
+        names = {name, name.removeprefix("embedded-")} if first == "design" else {name}
+        assert any(re.search(rf"(?<![\w-]){x}(:|`|, |}})", page) for x in names), path
 
 
 def test_every_field_is_defined() -> None:
