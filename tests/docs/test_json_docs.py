@@ -129,7 +129,6 @@ def test_the_example_of_a_check_is_real() -> None:
     example, _ = re.findall(r"```json\n(.*?)```", PAGE, re.DOTALL)
     shown = json.loads(re.sub(r"…(?=\])", '"…"', re.sub(r"…(?=\})", '"…": 0', example)))
     assert agrees(shown, found)
-    assert set(shown["files"][0]) == set(found["files"][0])
     assert not agrees({**shown, "schema": "gark/check/0"}, found)
 
 
