@@ -4,8 +4,8 @@ The pages are plain Markdown that reads well where the code is hosted, so
 they have no directives, but for the cells of the notebook. What the site has
 besides is made here: the contents in the margin, from the headings and lists
 of `all-pages.md`; `CONTRIBUTING.md`, which stands outside of this folder, as the
-first page for contributors; at the ends of two pages what ``gark schema``,
-``gark explain`` and ``gark COMMAND --help`` print; titles in place of the names
+first page for contributors; at the ends of some pages what ``gark schema``,
+``gark explain``, ``gark COMMAND --help`` and Python's ``help`` print; titles in place of the names
 of files, in links that show these; and formulas, drawn as MathML.
 """
 
@@ -119,6 +119,7 @@ def typeset(text: str) -> str:
 MADE = {
     "json-fields": "tests.docs.tables:fields_page",
     "command-line": "tests.docs.command_reference:reference",
+    "python-reference": "tests.docs.python_reference:page",
 }
 """Functions that make the ends of pages of the site, which programs print as well."""
 

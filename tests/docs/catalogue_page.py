@@ -54,10 +54,9 @@ OF_HEADINGS = {
 """The type of a folder that its heading says."""
 NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
 _EMBEDDED = re.compile(r"^  embedded-order: (\d+)$", re.MULTILINE)
-_INITIALS = re.compile(r"^(?:\w[\w-]*\. ?)+")
 _HEAD = """\
-|name|stages|order|properties|error|source|
-|---|---|---|---|---|---|
+|name|stages|order|properties|error|
+|---|---|---|---|---|
 """
 
 
@@ -96,19 +95,8 @@ def _row(entry: Entry) -> str:
         order += f", {entry['w_order']} with any matrix"
     error = entry["error_constant"] or ""
     cells = [f"`{entry['name']}`", stages, order]
-    cells += [", ".join(_properties(entry)), error, _source(entry)]
+    cells += [", ".join(_properties(entry)), error]
     return f"|{'|'.join(x.replace('|', '/') for x in cells)}|\n"
-
-
-def _source(entry: Entry) -> str:
-    """Who published it and when; without a year the work, or the place in it."""
-    parts = entry["reference"].split(", ")
-    names = [_INITIALS.sub("", x) for x in entry["authors"] or parts[:1] if x != "others"]
-    if not entry["year"]:
-        people = ", ".join(x for x in names if "developers" not in x)
-        return ", ".join(x for x in (people, *parts[1:][-1:]) if x)
-    people = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
-    return f"{people} {entry['year']}"
 
 
 def _stages(entry: Entry) -> list[int]:

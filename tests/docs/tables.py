@@ -52,17 +52,13 @@ def terms_tables() -> str:
 
 
 def _term_row(term: Term) -> tuple[str, str, str]:
-    known = {glossary.plain(term.name)}
-    labels = [x for x in term.labels if glossary.plain(x).removesuffix("s") not in known]
-    also = f"; {', '.join(labels[:_MOST_LABELS])}" if labels else ""
     is_short = len(term.formula.split()) <= _LONGEST_FORMULA
     text = f"{_phrase(term.text)}: {term.formula if is_short else ''}".rstrip(": ")
-    return f"**{cell(term.name)}**{cell(also)}", cell(text), _short_source(term.source)
+    return f"**{cell(term.name)}**", cell(text), _short_source(term.source)
 
 
-_MOST_LABELS = 2
 _LONGEST_FORMULA = 5
-"""In words; ``gark explain`` shows longer ones, and knows more labels."""
+"""In words; ``gark explain`` shows longer ones, and knows other names of terms."""
 
 
 def _short_source(source: str) -> str:

@@ -48,11 +48,12 @@ def test_contributing_is_on_the_site() -> None:
 
 
 def test_the_site_has_what_programs_print() -> None:
-    """Every field of JSON and every option, below pages that are there."""
+    """Every field of JSON, every option, every name, below pages that are there."""
     conf = runpy.run_path(str(DOCS / "conf.py"))
     assert {f"{name}.md" for name in conf["MADE"]} <= set(pages())
     assert "\n### check\n" in conf["made"]("json-fields")
     assert "\n### gark check\n" in conf["made"]("command-line")
+    assert "\n* `find_order(method, " in conf["made"]("python-reference")
     assert conf["made"]("gallery") == ""
 
 
