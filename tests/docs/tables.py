@@ -81,12 +81,20 @@ def _first_sentence(text: str) -> str:
 
 
 def claims_tables() -> str:
-    """What each claim means, in a sentence, a table for each kind of values."""
+    """What each claim means, in a sentence, a table for each kind of values; claims on embedded
+    weights in one row.
+    """
     rows: dict[str, list[tuple[str, str, str]]] = {}
+    embedded: list[str] = []
     for claim in every_definition():
+        if claim.key.startswith("embedded-"):
+            embedded.append(f"`{claim.key}`")
+            continue
         text = _phrase(claim.text, ":") + (f"; for {claim.meaning}" if claim.meaning else "")
         row = (f"`{claim.key}`", cell(text), _short_source(claim.source))
         rows.setdefault(claim.values, []).append(row)
+    orders = next(iter(rows.values()))
+    orders.append((", ".join(embedded), "The same with the embedded weights", "HNW II.4"))
     heads = ("claim", "what it means", "source")
     parts = [f"Values: {values}.\n\n{table(heads, found)}" for values, found in rows.items()]
     return "\n".join(parts)

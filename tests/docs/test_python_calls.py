@@ -16,6 +16,7 @@ from garkcli.cli.options import Option
 from garkcli.cli.table import COMMANDS
 from garkcli.errors import MethodError
 from tests.cli.harness import gark
+from tests.docs.tables import table
 from tests.whole import in_whole
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "python.md"
@@ -24,10 +25,8 @@ COMMON = "every command"
 
 def calls() -> str:
     """The table of commands."""
-    lines = ["| `gark` | in Python |", "|---|---|"]
-    for name, row in COMMANDS.items():
-        lines.append(f"| `{name}` | {', '.join(f'`{call}`' for call in row.calls)} |")
-    return "\n".join(lines)
+    rows = [(f"`{x}`", ", ".join(f"`{call}`" for call in row.calls)) for x, row in COMMANDS.items()]
+    return table(("`gark`", "in Python"), [row for row in rows if row[1]]).rstrip()
 
 
 def declared() -> Iterator[tuple[str, Option]]:
@@ -48,23 +47,21 @@ def arguments() -> str:
             is_same = flag.removeprefix("--").replace("-", "_") == name
             if not is_same:
                 found.setdefault(function, {})[f"`{flag}` (`{name}=`)"] = None
-    lines = ["| function | options |", "|---|---|"]
-    for function, options in sorted(found.items()):
-        lines.append(f"| `{function}` | {', '.join(sorted(options))} |")
-    return "\n".join(lines)
+    rows = [(f"`{x}`", ", ".join(sorted(options))) for x, options in sorted(found.items())]
+    return table(("function", "options"), rows).rstrip()
 
 
-@pytest.mark.parametrize("table", [calls, arguments], ids=lambda x: x.__name__)
-def test_the_tables_are_made_of_the_one_of_calls(table: Callable[[], str]) -> None:
+@pytest.mark.parametrize("made", [calls, arguments], ids=lambda x: x.__name__)
+def test_the_tables_are_made_of_the_one_of_calls(made: Callable[[], str]) -> None:
     """The page has what each command and each option is in Python."""
     text = PAGE.read_text(encoding="utf-8")
-    begin, end = f"<!-- {table.__name__} -->\n", f"\n<!-- end of {table.__name__} -->"
+    begin, end = f"<!-- {made.__name__} -->\n", f"\n<!-- end of {made.__name__} -->"
     head, _, rest = text.partition(begin)
     found, _, tail = rest.partition(end)
     if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
-        PAGE.write_text(head + begin + table() + end + tail, encoding="utf-8")
+        PAGE.write_text(head + begin + made() + end + tail, encoding="utf-8")
         return
-    assert found == table()
+    assert found == made()
 
 
 def test_every_call_is_public() -> None:
