@@ -39,22 +39,24 @@ _WORKS = {
 
 
 def terms_tables() -> str:
-    """The terms in Markdown, a table per topic: names, what it is, where it comes from. The page of
-    properties has those that files may claim.
+    """The terms in Markdown, a table per topic: the name, which leads to the page that defines it if
+    there is one, and what it is. The page of properties has those that files may claim.
     """
     elsewhere = {claim.key for claim in every_definition()} - {"order", "symplectic"}
     parts = []
     for topic, title in glossary.TOPICS.items():
         terms = glossary.terms_of(topic)
         rows = [_term_row(x) for x in terms if x.name.lower().replace(" ", "-") not in elsewhere]
-        parts.append(f"## {title}\n\n{table(('term', 'what it is', 'source'), rows)}")
+        parts.append(f"## {title}\n\n{table(('term', 'what it is'), rows)}")
     return "\n".join(parts)
 
 
-def _term_row(term: Term) -> tuple[str, str, str]:
+def _term_row(term: Term) -> tuple[str, str]:
     is_short = len(term.formula.split()) <= _LONGEST_FORMULA
     text = f"{_phrase(term.text)}: {term.formula if is_short else ''}".rstrip(": ")
-    return f"**{cell(term.name)}**", cell(text), _short_source(term.source)
+    page = re.search(r"this project, docs/([\w-]+\.md)", term.source)
+    name = f"[{cell(term.name)}]({page[1]})" if page else cell(term.name)
+    return f"**{name}**", cell(text)
 
 
 _LONGEST_FORMULA = 5
