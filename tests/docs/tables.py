@@ -11,7 +11,7 @@ from garkcli.glossary import term as glossary
 from garkcli.glossary.faults import TOPICS, faults_of, findings_of
 from garkcli.glossary.fields import field_text
 from garkcli.glossary.key import KeyMeaning, keys_of
-from garkcli.glossary.term import PAPER, Term
+from garkcli.glossary.term import Term
 from garkcli.properties.definitions import every_definition
 from garkcli.properties.registry import KEYS
 from garkcli.report.schemas import REFERENCES, REPORTS, report_schema
@@ -23,19 +23,6 @@ def codes_page() -> str:
         ("of", "codes"),
         [(title, ", ".join(f"`{x.code}`" for x in faults_of(x))) for x, title in TOPICS.items()],
     )
-
-
-_WORKS = {
-    rf"{PAPER}(, section [\d.]+)?.*": r"Zanna\1",
-    r"E. Hairer, S.( P.)? Nørsett, G. Wanner, Solving [A-Za-z ]+ I,": "HNW",
-    r"E. Hairer, G. Wanner, Solving [A-Za-z ]+ II,": "HW",
-    r"E. Hairer, C. Lubich, G. Wanner, [A-Za-z ]+,": "HLW",
-    r", section ([\d.]+)": r" \1",
-    r" section ([IVX.\d]+)": r" \1",
-    r"this project(, docs/([\w-]+)\.md|; )?": r"[\2](\2.md)",
-    r"\[\]\(\.md\)": "",
-}
-"""How docs/glossary.md shortens the works that terms come from, and links to pages."""
 
 
 def terms_tables() -> str:
@@ -63,21 +50,6 @@ _LONGEST_FORMULA = 5
 """In words; ``gark explain`` shows longer ones, and knows other names of terms."""
 
 
-def _short_source(source: str) -> str:
-    """A source with short names of works, pages of the documentation as links.
-
-    >>> _short_source("this project, docs/exact-order.md, section 2")
-    '[exact-order](exact-order.md) 2'
-    """
-    for work, short in _WORKS.items():
-        source = re.sub(work, short, source)
-    source = source.partition("; ")[0]
-    if further := re.fullmatch(r"(.+?), [^.]{20,}?(?:, .*)? \((\d{4})\)", source):
-        names = re.findall(r"(?:[\w-]+\. ?)+([^,]+)", further[1])
-        return f"{' & '.join(names) if len(names) < 3 else f'{names[0]} et al.'} {further[2]}"
-    return source
-
-
 def _first_sentence(text: str) -> str:
     return re.split(r"(?<=\.) (?=[A-Z])", text)[0]
 
@@ -86,18 +58,17 @@ def claims_tables() -> str:
     """What each claim means, in a sentence, a table for each kind of values; claims on embedded
     weights in one row.
     """
-    rows: dict[str, list[tuple[str, str, str]]] = {}
+    rows: dict[str, list[tuple[str, str]]] = {}
     embedded: list[str] = []
     for claim in every_definition():
         if claim.key.startswith("embedded-"):
             embedded.append(f"`{claim.key}`")
             continue
         text = _phrase(claim.text, ":") + (f"; for {claim.meaning}" if claim.meaning else "")
-        row = (f"`{claim.key}`", cell(text), _short_source(claim.source))
-        rows.setdefault(claim.values, []).append(row)
+        rows.setdefault(claim.values, []).append((f"`{claim.key}`", cell(text)))
     orders = next(iter(rows.values()))
-    orders.append((", ".join(embedded), "The same with the embedded weights", "HNW II.4"))
-    heads = ("claim", "what it means", "source")
+    orders.append((", ".join(embedded), "The same with the embedded weights"))
+    heads = ("claim", "what it means")
     parts = [f"Values: {values}.\n\n{table(heads, found)}" for values, found in rows.items()]
     return "\n".join(parts)
 
