@@ -39,13 +39,22 @@ def terms_tables() -> str:
 
 
 def _term_row(term: Term) -> tuple[str, str]:
+    brief, _, rest = _phrase(term.text).partition(": ")
+    is_said = len(brief.split()) >= _BRIEF
     is_short = len(term.formula.split()) <= _LONGEST_FORMULA
-    text = f"{_phrase(term.text)}: {term.formula if is_short else ''}".rstrip(": ")
+    parts = [
+        brief,
+        "" if is_said else rest,
+        "" if (is_said and rest) or not is_short else term.formula,
+    ]
+    text = ": ".join(filter(None, parts))
     page = re.search(r"this project, docs/([\w-]+\.md)", term.source)
     name = f"[{cell(term.name)}]({page[1]})" if page else cell(term.name)
     return f"**{name}**", cell(text)
 
 
+_BRIEF = 7
+"""So many words before a colon say enough; ``gark explain`` says more."""
 _LONGEST_FORMULA = 5
 """In words; ``gark explain`` shows longer ones, and knows other names of terms."""
 
