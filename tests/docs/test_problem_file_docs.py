@@ -30,7 +30,7 @@ def test_the_example_is_the_built_in_problem() -> None:
     """Kepler by eccentricity starts where the built-in one does."""
     from garkcli.problems.builtin import hamiltonian
 
-    own, built_in = loads_problem(FILES[1]), hamiltonian("kepler", 2)
+    own, built_in = loads_problem(FILES[0]), hamiltonian("kepler", 2)
     assert own.terms == built_in.terms
     assert own.initial == built_in.initial
     assert own.invariants == built_in.invariants
