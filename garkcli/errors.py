@@ -225,7 +225,7 @@ class UsageProblem(GarkError):
     """
 
 
-Severity: TypeAlias = Literal["error", "warning", "note"]
+Severity: TypeAlias = Literal["error", "warning", "note", "hint"]
 """Errors fail a check or an audit; warnings and notes are reported."""
 
 

@@ -12,24 +12,28 @@ from flint import fmpq
 from garkcli.check.claims import Claim
 from garkcli.check.outcome import Outcome
 from garkcli.check.pair_reasons import is_lost
-from garkcli.errors import Remark
-from garkcli.exact.display import shortest, to_ball, to_decimal, to_text
+from garkcli.errors import Remark, Severity, counted
+from garkcli.exact.display import decimal, shortest, to_ball, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen, replace
 from garkcli.glossary.faults import cure_of
+from garkcli.grammar.nodes import Node, below, composed, position
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
-from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
+from garkcli.reason import NO_REASON, Code, Formula, Place, Reason, joined
 from garkcli.tableau.forms import with_time
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
+    from garkcli.check.remark import RoundingHint
+    from garkcli.order.blame import Blame
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
     from garkcli.order.predictor import PredictorOrders
     from garkcli.order.repair import Repair
     from garkcli.order.simplifying import Simplifying
     from garkcli.order.sums import WrongSum
+    from garkcli.order.suspects import SuspectedNumber
     from garkcli.tableau.tableau import Tableau
 
 BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
@@ -42,6 +46,8 @@ _SHORT = 20
 """Length beyond which an exact entry is shown in decimals."""
 _LONG = 60
 """Length of value and residual beyond which a witness is shown in decimals."""
+_MOST = 3
+"""Most repairs in a hint."""
 
 
 def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
@@ -246,6 +252,92 @@ def value_text(number: Number, digits: int = 17) -> Formula | str:
     return Formula(text) if len(text) <= _SHORT else to_decimal(number, digits)
 
 
+def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
+    """The conditions that fail, the block in all of them, and repairs, with names of colours."""
+    is_known = blame.order == 1 or blame.restored is not None or blame.within is not None
+    texts = [] if is_known else _conditions(blame, own)
+    if blame.repairs:
+        also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
+        order = "the claimed order"
+        if blame.restored is not None:
+            order = f"{blame.of.replace('-', ' ')} {blame.restored}"
+        if blame.within is not None:
+            order = f"within {decimal(blame.within)} {order}"
+        mended = _repairs(blame.repairs, own)
+        texts.append(Reason(f"{order} would hold with {{}}{also}", mended))
+    return joined("; ", texts) if texts else NO_REASON
+
+
+def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
+    """The conditions that fail, and their blocks; the sum of weights needs no more."""
+    names = blame.names or own
+    letter = "Â" if blame.of == "conjugate-order" else "A"
+    verb = "fails" if blame.failing == 1 else "fail"
+    fail = f"{blame.failing} of the {blame.total} conditions of order {blame.order} {verb}"
+    if blame.total == 1:
+        fail = f"the one condition of order {blame.order} fails"
+    if blame.of != "order":
+        fail = f"{blame.of}: {fail}"
+    is_one = blame.failing == 1
+    if blame.only_coupling and len(names) > 1:
+        fail += ", a coupling condition" if is_one else ", all of them coupling conditions"
+    texts = [Reason(fail)]
+    every = "it involves" if is_one else "all of them involve"
+    if blame.culprit is not None and len(names) > 1:
+        culprit = Place(letter, names_of(blame.culprit, names))
+        texts.append(Reason(f"{every} {{}}: look there first", culprit))
+    elif len(blame.in_every) > 1:
+        texts.append(_involved(letter, blame.in_every, names, every))
+    if blame.in_none:
+        none = "it does not involve" if is_one else "none of them involves"
+        texts.append(_involved(letter, blame.in_none, names, none))
+    return texts
+
+
+def _involved(
+    letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str], verb: str
+) -> Reason:
+    places = joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
+    return Reason(f"{verb} {{}}", places)
+
+
+def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
+    return joined(", or ", [repair_text(x, names) for x in repairs[:_MOST]])
+
+
+def rounding_text(found: RoundingHint, names: Sequence[str], tolerance: fmpq | None) -> Reason:
+    """The digits of the numbers, the order with these, and the entry that is off."""
+    order = f"{found.of.replace('-', ' ')} {found.order}"
+    if found.repairs:
+        mended = _repairs(found.repairs, names)
+        return Reason(
+            f"an entry looks misprinted: within the digits of the others {order} holds with {{}}",
+            mended,
+        )
+    assert found.exponent is not None
+    places = counted(-found.exponent, "decimal place")
+    looks = f"the coefficients look rounded to {places}"
+    if tolerance is not None:
+        looks = f"the tolerance {decimal(tolerance)} is too tight: {looks}"
+    return Reason(f"{looks}; with the line {{}} {order} holds", found.line)
+
+
+def misprint_text(numbers: Sequence[SuspectedNumber]) -> Reason:
+    """The numbers of which one seems wrong, with their right values and the order with these."""
+    values = [(value_text(x.new), value_text(x.old)) for x in numbers[:_MOST]]
+    mended = joined(", or ", [Reason("{} instead of {}", *pair) for pair in values])
+    return Reason(f"order {numbers[0].order} would hold with {{}}", mended)
+
+
+class Aside(Remark):
+    """A remark that is about no claim; it fails nothing.
+
+    ``reason`` is the message with values that each output words in its own notation.
+    """
+
+    reason: Reason = NO_REASON
+
+
 class Finding(Frozen):
     """A remark on a file, as formats for machines have it.
 
@@ -270,10 +362,6 @@ def _unmet(outcome: Outcome, claim: Claim) -> Remark:
     return Remark(message, hint, *place, "claim")
 
 
-def _warning(code: str, message: str) -> Remark:
-    return Remark(message, cure_of("check", code), code=code, level="warning")
-
-
 def cure_of_lacks(outcome: Outcome) -> str:
     """Returns the command that writes the missing claims; without keys it keeps to those made."""
     keys = (f" --key {key}" for key in outcome.keys_lacking)
@@ -293,14 +381,63 @@ def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
         is_any = outcome.makes_no_claim and outcome.needs_claims
         lack = Remark(message, cure_of_lacks(outcome), code="no-claim")
         yield lack.code, lack, "" if is_any else message
-    for remark in warnings(outcome):
+    for remark in asides(outcome):
         yield remark.code, remark, remark.message
 
 
-def warnings(outcome: Outcome) -> Iterator[Remark]:
-    """Yields the remarks on a method that are about no claim; they fail nothing."""
+def asides(outcome: Outcome) -> list[Aside]:
+    return [*warnings(outcome), *hints(outcome)]
+
+
+def warnings(outcome: Outcome) -> Iterator[Aside]:
+    """Yields the remarks on what a method loses by its own choices."""
     for text in filter(is_lost, outcome.about_rules):
-        yield _warning("loses-pair-order", text)
+        yield _aside("loses-pair-order", "warning", Reason("{}", text))
+
+
+def hints(outcome: Outcome) -> Iterator[Aside]:
+    """Yields what sums, digits and failing conditions tell about wrong numbers."""
+    if outcome.misprints:
+        yield _aside("misprint", "hint", misprint_text(outcome.misprints))
+    analysis = outcome.analysis
+    if analysis is None:
+        return
+    names = [colour.name for colour in analysis.tableau.colours]
+    for wrong in analysis.wrong_weights:
+        row = below(composed(outcome.text), "embedded" if wrong.is_embedded else "b")
+        yield _aside("weights", "hint", sum_text(wrong, names), row)
+    rounding, blame = outcome.remark, outcome.blame
+    if rounding is not None and rounding.repairs:
+        entry = entry_node(outcome.text, rounding.repairs[0])
+        yield _aside("misprint", "hint", rounding_text(rounding, names, analysis.tolerance), entry)
+        if analysis.tolerance is not None:
+            return  # the failing conditions show the same entry
+    elif rounding is not None:
+        text = rounding_text(rounding, names, analysis.tolerance)
+        yield _aside("looks-rounded", "hint", text, below(composed(outcome.text), "tolerance"))
+    if blame is None or not (text := blame_text(blame, names)):
+        return
+    if blame.repairs:
+        hint = _aside("misprint", "hint", text, entry_node(outcome.text, blame.repairs[0]))
+    else:
+        hint = _aside("failing-conditions", "hint", text)
+    claims = [x for x in outcome.failed_claims if x.claim == blame.of and not hint.line]
+    yield replace(hint, line=claims[0].line, column=claims[0].column) if claims else hint
+
+
+def _aside(code: str, level: Severity, reason: Reason, place: Node | None = None) -> Aside:
+    line, column = (0, 0) if place is None else position(place.start_mark)
+    cure = cure_of("check", code)
+    return Aside(str(reason), cure, line, column, code, level, reason=reason)
+
+
+def entry_node(text: str, repair: Repair) -> Node | None:
+    """Returns an entry in a file with A and b; None in other files."""
+    if repair.l or repair.m:
+        return None
+    if repair.i is None or repair.m is None:
+        return below(composed(text), "embedded" if repair.is_embedded else "b", repair.j)
+    return below(composed(text), "A", repair.i, repair.j)
 
 
 def remarks(outcome: Outcome) -> list[Remark]:
@@ -312,7 +449,8 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
     """Yields the remarks on a file as formats for machines have them."""
     file = PurePath(outcome.file).as_posix()
     for rule, remark, key in _remarks(outcome):
-        placed = replace(remark, line=remark.line or 1, column=remark.column or 1)
+        known = remark.message, remark.help, remark.line or 1, remark.column or 1
+        placed = Remark(*known, remark.code, remark.level, meant=remark.meant)
         yield Finding(placed, rule, file, fingerprint(f"{file}\0{rule}\0{key}"))
 
 

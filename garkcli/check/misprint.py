@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING, Protocol
 
 from flint import fmpq
 
-from garkcli.check.findings import value_text
 from garkcli.frozen import replace
 from garkcli.methodfile.expectations import highest_order
 from garkcli.order.meant import AnyTableau, meant, within_digits
 from garkcli.order.repair import GAIN, HIGHEST_LOW
-from garkcli.reason import Reason, joined
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
@@ -23,8 +21,6 @@ if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
     from garkcli.order.suspects import SuspectedNumber
 
-MOST_TOLD = 3
-"""Most numbers in a text."""
 FINE = fmpq(1, 10**30)
 """The radius of numbers that are taken as exact."""
 SHORT = 10**6
@@ -66,13 +62,6 @@ def misprints(
     found = [x for x in suspected_numbers(rounded, goal, goal + 1) if x.order >= goal]
     best = max((x.order for x in found), default=0)
     return tuple(_shortened(x) for x in found if x.order == best)
-
-
-def misprint_text(numbers: Sequence[SuspectedNumber]) -> Reason:
-    """The numbers of which one seems wrong, with their right values and the order with these."""
-    values = [(value_text(x.new), value_text(x.old)) for x in numbers[:MOST_TOLD]]
-    mended = joined(", or ", [Reason("{} instead of {}", *pair) for pair in values])
-    return Reason(f"order {numbers[0].order} would hold with {{}}", mended)
 
 
 def _rounded(method: MethodFile) -> AnyTableau | None:

@@ -66,9 +66,10 @@ def new(given: New, output: Output) -> None:
     """
     from garkcli.api.calls import with_claims
     from garkcli.check.check_file import check_method
+    from garkcli.check.findings import hints
     from garkcli.methodfile.load import loads
     from garkcli.methodfile.template import of_families
-    from garkcli.report.check import hints, wrong_row_sums
+    from garkcli.report.check import wrong_row_sums
     from garkcli.tell.dialect import Plain
 
     place: str | None = output.path if given.file is None else given.file
@@ -91,7 +92,7 @@ def new(given: New, output: Output) -> None:
         text = of_tableau_text(name, given.tableau)
     method = loads(text, "the new file")
     outcome = check_method(method)
-    doubts = hints(outcome)
+    doubts = [x.reason for x in hints(outcome)]
     for reason in (*wrong_row_sums(outcome), *doubts):
         output.note(f"hint: {Plain().reason(reason)}")
     if not doubts:

@@ -8,14 +8,14 @@ import re
 from collections.abc import Iterator
 
 from garkcli.check.check_file import check_method
-from garkcli.check.findings import findings
+from garkcli.check.findings import entry_node, findings
 from garkcli.check.outcome import Outcome
 from garkcli.deadline import within
 from garkcli.errors import HasFreeParameters, MethodFileError, NotDecided, Remark
 from garkcli.exact.display import to_text
 from garkcli.frozen import Frozen
 from garkcli.glossary.key import METHOD_FILE
-from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, composed, position
+from garkcli.grammar.nodes import ScalarNode, position
 from garkcli.methodfile.load import loads
 from garkcli.order.repair import Repair
 from garkcli.report.checked import REPORT
@@ -134,7 +134,10 @@ def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
     if remark.meant:
         yield Fix(f"Write {remark.meant}", span_of(lines, remark), remark.meant)
     blame = outcome.blame
-    if blame is None or (remark.line, remark.column) not in _places_of(blame.of, outcome):
+    if blame is None or (
+        remark.code != "misprint"
+        and (remark.line, remark.column) not in _places_of(blame.of, outcome)
+    ):
         return
     for repair in blame.repairs:
         place = _place(outcome.text, repair)
@@ -150,23 +153,7 @@ def _places_of(key: str, outcome: Outcome) -> list[tuple[int, int]]:
 
 def _place(text: str, repair: Repair) -> TextSpan | None:
     """Returns where an entry is written in a file with A and b; None if it is not."""
-    root = composed(text)
-    if not isinstance(root, MappingNode) or repair.l or repair.m:
-        return None
-    entries = {key.value: value for key, value in root.value if isinstance(key, ScalarNode)}
-    if repair.i is not None and repair.m is not None:
-        return _scalar(_item(_item(entries.get("A"), repair.i), repair.j))
-    return _scalar(_item(entries.get("embedded" if repair.is_embedded else "b"), repair.j))
-
-
-def _item(node: Node | None, index: int) -> Node | None:
-    if isinstance(node, SequenceNode) and index < len(node.value):
-        item: Node = node.value[index]
-        return item
-    return None
-
-
-def _scalar(node: Node | None) -> TextSpan | None:
+    node = entry_node(text, repair)
     if not isinstance(node, ScalarNode):
         return None
     line, column = position(node.start_mark)

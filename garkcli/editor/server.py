@@ -27,6 +27,7 @@ SEVERITIES = {
     "error": lsp.DiagnosticSeverity.Error,
     "warning": lsp.DiagnosticSeverity.Warning,
     "note": lsp.DiagnosticSeverity.Information,
+    "hint": lsp.DiagnosticSeverity.Information,
 }
 
 

@@ -41,6 +41,22 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
     return nodes
 
 
+def below(root: object, *path: str | int) -> Node | None:
+    """Returns the value below keys of mappings and indices of lists; None if there is none."""
+    node: Node | None = root if isinstance(root, Node) else None
+    for step in path:
+        if isinstance(node, MappingNode) and isinstance(step, str):
+            values = [
+                x for key, x in node.value if isinstance(key, ScalarNode) and key.value == step
+            ]
+        elif isinstance(node, SequenceNode) and isinstance(step, int):
+            values = node.value[step : step + 1]
+        else:
+            return None
+        node = values[0] if values else None
+    return node
+
+
 def key_of(root: MappingNode, value: Node) -> Node:
     key_node: Node = next(key for key, other in root.value if other is value)
     return key_node

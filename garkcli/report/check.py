@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict
 from garkcli.check.findings import (
     BOUND,
     SHARP_BOUND,
+    asides,
     bound_numbers,
     cure_of_lacks,
     dense_witness_text,
@@ -16,7 +17,6 @@ from garkcli.check.findings import (
     predictor_witness_text,
     remarks,
     sum_text,
-    warnings,
 )
 from garkcli.check.pair_reasons import is_lost, pair_reason
 from garkcli.errors import counted
@@ -31,7 +31,7 @@ from garkcli.page.lines import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Place, Reason, joined
-from garkcli.report.remarks import FAULT, FINDING, remark_rows
+from garkcli.report.remarks import FAULT, FINDING, fault_rows, remark_rows
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Status
 from garkcli.tell.facts import (
@@ -39,7 +39,6 @@ from garkcli.tell.facts import (
     Json,
     Kind,
     Level,
-    ManyParts,
     Row,
     Rows,
     Section,
@@ -680,38 +679,6 @@ RECOVERED: Section[PrintDistance] = Section(
 )
 
 
-def hints(o: Outcome) -> list[Reason]:
-    """The culprits and repairs that failing conditions show, a sentence or two each."""
-    if o.misprints:
-        from garkcli.check.misprint import misprint_text  # few files
-
-        return [misprint_text(o.misprints)]
-    a = o.analysis
-    if a is None:
-        return []
-    sums = a.wrong_weights
-    if o.remark is None and o.blame is None and not sums:
-        return []
-    from garkcli.report.hints import blame_text, remark_text  # few files
-
-    names = [colour.name for colour in a.tableau.colours]
-    # the entry that is wrong
-    is_told = a.tolerance is not None and o.remark is not None and bool(o.remark.repairs)
-    blame = NO_REASON if o.blame is None or is_told else blame_text(o.blame, names)
-    return [
-        *(sum_text(x, names) for x in sums),
-        *([] if o.remark is None else [remark_text(o.remark, names, a.tolerance)]),
-        *([blame] if blame else []),
-    ]
-
-
-def hint_rows(found: Sequence[Reason], d: Plain) -> list[tuple[str, str]]:
-    return [(d.note("hint"), d.reason(x)) for x in found]
-
-
-HINTS: Row[Outcome] = Row("hints", rows_of(hint_rows), hints)
-
-
 def _norms_words(n: Norms, d: Plain) -> str:
     text = f"2-norm {n.two:.6g}, largest {n.largest:.6g}"
     return (
@@ -1003,14 +970,13 @@ CLAIMS_IN_WORDS: Row[Outcome] = Row(
 )
 FINDINGS: Row[Outcome] = Row("findings", parts(FINDING), remarks, DATA)
 """All remarks on a file."""
-WARNINGS: Row[Outcome] = Row("warnings", rows_of(remark_rows), lambda o: list(warnings(o)) or None)
-"""The remarks without rows of their own, unlike claims."""
+ASIDES: Row[Outcome] = Row("asides", rows_of(remark_rows), lambda o: asides(o) or None)
 CLAIMS: Rows[Outcome] = (
     IN_BRIEF,
     Row("claims", parts(CLAIM), lambda o: o.claims, DATA),
     CLAIMS_IN_WORDS,
     FINDINGS,
-    WARNINGS,
+    ASIDES,
 )
 VALUE = S.one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 
@@ -1134,7 +1100,6 @@ CHECKED: Section[Outcome] = Section(
     optional("same_as", part(SAME_AS, _known_words), lambda o: known(o, is_same=True)),
     optional("differs_from", part(DIFFERS_FROM, _known_words), lambda o: known(o, is_same=False)),
     CLAIMS,
-    HINTS,
     Row("properties_in_words", rows_of(property_rows_of), every_property),
     title=title,
     columns=COLUMNS,
@@ -1142,7 +1107,8 @@ CHECKED: Section[Outcome] = Section(
 UNREADABLE: Section[Outcome] = Section(
     kinds.FILE_AND_NAME,
     Row("ok", kinds.constant(value=False), lambda o: o.ok, DATA),
-    Row("errors", Kind(Several(FAULT, is_never_empty=True), ManyParts(FAULT)), lambda o: o.faults),
+    Row("errors", Kind(Several(FAULT, is_never_empty=True)), lambda o: o.faults, DATA),
+    Row("errors_in_words", rows_of(fault_rows), lambda o: o.faults),
     FINDINGS,
     IN_BRIEF,
     title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",

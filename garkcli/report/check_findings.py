@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 
 from garkcli.check.baseline import Regression
-from garkcli.check.findings import claim_hint, claim_witness, findings, warnings
+from garkcli.check.findings import asides, claim_hint, claim_witness, findings
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted, printable
 from garkcli.page.look import PLAIN
@@ -17,12 +17,16 @@ from garkcli.report.check_text import no_claims
 from garkcli.report.remarks import annotation, commands_off, items, log_of, remark_rows
 from garkcli.tell.dialect import Plain
 
+ABOUT_CLAIMS = ("claim", "undecided", "no-claim")
+
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:
-    """Findings as a list, with places and cures; of one file, the report has its warnings."""
+    """Findings as a list, with places and cures; of one file those on claims, as its report has
+    the others.
+    """
     found = [x for outcome in outcomes for x in findings(outcome)]
     if len(outcomes) == 1:
-        found = found[: len(found) - len(list(warnings(outcomes[0])))]
+        found = [x for x in found if x.rule in ABOUT_CLAIMS]
     lines = [line for x in found for line in items(x)]
     silent = sum(outcome.makes_no_claim for outcome in outcomes)
     if silent:
@@ -68,7 +72,7 @@ def _add_suite(root: ET.Element, outcome: Outcome) -> None:
         message = _clean(outcome.faults[0].message)
         lines = [f"{x.line}:{x.column}: {x.message}; {x.help}".rstrip("; ") for x in outcome.faults]
         ET.SubElement(readable, "error", message=message).text = _clean("\n".join(lines))
-    if found := list(warnings(outcome)):
+    if found := asides(outcome):
         text = "\n".join(f"{label}: {text}" for label, text in remark_rows(found, Plain()))
         ET.SubElement(readable, "system-out").text = _clean(text)
     for claim in outcome.claims:

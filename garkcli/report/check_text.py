@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from garkcli.check.findings import warnings
+from garkcli.check.findings import hints, warnings
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
 from garkcli.page.look import Look
 from garkcli.page.safety import inert
-from garkcli.report.check import claim_rows, hint_rows, hints
+from garkcli.report.check import claim_rows
 from garkcli.report.checked import REPORT
 from garkcli.report.remarks import lines as lines_of
 from garkcli.report.remarks import remark_rows
@@ -79,14 +79,11 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         claims = counted(len(outcome.claims), "claim")
         text = f"{mark} {d.prose(outcome.file)}: {', '.join(said)}  ({claims})"
         yield from d.message(text, hanging=5)
-    if not outcome.ok:
-        told = [row for row in claim_rows(outcome, d) if "hold" not in row[0]]
-        told += hint_rows(hints(outcome), d)
-        yield from d.rows(told)
-    elif outcome.remark is not None and not is_quiet:
-        yield from d.rows(hint_rows(hints(outcome), d))
-    if not is_quiet:
-        yield from d.rows(remark_rows(list(warnings(outcome)), d))
+    if is_quiet and outcome.ok:
+        return
+    told = [row for row in claim_rows(outcome, d) if "hold" not in row[0]]
+    asides = [*([] if is_quiet else warnings(outcome)), *hints(outcome)]
+    yield from d.rows([*told, *remark_rows(asides, d)])
 
 
 def _summary(outcomes: Sequence[Outcome], d: Plain) -> str:

@@ -134,7 +134,6 @@ def _form(
         c.IN_FULL,
         Row("misprints", parts(c.MISPRINT), lambda o: o.misprints, DATA),
         c.CLAIMS,
-        c.HINTS,
         title=c.title,
         columns=c.COLUMNS,
     )

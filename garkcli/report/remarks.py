@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple, get_args
+from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.finding import CODES
-from garkcli.errors import Remark, Severity, excerpt, printable
+from garkcli.check.findings import Aside
+from garkcli.errors import Remark, excerpt, printable
+from garkcli.frozen import replace
 from garkcli.glossary.faults import findings_of
 from garkcli.page.json_text import to_json
 from garkcli.tell.facts import Row, Rows, Section, maybe
@@ -26,12 +28,16 @@ AT: Rows[Remark] = (
     maybe("column", POSITION, lambda x: x.column or None),
     Row("code", TEXT, lambda x: x.code),
 )
-LEVEL: Row[Remark] = Row("level", choice(*get_args(Severity)), lambda x: x.level)
 FAULT: Section[Remark] = Section(AT, MESSAGE, HELP)
 """A remark on a file; the place is null where the whole file is meant."""
-FINDING: Section[Remark] = Section(AT, LEVEL, MESSAGE, HELP)
+FINDING: Section[Remark] = Section(
+    AT, Row("level", choice("error", "warning", "hint"), lambda x: x.level), MESSAGE, HELP
+)
 OF_TABLE: Section[Remark] = Section(
-    Row("code", choice(*CODES), lambda x: x.code), LEVEL, MESSAGE, HELP
+    Row("code", choice(*CODES), lambda x: x.code),
+    Row("level", choice("error", "warning", "note"), lambda x: x.level),
+    MESSAGE,
+    HELP,
 )
 
 
@@ -49,13 +55,26 @@ FAILURE: Section[FailedRun] = Section(
 
 
 def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """Remarks with their levels and codes, cures below."""
+    """Remarks with their levels and codes, cures below. A hint is its own cure."""
     found: list[tuple[str, str]] = []
     for x in remarks:
         level = d.bad(x.level) if x.level == "error" else d.note(x.level)
-        found.append((level, f"{d.prose(x.message)} ({x.code})"))
+        message = d.reason(x.reason) if isinstance(x, Aside) else d.prose(x.message)
+        if x.level == "hint":
+            found.append((level, message))
+            continue
+        found.append((level, f"{message} ({x.code})"))
         found += [("help", d.prose(x.help))] if x.help else []
     return found
+
+
+def fault_rows(faults: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
+    """Faults with their places and codes, cures below."""
+    placed = [
+        replace(x, message=f"line {x.line}, column {x.column}: {x.message}") if x.line else x
+        for x in faults
+    ]
+    return remark_rows(placed, d)
 
 
 def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator[str]:
@@ -97,7 +116,7 @@ def _with_cure(remark: Remark) -> str:
     return f"{remark.message}; {remark.help}" if remark.help else remark.message
 
 
-_COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
+_COMMANDS = {"error": "error", "warning": "warning", "note": "notice", "hint": "notice"}
 
 
 def annotation(finding: Finding) -> str:
@@ -158,7 +177,7 @@ def _result(finding: Finding, place: int) -> dict[str, object]:
     return {
         "ruleId": finding.rule,
         "ruleIndex": place,
-        "level": x.level,
+        "level": "note" if x.level == "hint" else x.level,
         "message": {"text": printable(_with_cure(x))},
         "locations": [
             {

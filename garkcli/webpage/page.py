@@ -125,7 +125,7 @@ MOST_ROWS = 2000
 
 SECTIONS = {
     "faults": "What is wrong with the file",
-    "warnings": "Warnings",
+    "remarks": "Warnings and hints",
     "tableau": "Tableau",
     "picture": "Stability picture",
     "claims": "Claims",

@@ -6,6 +6,7 @@ import pytest
 from flint import fmpq
 
 from garkcli.check.check_file import check_method
+from garkcli.check.findings import hints
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_float
 from garkcli.frozen import replace
@@ -13,7 +14,6 @@ from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import all_conditions
 from garkcli.order.repair import Repair
-from garkcli.report.check import hints
 from garkcli.report.checked import REPORT
 from tests.whole import in_whole
 
@@ -58,14 +58,14 @@ def test_a_wrong_sum_of_weights_is_told(claims: str) -> None:
     read the sum too.
     """
     outcome = checked(RK4.format(a32="1/3", b4="1/3") + claims)
-    assert [str(x) for x in hints(outcome)] == ["the weights have the sum 7/6"]
+    assert [x.message for x in hints(outcome)] == ["the weights have the sum 7/6"]
     (found,) = REPORT.data(outcome)["wrong_sums"]
     assert (found["b"], found["sum"], found["required"]) == ([1], "7/6", "1")
 
 
 def test_a_wrong_weight_is_named() -> None:
     """Each weight alone could mend the sum; one of them mends order 4."""
-    said = [str(x) for x in hints(checked(RK4.format(a32="1/2", b4="1/3")))]
+    said = [x.message for x in hints(checked(RK4.format(a32="1/2", b4="1/3")))]
     entry = "order 4 would hold with b[4] = 1/6 instead of 1/3"
     assert said == ["the weights have the sum 7/6", entry]
 
@@ -76,7 +76,7 @@ def test_an_embedded_weight_is_named() -> None:
         "A: [[], [1/2], [0, 3/4], [2/9, 1/3, 4/9]]\nb: [2/9, 1/3, 4/9, 0]\n"
         "embedded: [7/24, 1/8, 1/3, 1/8]\n"
     )
-    said = [str(x) for x in hints(checked(text))]
+    said = [x.message for x in hints(checked(text))]
     assert said == [
         "the embedded weights have the sum 7/8",
         "embedded order 2 would hold with embedded b[2] = 1/4 instead of 1/8",

@@ -200,7 +200,7 @@ def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
 @in_whole
 def test_a_warning_is_an_entry_and_a_line(copy: Copy) -> None:
     """Every format, the page and the explanation have it; nothing fails."""
-    assert "`garkcli/check/findings.py`" in row("warning about a method file")
+    assert "`garkcli/check/findings.py`" in row("warning or hint about a method file")
     copy.insert(
         "garkcli/glossary/data/findings.toml",
         "[audit.order]",

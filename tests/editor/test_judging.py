@@ -30,7 +30,10 @@ IN_LINES = "expect:\n  order: 4\nb:\n- 1/6\n- 1/3\n- 1/3\n- 1/5\nA:\n- [0, 0, 0,
 def test_a_fix_mends_the_file(text: str, old: str, new: str) -> None:
     """The change is at the entry that the check names; with it the claim holds."""
     assert check_method(loads(text)).exit_code == 1
-    (fix,) = judged(text, "mine.yaml").remarks[0].fixes
+    claim, *hints = judged(text, "mine.yaml").remarks
+    (fix,) = claim.fixes
+    assert [x.fixes for x in hints if x.remark.code == "misprint"] == [(fix,)]
+    assert hints[-1].span == fix.span
     lines = text.splitlines()
     line = lines[fix.span.line]
     assert (line[fix.span.start : fix.span.end], fix.text) == (old, new)
@@ -56,7 +59,10 @@ def test_couplings_have_a_lens_and_no_wrong_fix() -> None:
     """Where an entry is made by a rule there is no place to mend."""
     text = "methods: [gauss-2, lobatto-iiia-3]\ntransfer: collocation\nexpect: {order: 5}\n"
     found = judged(text, "mine.yaml")
-    assert [x.fixes for x in found.remarks] == [()]
+    assert [(x.remark.code, x.fixes) for x in found.remarks] == [
+        ("claim", ()),
+        ("failing-conditions", ()),
+    ]
     assert [x.split(",")[0] for x in found.lens] == [
         "order 4",
         "conjugate order 4",

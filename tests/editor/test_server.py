@@ -102,12 +102,13 @@ def at(uri: str, line: int, character: int) -> dict[str, Any]:
 
 @pytest.mark.asyncio
 async def test_a_wrong_entry_is_underlined_and_mended(client: Any) -> None:
-    """A squiggle at the claim, the orders above the tableau, a quick fix at the entry; once it is
-    carried out nothing is left.
+    """A squiggle at the claim and one at the entry, the orders above the tableau, a quick fix at
+    the entry; once it is carried out nothing is left.
     """
     uri = type_in(client, WRONG)
-    (found,) = await told(client, uri)
+    found, hint = await told(client, uri)
     assert (found.range.start, found.range.end) == (lsp.Position(3, 16), lsp.Position(3, 17))
+    assert (hint.code, hint.severity) == ("misprint", lsp.DiagnosticSeverity.Information)
     assert found.message.startswith("order: expected 4, found 1")
     assert (found.source, found.code) == ("gark", "claim")
     about = lsp.TextDocumentIdentifier(uri)
@@ -119,6 +120,7 @@ async def test_a_wrong_entry_is_underlined_and_mended(client: Any) -> None:
         lsp.CodeActionParams(about, found.range, lsp.CodeActionContext([found]))
     )
     (edit,) = action.edit.changes[uri]
+    assert edit.range == hint.range
     line = WRONG.splitlines()[edit.range.start.line]
     assert line[edit.range.start.character : edit.range.end.character] == "1/3"
     mended = line[: edit.range.start.character] + edit.new_text
@@ -200,8 +202,7 @@ async def test_typing_goes_on_while_gark_is_busy(client: Any) -> None:
     uri = type_in(client, slow)
     await asyncio.sleep(1)
     type_in(client, WRONG, version=2)
-    (found,) = await told(client, uri)
-    assert found.code == "claim"
+    assert [x.code for x in await told(client, uri)] == ["claim", "misprint"]
     type_in(client, slow, version=3)
     assert await told(client, uri) == []
     about = lsp.TextDocumentIdentifier(uri)

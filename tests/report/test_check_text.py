@@ -8,6 +8,7 @@ import pytest
 from garkcli.check.analysis import analyse
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import verify
+from garkcli.check.findings import blame_text
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.order.blame import MissedOrder, blame_of
@@ -15,7 +16,6 @@ from garkcli.order.constants import error_constants
 from garkcli.page.lines import aligned
 from garkcli.page.look import Look
 from garkcli.report.check_text import render
-from garkcli.report.hints import blame_text
 from garkcli.tell.terminal import Coloured
 from tests.cli.harness import gark
 from tests.whole import in_whole

@@ -163,6 +163,11 @@ def sarif(*outcomes: Outcome) -> dict[str, Any]:
     return run
 
 
+def plain(text: str) -> str:
+    """A text without the escapes of Markdown."""
+    return text.replace("\\", "").replace("&lt;", "<")
+
+
 def words(text: str) -> str:
     """A text without its line ends and margins."""
     return " ".join(text.split())
@@ -184,7 +189,7 @@ def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     files = [
         x["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for x in run["results"]
     ]
-    assert files.count(FAILING) == 1
+    assert files.count(FAILING) == 2  # a claim and a hint
     assert files.count(INVALID) > 3
     assert GOOD not in files
 
@@ -217,18 +222,29 @@ EXAMPLES = {
     "undecided": UNDECIDED.replace(", order: 3", ""),
     "no-claim": MIDPOINT,
     "loses-pair-order": LOSING,
+    "weights": "A: [[0, 0], [1/2, 0]]\nb: [1, 1]\n",
+    "misprint": "A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/3, 0, 0], [0, 0, 1, 0]]\nb: [1/6, 1/3, 1/3, 1/6]\n",
+    "looks-rounded": "A: [[0.25, -0.0386751346], [0.5386751346, 0.25]]\nb: [1/2, 1/2]\n",
+    "failing-conditions": "A: [[0, 0], [1/2, 0]]\nb: [1/2, 1/2]\nexpect: {order: 3}\n",
 }
-"""A file for each kind of finding, which has no other: a new kind needs one."""
+"""A file for each kind of finding: a new kind needs one."""
+BESIDE = {"claim": ["failing-conditions"], "weights": ["misprint"], "failing-conditions": ["claim"]}
+"""The other findings on such a file, the errors first."""
+PLACES = {"weights": (2, 4), "misprint": (1, 39), "failing-conditions": (3, 17)}
+"""The places of findings that are not about a whole file: a row, an entry, a claim."""
 LABELS = {
     "claim": ("CLAIM FAILS", "FAIL"),
     "undecided": ("undecided", "open"),
     "no-claim": ("NO CLAIM", "FAIL"),
+    **dict.fromkeys(["weights", "misprint", "looks-rounded", "failing-conditions"], ("hint",) * 2),
 }
 """The words for people in place of level and code, of one file and in the line of several."""
+SIGNS = {"claim": "fails</span>", "undecided": "undecided</span>", "no-claim": "claims nothing"}
+"""The signs of findings on claims in the page; others have their codes."""
 
 
 class Example(NamedTuple):
-    """A file and its only finding."""
+    """A file and a finding on it."""
 
     outcome: Outcome
     finding: Finding
@@ -236,6 +252,10 @@ class Example(NamedTuple):
     @property
     def remark(self) -> Remark:
         return self.finding.remark
+
+    @property
+    def is_hint(self) -> bool:
+        return self.remark.level == "hint"
 
     @property
     def begin(self) -> str:
@@ -250,9 +270,9 @@ class Example(NamedTuple):
 def example(request: pytest.FixtureRequest, tmp_path: Path) -> Example:
     made = check_file(str(written(tmp_path, EXAMPLES[request.param])))
     made = replace(made, needs_claims=request.param == "no-claim")
-    [finding] = findings(made)
-    assert finding.rule == request.param
-    return Example(made, finding)
+    beside = BESIDE.get(request.param, [])
+    assert sorted(x.rule for x in findings(made)) == sorted([request.param, *beside])
+    return Example(made, next(x for x in findings(made) if x.rule == request.param))
 
 
 def other() -> Outcome:
@@ -260,42 +280,44 @@ def other() -> Outcome:
 
 
 def test_text_has_every_finding_once(example: Example) -> None:
-    """One file and several, with code and level or with a label, and with the cure."""
+    """One file and several, with code and level or with a label, and with the cure; a hint is one."""
     alone, short = LABELS.get(example.finding.rule, (example.remark.code, example.remark.code))
     one, several = example.text("text"), example.text("text", other())
     assert (alone in one, short in several) == (True, True)
     for text in (one, several):
         assert text.count(example.begin) == (example.finding.rule != "no-claim")  # its label
-        assert example.remark.help in text
+        assert example.remark.help in text or example.is_hint
         assert example.finding.rule in LABELS or example.remark.level in text
 
 
 def test_markdown_has_every_finding(example: Example) -> None:
-    """With its code in the list, of several files; of one a row of the table has a warning."""
+    """With its code in the list, of several files; of one in the table, claims in both."""
     one, several = example.text("markdown"), example.text("markdown", other())
     for text in (one, several):
-        assert example.remark.code in text
-        assert example.remark.help in text
-    assert several.count(example.begin) == 1
-    is_told_as_claim = example.finding.rule in LABELS
-    assert one.count(example.begin) == 1 or is_told_as_claim or not example.outcome.is_read
+        assert example.remark.code in text or example.is_hint
+        assert example.remark.help in plain(text) or example.is_hint
+    assert example.remark.code in several
+    assert example.remark.help in several
+    assert several.count(plain(example.begin)) == 1
+    times = 2 if example.finding.rule in {"claim", "undecided"} else 1
+    assert plain(one).count(plain(example.begin)) == times
     assert example.remark.level == "error" or f"{example.remark.level}: " in several
 
 
 def test_latex_and_the_page_have_every_finding(example: Example) -> None:
     """Claims have a table of their own in the page."""
     label, _ = LABELS.get(example.finding.rule, (example.remark.code, ""))
-    assert label in example.text("latex") or example.finding.rule == "unreadable"
+    assert label in example.text("latex")
     page = render([reported(example.outcome.file, None, has_pictures=False)])
-    told = {"claim": "fails</span>", "undecided": "undecided</span>", "no-claim": "claims nothing"}
-    assert told.get(example.finding.rule, example.remark.code) in page
+    assert SIGNS.get(example.finding.rule, f">{example.remark.code}</span>") in page
 
 
 def test_json_has_every_finding(example: Example) -> None:
     """All of them in one list, also the faults; the place is null where the file is meant."""
     [data, silent] = REPORT.document([example.outcome, other()])["files"]
     assert silent["findings"] == []
-    [told] = data["findings"]
+    assert len(data["findings"]) == 1 + len(BESIDE.get(example.finding.rule, []))
+    [told] = [x for x in data["findings"] if x["message"] == example.remark.message]
     place = {key: told.pop(key) or 1 for key in ("line", "column")}
     assert {**told, **place} == {
         key: getattr(example.remark, key)
@@ -306,19 +328,22 @@ def test_json_has_every_finding(example: Example) -> None:
 def test_formats_of_ci_have_every_finding(example: Example) -> None:
     """SARIF and GitHub with level, code and cure; JUnit as a case or in the output of one."""
     remark, rule = example.remark, example.finding.rule
-    [result] = sarif(example.outcome)["results"]
-    code = result.get("properties", {}).get("code", result["ruleId"])
-    assert (result["ruleId"], code, result["level"]) == (rule, remark.code, remark.level)
+    [result] = [x for x in sarif(example.outcome)["results"] if x["ruleId"] == rule]
+    code = result.get("properties", {}).get("code", rule)
+    level = "note" if example.is_hint else remark.level
+    assert (code, result["level"]) == (remark.code, level)
     assert result["message"]["text"].startswith(remark.message)
     assert result["message"]["text"].endswith(remark.help)
-    [(place, text)] = annotations(example.outcome, level=remark.level)
-    assert (place["title"], place["line"]) == (f"gark: {rule}", str(remark.line))
+    told = annotations(example.outcome, level="notice" if example.is_hint else remark.level)
+    [(place, text)] = [x for x in told if x[0]["title"] == f"gark: {rule}"]
+    assert (place["line"], place["col"]) == (str(remark.line), str(remark.column))
+    assert (remark.line, remark.column) == PLACES.get(rule, (remark.line, remark.column))
     assert text.startswith(remark.message)
     assert text.endswith(remark.help)
     suite = junit(example.outcome)
-    told = " ".join([*(str(x.attrib) for x in suite.iter()), *suite.itertext()])
-    assert example.begin.rpartition(": expected")[2] in told
-    assert rule in told or remark.help in told
+    in_suite = " ".join([*(str(x.attrib) for x in suite.iter()), *suite.itertext()])
+    assert example.begin.rpartition(": expected")[2] in in_suite
+    assert rule in in_suite or remark.help in in_suite or "hint: " in in_suite
 
 
 def test_sarif_names_its_rules(example: Example) -> None:
@@ -326,7 +351,7 @@ def test_sarif_names_its_rules(example: Example) -> None:
     run = sarif(example.outcome)
     rules = run["tool"]["driver"]["rules"]
     assert [x["id"] for x in rules] == list(findings_of("check"))
-    [result] = run["results"]
+    [result] = [x for x in run["results"] if x["ruleId"] == example.finding.rule]
     named = rules[result["ruleIndex"]]
     assert named["id"] == result["ruleId"] == example.finding.rule
     kind = findings_of("check")[example.finding.rule]
@@ -421,10 +446,10 @@ def test_undecided_claims_do_not_fail(tmp_path: Path) -> None:
     assert [x.claim for x in found.failed_claims] == ["order"]
     assert [x.claim for x in found.undecided_claims] == ["p-stable"]
     levels = {x["ruleId"]: x["level"] for x in sarif(found)["results"]}
-    assert levels == {"claim": "error", "undecided": "warning"}
+    assert levels == {"claim": "error", "undecided": "warning", "failing-conditions": "note"}
     (suite,) = junit(found)
     tags = {(case.get("name") or "").partition(":")[0]: [x.tag for x in case] for case in suite}
-    assert tags == {"is a method": [], "p-stable": ["skipped"], "order": ["failure"]}
+    assert tags == {"is a method": ["system-out"], "p-stable": ["skipped"], "order": ["failure"]}
     still_open = replace(found, claims=found.undecided_claims)
     summary = REPORT.document([found, still_open])["summary"]
     assert summary == {"files": 2, "failed": 1, "undecided": 1, "without_claims": 0}
@@ -558,6 +583,10 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
         ("pair-order", ""),
         ("symplectic", consequence),
         ("B", ""),
+        (
+            "the one condition of order 2 fails; the claimed order would hold with a[2,2] = 1/4 instead of 1/3, and so would conjugate-order, symplectic",
+            "compare the number with the paper",
+        ),
     ]
     text = check_text.render([found], Look())
     assert f"would hold with {repair}, and so would conjugate-order, symplectic" in words(text)
@@ -685,7 +714,7 @@ def test_markdown_escapes_messages() -> None:
     text = FORMATS["markdown"](
         [Outcome("m", "m", faults=(Remark("a <b> | c\nd \\", "", 1, 1),))], Look(), 0, None, 80
     )
-    assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\ (`fault`)\n")
+    assert "| error | line 1, column 1: a &lt;b> \\| c\\nd \\\\ (fault) |" in text
 
 
 def test_no_format_forgets_a_finding() -> None:

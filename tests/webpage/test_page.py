@@ -23,6 +23,7 @@ import garkcli
 from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError, printable
 from garkcli.frozen import replace
+from garkcli.glossary.faults import cure_of
 from garkcli.order.conditions import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.registry import KEYS
@@ -612,13 +613,14 @@ def test_a_section_is_a_file_with_its_template() -> None:
 
 
 def test_hints_are_those_of_the_check() -> None:
-    """What the failing conditions of a misprinted method tell, sentence by sentence."""
+    """What the failing conditions of a misprinted method tell, with code and cure."""
     printed = " ".join(gark("check", FAILING).out.split())
-    (shown,) = [x for x in elements(section(FAILING, "orders"), "ul") if x.get("class") == "hints"]
-    told = [text_of(x) for x in elements(shown, "li")]
+    told = [text_of(x) for x in elements(section(FAILING, "remarks"), "p")]
     assert told
-    for one in told:
-        assert f" hint {one}" in printed
+    for hint, cure in zip(told[::2], told[1::2], strict=True):
+        code, _, text = hint.partition(" ")
+        assert f" hint {text}" in printed
+        assert cure == cure_of("check", code)
 
 
 @in_whole

@@ -8,7 +8,7 @@ from markupsafe import Markup
 
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
-from garkcli.report.check import hints, named_colours
+from garkcli.report.check import named_colours
 from garkcli.report.checked import REPORT
 from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, label, words
@@ -40,12 +40,7 @@ def content(method: Reported) -> Content | None:
     outcome = method.outcome
     if not outcome.is_read:
         return None
-    told = [] if outcome.analysis is None else hints(outcome)
-    return {
-        "orders": list(_orders(method)),
-        "hints": [Markup(Typeset().reason(x)) for x in told],
-        "left_behind": " and ".join(outcome.left_behind),
-    }
+    return {"orders": list(_orders(method)), "left_behind": " and ".join(outcome.left_behind)}
 
 
 def _orders(method: Reported) -> Iterator[Content]:
