@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from garkcli.frozen import Frozen
 
 
@@ -135,20 +137,14 @@ COMMANDS = {
     "tableau": Command(
         BUILD,
         "tableaux",
-        "the whole tableau, block by block",
-        ("load",),
+        "the whole tableau; the symplectic conjugate or pair",
+        ("load", "conjugate", "pair", "symplectic_pair"),
         (
             "gark tableau gauss-2",
             "gark tableau rk4 --format latex",
+            "gark tableau rk4 --conjugate",
             "gark tableau mine.yaml --digits 10",
         ),
-    ),
-    "conjugate": Command(
-        BUILD,
-        "tableaux",
-        "the symplectic conjugate, or the symplectic pair",
-        ("conjugate", "pair", "symplectic_pair"),
-        ("gark conjugate rk4", "gark conjugate mine.yaml --format yaml"),
     ),
     "convert": Command(
         BUILD,
@@ -236,8 +232,16 @@ COMMANDS = {
 }
 """The commands in the order of the help."""
 FORMER = {
+    "conjugate": ("tableau", "--conjugate"),
     "reduce": ("convert", "--to", "reduced"),
     "cite": ("show", "--reference"),
     "certificate": ("export", "--to", "certificate"),
 }
 """Former names of commands, which the help does not list, and the words they stand for."""
+
+
+def current(words: Sequence[str]) -> list[str]:
+    """The words of a command line with the former name of a command replaced."""
+    if words[0] == "conjugate" and "--pair" in words:
+        return ["tableau", *words[1:]]
+    return [*FORMER.get(words[0], words[:1]), *words[1:]]

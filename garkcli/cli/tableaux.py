@@ -1,5 +1,5 @@
-"""``gark tableau``, ``conjugate``, ``convert`` and ``diff``: methods as tableaux and as files, also
-with free parameters.
+"""``gark tableau``, ``convert`` and ``diff``: methods as tableaux and as files, also with free
+parameters.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from garkcli.cli import options as opt
 from garkcli.cli.command import declared
 from garkcli.cli.output import Output
 from garkcli.errors import HasFreeParameters, MethodError, UsageProblem, did_you_mean
-from garkcli.frozen import fields
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
@@ -50,21 +49,6 @@ TRANSFORMATION = opt.flag(
     "Add the eigenvalues of the inverse of A, and T with its real block form.",
     heading="Report",
 )
-TABLEAU_RULES = (
-    opt.DOCUMENT_RULE,
-    opt.excludes(
-        TRANSFORMATION,
-        opt.being(opt.FORMAT, "yaml"),
-        "a method file has no place for the transformation",
-        "ask for another format",
-    ),
-    opt.excludes(
-        TRANSFORMATION,
-        opt.being(opt.FORMAT, "latex"),
-        "LaTeX has no transformation",
-        "ask for another format",
-    ),
-)
 
 
 class TableauOptions(opt.Derivable):
@@ -74,16 +58,33 @@ class TableauOptions(opt.Derivable):
     digits: int | None = opt.DIGITS
     transformation: bool = TRANSFORMATION
     document: bool = opt.DOCUMENT
-    rules = TABLEAU_RULES
+    rules = (
+        opt.DOCUMENT_RULE,
+        opt.excludes(
+            TRANSFORMATION,
+            opt.being(opt.FORMAT, "yaml"),
+            "a method file has no place for the transformation",
+            "ask for another format",
+        ),
+        opt.excludes(
+            TRANSFORMATION,
+            opt.being(opt.FORMAT, "latex"),
+            "LaTeX has no transformation",
+            "ask for another format",
+        ),
+    )
 
 
 @declared("tableau", TableauOptions, (*FORMATS, "yaml"))
 def tableau(given: TableauOptions, output: Output) -> None:
-    """The assembled tableau, all blocks.
+    """The assembled tableau, all blocks, of a method, its symplectic conjugate or pair.
 
     Entries are exact where the nodes are rational or quadratic numbers, else decimals; rational
-    functions if parameters are free. --format yaml writes a method file. LaTeX shows a method for
-    positions and momenta as two arrays, Q and P.
+    functions if parameters are free. LaTeX shows a method for positions and momenta as two arrays,
+    Q and P.
+
+    --format yaml writes a method file. The conjugate of the conjugate is the original, exactly; if
+    its nodes have no simple radicals, the file has `conjugate: true` instead of entries.
     """
     try:
         method = given.method(given.file, is_any_kind=True)
@@ -100,28 +101,6 @@ def tableau(given: TableauOptions, output: Output) -> None:
         output.write(_derived_file(method, output))
     else:
         output.write(_method_file(method, given.digits))
-
-
-class Conjugate(opt.WithSettings):
-    """The options of ``gark conjugate``."""
-
-    file: str = opt.argument("FILE", opt.METHOD)
-    pair: bool = opt.PAIR
-    digits: int | None = opt.DIGITS
-    transformation: bool = TRANSFORMATION
-    document: bool = opt.DOCUMENT
-    rules = TABLEAU_RULES
-
-
-@declared("conjugate", Conjugate, (*FORMATS, "yaml"))
-def conjugate(given: Conjugate, output: Output) -> None:
-    """The symplectic conjugate of a method: gark tableau --conjugate.
-
-    --format yaml writes a method file; its conjugate is the original, exactly. If the nodes
-    have no simple radicals, the file has `conjugate: true` instead of entries.
-    """
-    values = {name: getattr(given, name) for name in fields(given)}
-    tableau(TableauOptions(conjugate=not given.pair, **values), output)
 
 
 def write_tableau(

@@ -40,6 +40,8 @@ def test_an_old_name_is_another_command() -> None:
 @pytest.mark.parametrize(
     ("old", "new"),
     [
+        ("conjugate rk4 --format yaml", "tableau rk4 --conjugate --format yaml"),
+        ("conjugate rk4 --pair", "tableau rk4 --pair"),
         ("cite rk4", "show rk4 --reference"),
         ("cite rk4", "show rk4 --format bibtex"),
         ("cite gark rk4 --format text", "show gark rk4 --reference --format text"),

@@ -124,7 +124,7 @@ def _table(title: str, tableau: Tableau, found: Entries, weights: str = "b") -> 
     """
     widest = max(sum(len(found.b[m]) for m in colours) for _, _, colours in parts_of(tableau))
     if widest > MOST_COLUMNS:
-        why = f"it has {widest} columns; gark tableau and gark conjugate print it"
+        why = f"it has {widest} columns; gark tableau prints it"
         return {"title": title, "left_out": why}
     note = remark(found)
     shortened = found.changed(_short)
