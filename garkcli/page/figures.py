@@ -34,6 +34,15 @@ def order_text(order: float | None) -> str:
     return "none" if order is None else f"{round(order, 2) + 0.0:.2f}"
 
 
+def _without_digits(ball: arb) -> str:
+    """Returns the text of a ball that is not finite or contains 0; empty for others."""
+    if not ball.is_finite():
+        return UNKNOWN
+    if ball.is_zero():
+        return "0"
+    return f"< 1e{bound(ball)}" if ball.contains(0) else ""
+
+
 def rounded(ball: Any, digits: int = 4) -> str:
     """Returns a few digits of an enclosed number; "0" for zero, a bound below round-off.
 
@@ -43,12 +52,8 @@ def rounded(ball: Any, digits: int = 4) -> str:
     'unknown'
     """
     ball = arb(ball)
-    if not ball.is_finite():
-        return UNKNOWN
-    if ball.is_zero():
-        return "0"
-    if ball.contains(0):
-        return f"< 1e{bound(ball)}"
+    if said := _without_digits(ball):
+        return said
     return str(ball.str(digits, radius=False))
 
 
@@ -63,12 +68,8 @@ def scientific(ball: Any, digits: int = 3) -> str:
     '1e1'
     """
     ball = arb(ball)
-    if not ball.is_finite():
-        return UNKNOWN
-    if ball.is_zero():
-        return "0"
-    if ball.contains(0):
-        return f"< 1e{bound(ball)}"
+    if said := _without_digits(ball):
+        return said
     digits = min(digits, certain_digits(ball))
     middle = ball.mid()
     exponent = floor(log10(middle))

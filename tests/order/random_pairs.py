@@ -111,8 +111,8 @@ def conditions(l: Method, m: Method, p: int) -> Iterator[tuple[dict[Edge, Number
         yield {(i, n): u[i] * v[n] for i, n in places}, fmpq(1, 2 * (k + 1) ** 2)
 
 
-def member(dice: Random, l: Method, m: Method, p: int) -> Matrix:
-    """A random block with the conditions of pair order p; entries that nothing fixes are small."""
+def equations(l: Method, m: Method, p: int) -> list[list[Number]]:
+    """The conditions of pair order p as rows of a linear system for the entries of a block."""
     size = l.stages * m.stages
     rows: list[list[Number]] = []
     for coefficients, right in conditions(l, m, p):
@@ -121,6 +121,13 @@ def member(dice: Random, l: Method, m: Method, p: int) -> Matrix:
             row[i * m.stages + n] = value
         row[size] = right
         rows.append(row)
+    return rows
+
+
+def member(dice: Random, l: Method, m: Method, p: int) -> Matrix:
+    """A random block with the conditions of pair order p; entries that nothing fixes are small."""
+    size = l.stages * m.stages
+    rows = equations(l, m, p)
     pivots = reduced(rows, size)
     if pivots is None:
         return member(dice, l, m, p - 1)
@@ -163,13 +170,7 @@ def reduced(rows: list[list[Number]], size: int) -> list[tuple[list[Number], int
 def dimension(l: Method, m: Method, p: int) -> int | None:
     """That of the affine space of blocks with these conditions, by counting pivots."""
     size = l.stages * m.stages
-    rows = []
-    for coefficients, right in conditions(l, m, p):
-        row: list[Number] = [fmpq(0)] * (size + 1)
-        for (i, n), value in coefficients.items():
-            row[i * m.stages + n] = value
-        row[size] = right
-        rows.append(row)
+    rows = equations(l, m, p)
     pivots = reduced(rows, size)
     return None if pivots is None else size - len(pivots)
 

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
 from garkcli.constructions.infinitesimal import (
+    CollocationPlan,
     Coupling,
     Powers,
+    check_ends,
     following,
     generalized,
+    infinitesimal,
     interpolation,
     mis_coupling,
     of_step_time,
+    plan_for_flow,
+    plan_for_method,
     plan_for_predictor,
     predicted,
     restarted,
@@ -28,7 +33,6 @@ from garkcli.exact.rewriting import Expanded
 from garkcli.frozen import Frozen, replace
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
-from garkcli.methodfile.constructed.couplings import Infinitesimal, TableauOf, method_of_part
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.load import NO_SETTINGS, built, described
@@ -36,11 +40,43 @@ from garkcli.methodfile.numbers import Coefficient, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
 from garkcli.tableau.embedded import Further
+from garkcli.tableau.forms import one_field
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
 
 if TYPE_CHECKING:
     from garkcli.methodfile.build import MethodFile
+
+TableauOf: TypeAlias = Callable[[PartText], Tableau]
+
+
+class Infinitesimal(Frozen):
+    """Makes a multirate infinitesimal method.
+
+    ``fast`` is None for the exact solution; ``coupling`` makes the coupling of the slow stages;
+    ``steps`` is the number of small steps between two slow stages.
+    """
+
+    fast: PartText | None
+    coupling: Callable[[TableauOf, Values], Coupling]
+    steps: int
+
+    def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
+        coupling = self.coupling(tableau_of, values)
+        values.once(("ends", id(self)), lambda: check_ends(coupling))
+        plan_for = plan_for_flow if self.fast is None else plan_for_method
+        plan: CollocationPlan = values.once(("plan", id(self)), lambda: plan_for(coupling))
+        fast = None if self.fast is None else method_of_part(tableau_of, self.fast, "fast")
+        return infinitesimal(coupling, plan, fast, self.steps)
+
+
+def method_of_part(tableau_of: TableauOf, part: PartText, key: str) -> Method:
+    """Returns the method of a part that has one vector field; ``key`` is its place under
+    ``multirate``.
+    """
+    tableau = tableau_of(part)
+    message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
+    return one_field(tableau, message + "where a method of one vector field is expected")
 
 
 _FORM = "write for instance {mis: kutta, fast: rk4, steps: 4}"
