@@ -49,7 +49,7 @@ parameters values
 
 @contextmanager
 def until(moment: float | None) -> Iterator[None]:
-    """``within`` with the end as a reading of ``time.monotonic``."""
+    """Limits the time like ``within``, to a reading of ``time.monotonic``."""
     with _earliest(_moment, moment):
         yield
 

@@ -363,7 +363,7 @@ def _unmet(outcome: Outcome, claim: Claim) -> Remark:
 
 
 def cure_of_lacks(outcome: Outcome) -> str:
-    """Returns the command that writes the missing claims; without keys it keeps to those made."""
+    """Returns the command that writes the missing claims, by their keys if some are there."""
     keys = (f" --key {key}" for key in outcome.keys_lacking)
     return cure_of("check", "no-claim") + "".join(keys)
 

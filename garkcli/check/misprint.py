@@ -39,8 +39,8 @@ class FoundOrder(Protocol):
 def misprints(
     method: MethodFile, order: FoundOrder, declared: int | None = None
 ) -> tuple[SuspectedNumber, ...]:
-    """Returns the numbers of which one seems wrong: with another value the method has the claimed
-    or declared order, or without one two orders more. Those that give the highest order come alone.
+    """Returns the numbers of which one seems wrong: another value gives the claimed or declared
+    order or, without one, two orders more. Only those that give the highest order are returned.
     """
     claimed = declared or highest_order(method.claims, ["order"])
     goal = claimed or order.order + GAIN
@@ -78,7 +78,7 @@ def _digits(printed: Printed) -> Sequence[fmpq]:
 
 
 def _shortened(number: SuspectedNumber) -> SuspectedNumber:
-    """Returns the number with a short fraction for its new value, if there is one that near."""
+    """Returns the number with a short fraction for its new value, if one is near enough."""
     new = Fraction(int(number.new.p), int(number.new.q))
     short = new.limit_denominator(SHORT)
     near = abs(short - new) <= 10 * Fraction(int(FINE.p), int(FINE.q))

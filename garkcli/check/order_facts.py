@@ -302,11 +302,11 @@ class OrderFacts(Shown, Frozen):
 
     @property
     def dense(self) -> None:
-        """Such methods have no dense output."""
+        """None: such methods have no dense output."""
 
     @cached_property
     def subject(self) -> NoProperties | LinearSubject:
-        """Such methods have no properties."""
+        """The verdict on every property: not defined for such methods, unless overridden."""
         return NoProperties(self.tolerance or fmpq(0), self.no_property)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:

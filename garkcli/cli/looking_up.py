@@ -323,7 +323,7 @@ def report(given: Page, output: Output) -> int:
 
 
 def _is_no_page(path: str) -> bool:
-    """Returns whether there is a file that gark did not write as a page."""
+    """Returns whether a file is there that is not a page of gark."""
     try:
         return b"gark report" not in begin_of(path, 20_000).lower()
     except NotAFile:

@@ -154,7 +154,7 @@ def option(
 def preset(
     flags: str, kind: Kind[T], default: T, help: str = "", *, of: str = "", heading: str = ""
 ) -> T:
-    """Declares an option with a default of the command."""
+    """Declares an option whose default is that of the command, not of the Python argument."""
     return cast("T", option(flags, _with(kind, default=default), help, of=of, heading=heading))
 
 

@@ -78,7 +78,7 @@ class LinearSolver(Mutable):
 
     @property
     def longest(self) -> fmpq:
-        """ωh = 1/2: the expansion of R(h) has begun to be one."""
+        """ωh = 1/2, where the first terms of the expansion in h dominate."""
         return self.unit / 2
 
     def is_too_short(self, h: fmpq) -> bool:  # noqa: ARG002 -- none is
@@ -86,7 +86,7 @@ class LinearSolver(Mutable):
         return False
 
     def resolution(self, h: fmpq) -> float:  # noqa: ARG002 -- of all steps
-        """0: it is not a right-hand side."""
+        """0: the oscillator is never taken to be stiff."""
         return 0.0
 
     def row(self, h: fmpq, before: StepSizeRow | None) -> StepSizeRow:

@@ -96,8 +96,8 @@ def pieces(
     roots: Sequence[RealRoot],
     is_bounded: bool = False,
 ) -> list[tuple[Interval, T]]:
-    """A function that is constant between numbers: the intervals of equal values, from left to
-    right.
+    """The intervals of equal values of a function that is constant between some numbers, from left
+    to right.
 
     Args:
         inside: its value at a rational number between two of them.

@@ -136,8 +136,8 @@ class Slopes(Frozen):
 
 
 def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
-    """The slopes at both ends of a step: right if the stages with weight in them evaluate at x_0 or
-    x_1, wrong if an elementary weight differs.
+    """Whether the slopes of dense output at both ends of a step are f(x_0) and f(x_1): yes if only
+    stages at x_0 or x_1 have weights in them, no if an elementary weight differs.
     """
     return slopes_where(method, dense, lambda known, _: slopes_at_ends(known), with_ends)
 

@@ -139,7 +139,7 @@ def _free(rows: Forms, is_free: np.typing.NDArray[np.bool_]) -> Floats:
 
 
 def _W(G: Floats) -> Floats:  # noqa: N802 -- the letter of the proof
-    """W for which G W is nearly diagonal."""
+    """A scaled pseudo-inverse W of G, so that G W is nearly diagonal."""
     if not len(G):
         return np.zeros(G.shape[::-1])
     W: Floats = np.linalg.pinv(G / np.linalg.norm(G, axis=1)[:, None], rcond=1e-12)

@@ -44,7 +44,7 @@ System: TypeAlias = "Mapping[str, Chosen]"
 
 @contextmanager
 def arithmetic(bits: int) -> Iterator[None]:
-    """Balls of so many bits; overflow of floats leaves questions open."""
+    """Computes with balls of ``bits`` bits inside; floats that overflow leave questions open."""
     with ctx.workprec(bits), np.errstate(all="ignore"):
         yield
 

@@ -89,7 +89,7 @@ def implicit_stages(tableau: Tableau) -> list[int]:
 
 
 def check_predictor(tableau: Tableau, predictor: Predictor) -> None:
-    """Refuse a predictor that has nothing to predict, or uses slopes that are not known yet.
+    """Refuses a predictor that has nothing to predict, or uses slopes that are not known yet.
 
     Raises:
         MethodError: that is the case.

@@ -143,7 +143,7 @@ class Recovery:
         return max((self.box.radii[k] for k in found), default=fmpq(0))
 
     def finer(self, bits: int) -> Recovery:
-        """The search with at least so many bits."""
+        """The search with at least ``bits`` bits."""
         other = copy(self)
         other.bits = max(self.bits, bits)
         return other

@@ -45,7 +45,7 @@ class RepairedEntry(Frozen):
 
 
 class Repair(RepairedEntry):
-    """An entry that restores the claimed order when it alone is changed; ``is_embedded`` marks
+    """An entry whose change alone restores the claimed order; ``is_embedded`` marks
     embedded weights.
     """
 

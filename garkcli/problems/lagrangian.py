@@ -154,8 +154,8 @@ def _of_form(
 
 
 def _form(L: Expr, a: Expr, v: Vector) -> _QuadraticForm | None:
-    """L by its part ``a``; None if that is not a quadratic form in all velocities, or they occur
-    otherwise not just linearly.
+    """L as a function of its part ``a`` and linear terms in the velocities; None if ``a`` is not a
+    quadratic form in all velocities, or L has other terms with them.
     """
     import sympy
 

@@ -379,7 +379,7 @@ def _names(tableau: Tableau, space: int) -> list[str]:
 
 
 class Staged(TypedDict):
-    """Stages of colours, from 1; or how those of polynomials move."""
+    """Stages of colours, counted from 1; of polynomials the substitution that moves their nodes."""
 
     colours: list[str]
     stages: list[int] | Literal["1 - x"]

@@ -180,8 +180,8 @@ class ConditionTable(Mutable):
 
 
 def legend_of(tableau: Tableau) -> str:
-    """The names of the colours of a tableau, and what they and the blocks of a method are that is
-    no GARK method; empty where the names are the numbers.
+    """The names of the colours and, of a method that is not a GARK method, the meaning of colours
+    and blocks; empty if the names are numbers.
     """
     about = numbered([colour.name for colour in tableau.colours]), *_about_colours(tableau)
     told = "; ".join(filter(None, about))

@@ -220,5 +220,5 @@ REPORT: Report[WithinReport] = Report.only(
 
 
 def whole(found: DesignWithin, name: str) -> WithinReport:
-    """Values under the name of their family if there is no other."""
+    """The values with a name: the given one, or that of their family."""
     return WithinReport(name or found.family.name, found)

@@ -430,5 +430,5 @@ def _signs(tableau: Tableau) -> DialectSigns:
 
 
 def whole(found: Comparison, _: str) -> ComparedPair:
-    """A comparison; its methods have names."""
+    """The comparison with names for its methods: their own, or first and second."""
     return ComparedPair(found, (found.one.name or "first", found.other.name or "second"))

@@ -125,7 +125,7 @@ def _verdicts(run: LongRun, d: Plain) -> list[tuple[str, str]]:
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
-    """The reason, and the cure."""
+    """Why a trend is undecided, and what would decide it."""
     longer = f"--t-end {history.longer}"
     can_tell = f"{longer} can tell"
     if history.longer is None:
@@ -277,7 +277,7 @@ def _claims(claims: tuple[RunClaim, ...], d: Plain) -> list[tuple[str, str]]:
 
 
 def _seen(run: LongRun) -> tuple[InvariantHistory, ...]:
-    """Errors that are more than noise, which is different on every machine."""
+    """The invariants whose errors exceed round-off, which is different on every machine."""
     return tuple(x for x in run.invariants if x.max_error > x.round_off)
 
 

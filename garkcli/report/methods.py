@@ -312,7 +312,7 @@ def kind(x: ShownMethod) -> str:
 
 
 def such(x: ShownMethod, value: bool) -> str:
-    """The properties that the method has, or lacks, without the kinds of stages that it lacks."""
+    """The properties that a method has; or those it lacks, except kinds of stages."""
     told = [key for key in TRUTHS if value or key not in TYPES]
     return ", ".join(key.replace("_", "-") for key in told if x.entry[key] is value)
 

@@ -632,7 +632,7 @@ def _end_of(found: Extent | Ray) -> RealRoot | fmpq | None:
 
 
 def _interval(axis: str, found: Extent | Ray | None, d: Plain, power: int = 1) -> str:
-    """The interval of z on an axis, its end being a square with ``power`` 2."""
+    """The interval of z on an axis; with ``power`` 2 the square of its end is given."""
     if found is None or found == OPEN:
         return d.prose(f"{axis} interval not decided")
     end = _end_of(found)
@@ -669,7 +669,7 @@ def _implicit_words(x: LinearStability, d: Plain) -> str:
 
 
 def _line(section: Section[T]) -> Kind[T]:
-    """A part for people alone."""
+    """The rows of a section, shown in text but not in JSON."""
     return Kind(None, part(section).shown)
 
 

@@ -30,7 +30,7 @@ def csv_text(section: Section[T], parts: Iterable[T]) -> str:
 
 
 def csv_lines(section: Section[T], parts: Iterable[T], d: Plain) -> Iterator[str]:
-    """Lines of parts that all have the cells of the first one, while they are found."""
+    """Yields the head and the lines of parts as they are found, in the columns of the first."""
     left = iter(parts)
     first = next(left, None)
     yield _line(dict(_cells(section, first, d)))

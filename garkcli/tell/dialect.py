@@ -177,7 +177,7 @@ class Plain(Mutable):
         return [*lines]
 
     def strong(self, text: str) -> str:
-        """The most important part."""
+        """The text, set off as the most important part."""
         return text
 
     def reason(self, reason: Reason) -> str:

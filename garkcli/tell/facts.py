@@ -41,7 +41,7 @@ class Display(Frozen, Generic[V_in]):
 
 
 class Words(Display[V_in]):
-    """In a line.
+    """Shows a value in words, in a line.
 
     Attributes:
         whole: the answer in words, if its status and its reason are not added after ``words``.
@@ -56,35 +56,35 @@ class Words(Display[V_in]):
 
 
 class Labels(Display[V_in]):
-    """As rows among those of other facts."""
+    """Shows a value as rows among those of other facts."""
 
     rows: Labelling[V_in]
 
 
 class Below(Display[V_in]):
-    """In lines of its own, below the other facts."""
+    """Shows a value in lines of its own, below the other facts."""
 
 
 class TextPicture(Below[V_in]):
-    """A picture in signs, which only some outputs have room for."""
+    """Shows a picture made of characters, if the output has room for it."""
 
     lines: Callable[[V_in, Plain], Sequence[str]]
 
 
 class Drawing(Below[V_in]):
-    """Finished lines of the output."""
+    """Shows lines that are ready for the output."""
 
     draw: Callable[[V_in, Plain], Iterable[str]]
 
 
 class Plot(Below[V_in]):
-    """Axes, curves and areas, which each output draws in its way."""
+    """Shows axes, curves and areas, which each output draws in its own way."""
 
     scene: Callable[[V_in], Scene]
 
 
 class OnePart(Display[T]):
-    """By the facts of a section: usually some in a line, or ``words``; with details each alone."""
+    """Shows the facts of a section: usually some in a line, or ``words``; with -v each alone."""
 
     section: Section[T]
     words: Wording[T] | None = None
@@ -95,11 +95,11 @@ class OnePart(Display[T]):
 
 
 class ManyParts(Display[Sequence[T]]):
-    """A list, by the facts of a section.
+    """Shows each value of a list by the facts of a section.
 
     Attributes:
         words: the line of all parts, if the usual facts do not make it.
-        most: so many rows of a table are usual, 0 for all; None if a line is usual.
+        most: the most rows of a usual table, 0 for all; None if a line is usual.
     """
 
     section: Section[T]
@@ -111,7 +111,7 @@ class ManyParts(Display[Sequence[T]]):
 
 
 class Stream(Below[Iterable[T]]):
-    """A line for each part, while the parts are found, below headings of ``by`` on a terminal."""
+    """Shows a line for each part as soon as it is found, on a terminal below headings by ``by``."""
 
     section: Section[T]
     by: Wording[T] | None = None

@@ -131,7 +131,7 @@ class OfFile(Protocol):
 
 
 def _name(x: OfFile) -> Answer[str]:
-    """The name; usual reports have it if it is not the file."""
+    """The name, which reports show if it is not that of the file."""
     return Answer(x.name, level=Level.DETAIL if x.name != x.file else Level.DATA)
 
 
