@@ -103,7 +103,6 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
 
 
 def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) -> Entry:
-    """Returns the entry of a method from its analysis and its file."""
     values: Entry = {"symplectic": found_value("symplectic", analysis)}
     open_ones = []
     for key in KEYS:

@@ -190,7 +190,6 @@ def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTablea
 
 
 def is_pair_of_itself(method: AnyTableau, both: AnyTableau) -> bool:
-    """Returns whether a partitioned method is its own pair."""
     tableau = printed(method)
     return tableau.is_partitioned and printed(both).blocks == tableau.blocks
 

@@ -138,7 +138,6 @@ def check_method(
 
 
 def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
-    """Checks a method that is not a GARK method."""
     analysis = analyse_any(method, limit)
     assert not isinstance(analysis, Analysis)
     own: dict[str, Any] = {analysis.form: analysis}

@@ -72,8 +72,6 @@ class FamilyFact(Frozen):
         return is_one and not others
 
     def of(self, part: Callable[[Any], Any]) -> FamilyFact:
-        """Returns the fact with ``part`` of each answer."""
-
         def of(whole: Any) -> Any:
             return None if whole is None else part(whole)
 

@@ -110,7 +110,6 @@ def estimate(
 def dense_facts(
     method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseFacts:
-    """Returns the facts about dense output."""
     whole = with_further(method) or method
     return DenseFacts(
         order=dense_order(as_dense(method), dense, limit, spans),

@@ -200,7 +200,6 @@ class Fit(Frozen):
 
 
 def _by_block(by_numbers: Fit, missing: Sequence[SimplifyingCondition]) -> Fit:
-    """Returns the decision by the conditions of the block."""
     names = [
         "the even condition" if x.letter == "even" else f"{x.letter}({x.number})" for x in missing
     ]

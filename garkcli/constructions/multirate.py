@@ -41,7 +41,6 @@ def summed(*values: Value) -> Value:
 
 
 def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> Value:
-    """A combination of the slopes of one colour."""
     return {(colour, i): weight for i, weight in zip(stages, weights, strict=True)}
 
 
@@ -94,7 +93,6 @@ def small_steps(fast: Method, steps: int) -> Method:
 
 
 def _alone(tableau: Tableau) -> Method:
-    """A tableau with one colour as a method."""
     return Method("", tableau.spaces[0], tableau.blocks[0, 0], tableau.colours[0].b)
 
 

@@ -99,7 +99,6 @@ def _slow_part(tableau: Tableau) -> Tableau:
 
 
 def _slow_order(asked: Asked) -> WantConditions:
-    """The conditions of the slow method."""
     order = cast("int", asked.value)
     meaning = order_meaning(_slow_part(asked.tableau), asked)
     return replace(meaning, claims=(("slow-order", f'">= {order}"'),))
@@ -134,7 +133,6 @@ def _itself(tableau: Tableau) -> Tableau:
 
 
 def _nodes(tableau: Tableau) -> Tableau:
-    """The array that has the nodes."""
     kind = Rosenbrock if is_rosenbrock(tableau) else Nystrom
     return kind.of(tableau).arrays[0]
 

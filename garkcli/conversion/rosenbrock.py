@@ -153,7 +153,6 @@ class _Places:
         return found or None
 
     def texts(self, key: str, rows: Sequence[Vector]) -> Iterator[list[str]]:
-        """The numbers of a key as text."""
         for row, forms in zip(rows, self._forms[key], strict=True):
             # equal γ_ii are written once, and each has a form
             yield [self._text(key, *pair) for pair in zip(row, forms, strict=False)]

@@ -109,7 +109,6 @@ class Cluster(Generic[Item, Outcome]):
                 pool.add(submit(following))
 
     def _outcome(self, future: Any, item: Item) -> Outcome:
-        """The outcome of a future."""
         from dask.distributed import KilledWorker
 
         if future.status not in {"finished", "error"}:

@@ -48,7 +48,6 @@ class Workers(Protocol[Given, Made]):
 
 
 def in_order(workers: Workers[Item, Outcome], items: Sequence[Item]) -> Iterator[Outcome]:
-    """Yields the outcomes in the order of the items."""
     ready: dict[int, Outcome] = {}
     following = 0
     for number, outcome in workers.as_they_come(items):

@@ -122,7 +122,6 @@ def _placed(server: Server, params: Any) -> tuple[list[str], int, int]:
 
 
 def make_server() -> Server:
-    """Returns the server with all that it answers."""
     server = Server()
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_OPEN)

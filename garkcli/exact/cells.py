@@ -198,7 +198,6 @@ def where_not_negative(polynomials: Sequence[Polynomial]) -> tuple[Interval, ...
 
 
 def is_half_line(intervals: Sequence[Interval]) -> bool:
-    """Whether the set is [a, ∞) for some a."""
     return len(intervals) == 1 and intervals[0].has_start and intervals[0].end is None
 
 

@@ -88,7 +88,6 @@ def _inverse(x: nmod_poly, f: nmod_poly) -> nmod_poly | None:
 
 
 def _remainder(u: _Residues, v: _Residues, f: nmod_poly) -> _Residues:
-    """The remainder of u by a monic v."""
     rest = list(u)
     while len(rest) >= len(v):
         leading = rest.pop()

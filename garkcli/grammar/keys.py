@@ -119,7 +119,6 @@ class ReadMapping(dict[str, Any]):
 
 
 def required(*keys: str) -> Schema:
-    """Returns the schema that requires keys."""
     return {"required": list(keys)}
 
 

@@ -333,7 +333,6 @@ class Source:
             self.fault(node, message, "write gark: 1", code="wrong-version")
 
     def items(self, node: Node, where: str, cure: str = "") -> list[Node]:
-        """Returns the items of a list."""
         if not isinstance(node, SequenceNode):
             cure = cure or "write it in brackets: [ , ]"
             self.fault(node, "a list is expected here", cure, where=where, code="list-expected")

@@ -94,7 +94,6 @@ def ark(at: NumbersReader, node: Node) -> d.ArkText | None:
 
 
 def _matrices(at: NumbersReader, node: Node) -> list[Rows] | None:
-    """Returns the matrices as written; None if A is not a list of matrices."""
     items = spelled_out.colours_in(at, node, "A")
     if items and spelled_out.depth_of_lists(node) == 2:
         message = "A is one matrix, and an ark has one per colour"

@@ -175,7 +175,6 @@ def _family(
     deadline: float | None,
     numbers: Moved | None = None,
 ) -> FamilyFile:
-    """Returns the family that a file describes, with its demands."""
     if description.form == "derivatives":  # its numbers say how many stages its tableau has
         message = f"{_DESIGN} is for GARK methods: {Jets.why}"
         raise MethodError(message, Jets.cure, code="cannot-construct")
@@ -323,6 +322,5 @@ def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim:
 
 
 def _scalar(value: str) -> str:
-    """Returns a value in YAML."""
     is_plain = value.replace("/", "").replace("-", "").isdigit()
     return value if is_plain else f'"{value}"'

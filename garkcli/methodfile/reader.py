@@ -267,7 +267,6 @@ class MethodReader(NumbersReader):
         return Opened(source, reader.numbers, description)
 
     def place_of(self, key: str) -> Extent | None:
-        """Returns the place of a key and its value, or None."""
         node = self._entries.get(key)
         if node is None or self._root is None:
             return None

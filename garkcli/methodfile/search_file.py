@@ -30,7 +30,6 @@ class FileSearch(Frozen):
     def of(
         cls, family: FamilyFile, order: int, whose: Whose = "method", objective: str | None = None
     ) -> FileSearch:
-        """Returns the search of a family file."""
         settings = tuple(family.settings.items())
         return cls(family.text, family.source, settings, order, whose, objective)
 

@@ -98,7 +98,6 @@ class Shelf(ABC):
 
     @cached_property
     def methods(self) -> Found:
-        """The methods by their names."""
         return _by(lambda x: [key_of(x.name)], self._shelved())
 
     def named(self, key: str) -> Sequence[Shelved]:
@@ -106,7 +105,6 @@ class Shelf(ABC):
 
     @cached_property
     def aliases(self) -> Found:
-        """The methods by their aliases."""
         return _by(lambda x: map(key_of, self.called(x)), chain(*self.methods.values()))
 
     @cached_property

@@ -350,7 +350,6 @@ def _with_predictor(
 
 
 def _predictor(at: NumbersReader, node: Node, stages: int) -> d.PredictorText | None:
-    """Returns the matrices of a predictor."""
     entries: g.ReadMapping | None = PREDICTOR.read(at, node, "predictor")
     if entries is None or not entries:
         return None
@@ -443,7 +442,6 @@ def _node_rows(at: NumbersReader, node: Node | None, b: Weights) -> tuple[Row | 
 
 
 def _linear(at: NumbersReader, node: Node | None, colours: int) -> tuple[int, ...]:
-    """Reads the linear colours, numbered from 0."""
     numbers: list[int] = []
     for item in () if node is None else at.source.items(node, "linear"):
         colour = at.source.whole(item, "linear", smallest=1)

@@ -98,7 +98,6 @@ def named_block(tableau: Tableau, edge: Edge) -> Edge:
 
 
 def named_blocks(tableau: Tableau) -> list[Edge]:
-    """The names of all blocks, in order."""
     return sorted({named_block(tableau, edge) for edge in tableau.edges()})
 
 

@@ -222,5 +222,4 @@ def shifted(forms: Forms, number: fmpq) -> Forms:
 
 
 def may_vanish(forms: Forms, i: int) -> bool:
-    """Whether a form may be zero."""
     return not abs(forms.centres[i]) > float(forms.reach[i] + forms.remainders[i]) * (1 + UNIT)

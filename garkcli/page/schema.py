@@ -49,7 +49,6 @@ def array(items: Schema) -> Schema:
 
 
 def counts_of(what: str) -> Schema:
-    """Returns the schema of counts by numbers from 1."""
     return {
         "type": "object",
         "description": f"By {what}.",

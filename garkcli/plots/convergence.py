@@ -75,7 +75,6 @@ class _Figure(Frozen):
         return x / self.wide, y / self.high
 
     def heights(self, x: float) -> list[float]:
-        """Returns the heights of the curves at x."""
         found = []
         for points in self.curves:
             for (a, c), (b, d) in pairwise(points):

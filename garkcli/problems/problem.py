@@ -43,7 +43,6 @@ def conserved(problem: Problem) -> Vector:
 
 
 def conserved_names(problem: Problem) -> tuple[str, ...]:
-    """The names of the conserved quantities."""
     own = ("energy",) if isinstance(problem, Hamiltonian) else ()
     return (*own, *names_of(problem.invariants))
 

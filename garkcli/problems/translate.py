@@ -209,7 +209,6 @@ class _Sizes(Frozen):
 
 
 def _sizes(x: Expr, known: dict[Expr, _Sizes]) -> _Sizes:
-    """The sizes of x, cached in ``known``."""
     if x not in known:
         known[x] = _sizes_of(x, known)
     return known[x]

@@ -77,7 +77,6 @@ class Subject(Frozen):
 
     @cached_property
     def defects(self) -> Defects:
-        """The defects of its conditions."""
         return (
             RoundedDefects(self.tableau, self.tolerance)
             if self.tolerance

@@ -432,7 +432,6 @@ class _Basis:
 
 
 def _data(name: str, tableau: Tableau) -> str:
-    """The tableau as a ``method``."""
     basis = _Basis(tableau)
 
     def space(l: int) -> str:

@@ -199,8 +199,6 @@ def _dense(
     level: Level = USUAL,
     label: str | None = None,
 ) -> Row[NystromAnalysis]:
-    """An order of dense output."""
-
     def get(a: NystromAnalysis) -> Answer[int] | None:
         return None if a.dense is None else c.dense_answer(of(a.dense), _names(a))
 

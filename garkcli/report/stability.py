@@ -574,7 +574,6 @@ PLOT: Row[StabilityReport] = plot(
 
 
 def fraction(x: Colours) -> Fraction | Answer[Fraction]:
-    """R of all colours."""
     too_large = Reason(f"too large: {x.lines} lines determine it (limit {MOST_LINES})")
     return x.R or _open(x, "R") or Answer(None, reason=too_large)
 

@@ -98,7 +98,6 @@ class StageWriter:
         self._known_sums.append(total)
 
     def arguments(self, evaluation: FieldEvaluation) -> list[str]:
-        """The names of the arguments of an evaluation."""
         found: list[str] = []
         for stage in self.graph.arguments[evaluation]:
             found += self.stages[stage]
@@ -146,7 +145,6 @@ class StageWriter:
     def code(
         self, expressions: Vector, evaluation: FieldEvaluation, is_for_balls: bool
     ) -> StraightLineCode:
-        """The code of expressions in the arguments of an evaluation."""
         arguments = self.fields[evaluation.colour, evaluation.group].arguments
         made = code_of(expressions, arguments, is_for_balls)
         self.codes.append(made)

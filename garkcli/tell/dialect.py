@@ -173,7 +173,6 @@ class Plain(Mutable):
         return text
 
     def drawing(self, lines: Iterable[str]) -> list[str]:
-        """A drawn tree."""
         return [*lines]
 
     def strong(self, text: str) -> str:
@@ -297,7 +296,6 @@ class Plain(Mutable):
         return replace(self, names=tuple(names)) if names else self
 
     def has_colours(self, tree: Tree) -> bool:
-        """Whether the colours of a tree are named."""
         return len(self.colours) > 1 or bool({*tree.colours} - {0})
 
     def code(self, text: str) -> str:
@@ -378,7 +376,6 @@ class Plain(Mutable):
         return [text]
 
     def title(self, text: str, depth: int) -> list[str]:
-        """The title of a part."""
         return [f"{'  ' * depth}{self.strong(self.spelt(text))}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:

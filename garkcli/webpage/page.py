@@ -104,7 +104,6 @@ COLUMNS = {
 
 
 def comparison_row(method: Reported) -> Content:
-    """Returns the row of a method in the comparison."""
     outcome = method.outcome
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")
     d = REPORT.dialect(outcome, "text")

@@ -74,7 +74,6 @@ def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
 
 
 def dot_name(colour: int, has_colours: bool) -> str:
-    """Returns the name of the dot of a colour, counted from 0."""
     return f"dot{colour + 1}" if has_colours else "dot"
 
 

@@ -60,7 +60,6 @@ _KEYS = g.mapping(
 
 
 def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
-    """Reads the parts and their flows."""
     source = at.source
     before = len(source.faults)
     entries: g.ReadMapping | None = _KEYS.read(at, node, where)
