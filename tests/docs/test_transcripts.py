@@ -81,6 +81,12 @@ def test_the_readme_is_short() -> None:
     assert len((ROOT / "docs" / "index.md").read_text(encoding="utf-8").split()) <= 250
 
 
+def test_the_pages_are_short() -> None:
+    """All together have 60 000 words at most, tables and transcripts included."""
+    pages = (ROOT / "docs").rglob("*.md")
+    assert sum(len(x.read_text(encoding="utf-8").split()) for x in pages) <= 60_000
+
+
 def test_the_comparison_can_fail() -> None:
     """``...`` stands for lines left out, anything else has to be there."""
     assert agrees("a\n...\nd", ["a", "b", "c", "d"])
