@@ -141,9 +141,8 @@ COMMANDS = {
         ("load", "conjugate", "pair", "symplectic_pair"),
         (
             "gark tableau gauss-2",
-            "gark tableau rk4 --format latex",
             "gark tableau rk4 --conjugate",
-            "gark tableau mine.yaml --digits 10",
+            "gark tableau mine.yaml --format latex",
         ),
     ),
     "convert": Command(
