@@ -898,12 +898,7 @@ def _is_an_argument(value: Value | None, name: str) -> bool:
 
 def _has_numbers(body: ir.Body) -> bool:
     """Whether fractions, decimals, lists or entries are assigned or passed to calls."""
-    return any(
-        _is_numeric(x)
-        for statement in ir.statements(body)
-        if isinstance(statement, ir.Assign | ir.Do | ir.Return)
-        for x in ir.inside(statement.value)
-    )
+    return any(map(_is_numeric, ir.parts_of(body)))
 
 
 def _is_numeric(expr: object) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import cached_property
 from typing import Literal as Choice
 from typing import TypeAlias
 
@@ -138,7 +139,21 @@ Expr: TypeAlias = (
 )
 
 
-class Assign(Frozen):
+class _Valued(Frozen):
+    """A statement with a value."""
+
+    @cached_property
+    def parts(self) -> tuple[object, ...]:
+        """The value with all its parts."""
+        return tuple(inside(getattr(self, "value", None)))
+
+    @cached_property
+    def names(self) -> frozenset[Name]:
+        """The names in the value."""
+        return frozenset(x for x in self.parts if isinstance(x, Name))
+
+
+class Assign(_Valued):
     """An assignment to a target.
 
     Attributes:
@@ -157,14 +172,14 @@ class Assign(Frozen):
     is_real: bool = False
 
 
-class Do(Frozen):
+class Do(_Valued):
     """An expression for its effect: a call."""
 
     value: Expr
     line: int
 
 
-class Return(Frozen):
+class Return(_Valued):
     """The return of a value; Nothing without value."""
 
     value: Expr
@@ -243,6 +258,13 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
                 yield from statements(inner)
 
 
+def parts_of(body: Iterable[Statement]) -> Iterator[object]:
+    """The parts of all values in statements."""
+    for statement in statements(body):
+        if isinstance(statement, _Valued):
+            yield from statement.parts
+
+
 def inside(node: object) -> Iterator[object]:
     """An expression with all its parts, itself first."""
     waiting = [node]
@@ -250,6 +272,7 @@ def inside(node: object) -> Iterator[object]:
         node = waiting.pop()
         if isinstance(node, Frozen):
             yield node
-            waiting += [getattr(node, name) for name in reversed(fields(node))]
+            if not isinstance(node, Name | Literal):
+                waiting += [getattr(node, name) for name in reversed(fields(node))]
         elif isinstance(node, tuple):
             waiting += reversed(node)

@@ -118,12 +118,11 @@ def _is_method(
 def _adds_stages(own: Iterable[ir.Statement], is_titled: bool) -> bool:
     """Whether a sum has several members of a family: ``k1 + 2*k2``, ``k[0] + k[1]``."""
     least = 2 if is_titled else 3
-    for statement in own:
-        for x in ir.inside(getattr(statement, "value", None)):
-            if isinstance(x, ir.Binary) and x.sign in {"+", ".+"}:
-                families = Counter(stem for stem, _ in {*_members(x)})
-                if max(families.values(), default=0) >= least:
-                    return True
+    for x in (x for statement in own for x in getattr(statement, "parts", ())):
+        if isinstance(x, ir.Binary) and x.sign in {"+", ".+"}:
+            families = Counter(stem for stem, _ in {*_members(x)})
+            if max(families.values(), default=0) >= least:
+                return True
     return False
 
 

@@ -27,6 +27,18 @@ from garkcli.sources.evaluate import (
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
 from garkcli.sources.stages import NEAR, NoStep, Roles, StageSlope, step_in, terms_of
+from garkcli.sources.step_hints import Hints
+from garkcli.sources.step_words import (
+    CHANGING,
+    COPIES,
+    MATHEMATICS,
+    NO_SLOPES,
+    OPERATIONS,
+    SUMS,
+    TELLING,
+    callee_name,
+    tells,
+)
 from garkcli.sources.values import (
     NULL,
     ONE,
@@ -72,9 +84,9 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     Raises:
         NoStep: there is none.
     """
-    evaluations, helpers = _calls_in(body, like)
-    if not (_has_sums(body) or _adds_vectors(body)):
+    if not Hints(body, like.functions).of_step:
         raise NoStep
+    evaluations, helpers = _calls_in(body, like)
     is_long = sum(1 for _ in ir.statements(body)) > MAX_STATEMENTS
     modes = [("", False)]
     if helpers and not is_long:
@@ -82,8 +94,10 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     if evaluations > 1 and not is_long and _has_sums_in_calls(body):
         # the step may be a number that is set around it
         modes += [(name, False) for name in _numbers_in(body, space)]
-    looks_like = False
+    looks_like = has_helpers = False
     for symbol, is_inlined in modes:
+        if is_inlined and not has_helpers:
+            continue
         own = Space(space)
         own.update({symbol: Form({(symbol,): ONE})} if symbol else {})
         reader = _StepReader(own, like, is_inlined)
@@ -94,6 +108,7 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
             looks_like |= error.looks_like
         distinct = {shown(SourceRecord("", x)): x for x in reader.in_parts(body)}
         looks_like |= reader.looks_like
+        has_helpers |= reader.has_helpers
         if distinct:
             return [*distinct.values()]
     raise NoStep(looks_like)
@@ -110,7 +125,7 @@ def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     turns: list[tuple[str, Place, Value]] = []
     for statement in body:
         match statement:
-            case ir.Do(value=ir.Call(callee, (part,), ())) if name := _name(callee):
+            case ir.Do(value=ir.Call(callee, (part,), ())) if name := callee_name(callee):
                 form = terms_of(follower.value(part, names)) or {}
                 turns += [(name, at, x) for at, x in form.items() if at and len(form) == 1]
     callees = list(dict.fromkeys(name for name, _, _ in turns))
@@ -136,13 +151,14 @@ class _StepReader:
 
     Attributes:
         looks_like: whether a part of them looks like a step.
+        has_helpers: whether a path has calls that would be followed.
     """
 
     def __init__(self, space: Space, like: Evaluator, is_inlined: bool) -> None:
         self._space = space
         self._like = like
         self._is_inlined = is_inlined
-        self.looks_like = False
+        self.looks_like = self.has_helpers = False
 
     def by_every_way(self, body: ir.Body, counters: Sequence[str] = ()) -> Roles:
         """The common step of all paths through some statements. A path without a step is left out,
@@ -153,7 +169,12 @@ class _StepReader:
         """
         by_content: dict[object, Roles] = {}
         is_lost = False
+        arms = (arm for x in body if isinstance(x, ir.Branch) for arm in x.arms)
+        have_sums = any(map(_has_sums, arms))
         for way in reversed(_ways(body)):
+            if is_lost and have_sums and not Hints(way, self._like.functions).of_stages:
+                # there is no step, and this path does not look like one
+                continue
             follower = self._follower(way, counters)
             try:
                 try:
@@ -170,8 +191,9 @@ class _StepReader:
             else:
                 by_content[shown(SourceRecord("", roles))] = roles
                 self._like.followed |= follower.followed
-        arms = (arm for x in body if isinstance(x, ir.Branch) for arm in x.arms)
-        if len(by_content) != 1 or (is_lost and any(map(_has_sums, arms))):
+            finally:
+                self.has_helpers |= follower.has_helpers
+        if len(by_content) != 1 or (is_lost and have_sums):
             raise NoStep(looks_like=bool(by_content))
         _, roles = by_content.popitem()
         if is_lost and len(items_of(roles["b"])) < 2:
@@ -213,11 +235,10 @@ def _plain(arm: ir.Body) -> ir.Body:
 def _numbers_in(body: ir.Body, space: Space) -> list[str]:
     """Names of numbers that are factors in some statements."""
     names: dict[str, None] = {}
-    for statement in ir.statements(body):
-        for x in ir.inside(getattr(statement, "value", None)):
-            match x:
-                case ir.Binary("*" | "/", left, right):
-                    names |= {y.name: None for y in (left, right) if isinstance(y, ir.Name)}
+    for x in ir.parts_of(body):
+        match x:
+            case ir.Binary("*" | "/", left, right):
+                names |= {y.name: None for y in (left, right) if isinstance(y, ir.Name)}
     found = [x for x in names if isinstance(space.find(x), Number)]
     return found if len(found) <= MAX_NUMBERS else []
 
@@ -225,9 +246,8 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
 def _has_sums_in_calls(body: ir.Body) -> bool:
     return any(
         isinstance(x, ir.Call) and any(_is_sum(y) for of in x.args for y in ir.inside(of))
-        for statement in ir.statements(body)
-        for x in ir.inside(getattr(statement, "value", None))
-        if _name(getattr(x, "callee", ir.Nothing())) not in _MATHEMATICS | _TELLING
+        for x in ir.parts_of(body)
+        if callee_name(getattr(x, "callee", ir.Nothing())) not in NO_SLOPES
     )
 
 
@@ -243,10 +263,9 @@ def _calls_in(body: ir.Body, like: Evaluator) -> tuple[int, int]:
     """
     callees = [
         x.callee
-        for statement in ir.statements(body)
-        for x in ir.inside(getattr(statement, "value", None))
+        for x in ir.parts_of(body)
         if isinstance(x, ir.Call) and x.args
-        if _name(x.callee) not in _MATHEMATICS | _TELLING
+        if callee_name(x.callee) not in NO_SLOPES
     ]
     counts = Counter(callees)
     known = {x: like.functions.get(getattr(x, "name", "")) for x in counts}
@@ -298,7 +317,7 @@ def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
         if isinstance(x, ir.Assign):
             if isinstance(x.value, ir.Call) and x.target in used:
                 with_values.add(x.value.callee)
-            used.update(y for y in ir.inside(x.value) if isinstance(y, ir.Name))
+            used.update(x.names)
         else:
             used.update(y for y in ir.inside(x) if isinstance(y, ir.Name))
     return [
@@ -324,6 +343,7 @@ class Follower(Evaluator):
 
     Attributes:
         has_others: whether there are such functions.
+        has_helpers: whether there are calls that would be followed.
     """
 
     def __init__(
@@ -344,7 +364,7 @@ class Follower(Evaluator):
         self._way = _for_effect(way) if like.base == 0 else way
         self._counters = counters
         self._ignores_others = ignores_others
-        self.has_others = False
+        self.has_others = self.has_helpers = False
         self._given: set[str] = set()
         calls = [x.value for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
         callees = [x.callee for x in calls]
@@ -362,7 +382,7 @@ class Follower(Evaluator):
         match statement:
             case ir.Do(value=ir.Call() as call):
                 self._changing(call, space)
-            case ir.Do(value=ir.Opaque(reason=reason)) if reason not in _CHANGING:
+            case ir.Do(value=ir.Opaque(reason=reason)) if reason not in CHANGING:
                 pass
             case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module"):
                 self._is_lost = True
@@ -399,23 +419,24 @@ class Follower(Evaluator):
         inside = Follower(self, loop.body, (*self._counters, loop.name))
         inside.follow(Space(space.up))
         self._has_step_inside |= inside.looks_like
+        self.has_helpers |= inside.has_helpers
 
     def _changing(self, call: ir.Call, space: Space) -> None:
         """Executes a call for its effect: a copy, a sum, an evaluation of f, or a change of its
         arguments.
         """
         match call:
-            case ir.Call(callee, (target, source, *_), ()) if _name(callee) in _COPIES:
+            case ir.Call(callee, (target, source, *_), ()) if callee_name(callee) in COPIES:
                 self._store(target, self.value(source, space), space, self.line)
             case ir.Call(ir.Field(of=ir.Name() as of, name="Add"), (factor, term), ()):
                 self._added("+ * x", (of, factor, term), space)
-            case ir.Call(callee, given, ()) if roles := _SUMS.get((_name(callee), len(given))):
+            case ir.Call(callee, given, ()) if roles := SUMS.get((callee_name(callee), len(given))):
                 self._added(roles, given, space)
             case ir.Call(callee, (*args,), ()) if _is_effect(call):
                 if callee != self._f and self._is_ignored(call, space):
                     return
                 place = self._place if callee == self._f else -1
-                target = args.pop(0 if _name(callee).endswith("!") else place)
+                target = args.pop(0 if callee_name(callee).endswith("!") else place)
                 values = [self.value(x, space) for x in args]
                 for x, value in zip(args, values, strict=True):
                     names = _symbols([terms_of(value) or {}])
@@ -423,7 +444,7 @@ class Follower(Evaluator):
                         # slopes may have changed
                         self.spoil(x, space, "changed elsewhere", self.line)
                 self._store(target, self._slope(callee, values), space, self.line)
-            case ir.Call(ir.Name(name) | ir.Field(name=name)) if _tells(name):
+            case ir.Call(ir.Name(name) | ir.Field(name=name)) if tells(name):
                 pass
             case _:
                 if not self._is_ignored(call, space):
@@ -438,11 +459,11 @@ class Follower(Evaluator):
             and not any(len(at) == 1 and " " not in at[0] for at in form)
             for form in forms
         )
-        is_other = not has_slope and not _name(call.callee).endswith("!")
+        is_other = not has_slope and not callee_name(call.callee).endswith("!")
         self.has_others |= is_other
         if is_other:
             values = (terms_of(self.value(x, space)) or {} for x in call.args)
-            self._given |= {at[0] for form in values for at in form if len(at) == 1}
+            self._given |= {at[0] for form in values for at in form if len(form) == len(at) == 1}
         return self._ignores_others and is_other
 
     def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
@@ -615,7 +636,7 @@ class Follower(Evaluator):
 
     def _called(self, call: ir.Call, space: Space) -> Value:
         whole = self._array_behind(ir.Index(call.callee, call.args))
-        name = _name(call.callee)
+        name = callee_name(call.callee)
         is_entry = isinstance(whole, ir.Name) and name not in CONVERSIONS
         if is_entry and (self._components or self._counters):
             # k1(i), entries of classes in C++
@@ -627,11 +648,11 @@ class Follower(Evaluator):
         of = [self.value(call.callee.of, space)] if isinstance(call.callee, ir.Field) else []
         pair = args if len(args) == 2 else [*of, *args]
         if (
-            name in _OPERATIONS
+            name in OPERATIONS
             and len(pair) == 2
             and all(isinstance(x, Form | Number) for x in pair)
         ):
-            return self.combined(_OPERATIONS[name], *pair)
+            return self.combined(OPERATIONS[name], *pair)
         if (followed := self._followed(call, args)) is not None:
             return followed
         if any(isinstance(x, Form) for x in args):
@@ -659,10 +680,13 @@ class Follower(Evaluator):
         function = (
             self.functions.get(callee.name) if isinstance(callee, ir.Name | ir.Field) else None
         )
-        if not self._is_inlined or function is None or self._inlined >= MAX_INLINED:
+        if function is None or self._inlined >= MAX_INLINED:
             return None
         names = [x for x in function.parameters if x not in {"self", "this"}]
         if len(names) != len(args) or not (any(map(_is_of_slopes, args)) or _evaluates(function)):
+            return None
+        self.has_helpers = True
+        if not self._is_inlined:
             return None
         inner = Space(self._space.up)
         inner.update(zip(names, map(copied, args), strict=True))
@@ -730,7 +754,7 @@ class Follower(Evaluator):
             NoStep: there is none.
         """
         self.follow(space)
-        slopes = [x for x in self._slopes if _name(x.callee) not in _MATHEMATICS]
+        slopes = [x for x in self._slopes if callee_name(x.callee) not in MATHEMATICS]
         if self._is_lost or not 0 < len(slopes) <= MAX_STAGES:
             raise NoStep(self.looks_like)
         try:
@@ -759,7 +783,8 @@ class Follower(Evaluator):
         """Whether f is evaluated at ``x + h*k`` with another value k of f, also in a loop."""
         if self._has_step_inside:
             return True
-        called = {x.name: x.callee for x in self._slopes if _name(x.callee) not in _MATHEMATICS}
+        slopes = [x for x in self._slopes if callee_name(x.callee) not in MATHEMATICS]
+        called = {x.name: x.callee for x in slopes}
         return any(
             called.get(name) == called.get(x.name, "") and any(len(each) == 1 for each in form)
             for x in self._slopes
@@ -822,28 +847,17 @@ def _is_of_slopes(value: Value) -> bool:
 
 def _evaluates(function: ir.Scope) -> bool:
     """Whether a function calls another one that is given to it, or that is a field."""
-    for statement in ir.statements(function.body):
-        for x in ir.inside(getattr(statement, "value", None)):
-            match x:
-                case ir.Call(ir.Name(name)) if name in function.parameters:
-                    return True
-                case ir.Call(ir.Field(), (_, _, *_)):
-                    return True
+    for x in ir.parts_of(function.body):
+        match x:
+            case ir.Call(ir.Name(name)) if name in function.parameters:
+                return True
+            case ir.Call(ir.Field(), (_, _, *_)):
+                return True
     return False
 
 
 def _has_sums(body: ir.Body) -> bool:
-    return any(
-        _is_sum(x)
-        for statement in ir.statements(body)
-        for x in ir.inside(getattr(statement, "value", None))
-    )
-
-
-def _adds_vectors(body: ir.Body) -> bool:
-    values = (x.value for x in ir.statements(body) if isinstance(x, ir.Do))
-    calls = [(_name(x.callee), len(x.args)) for x in values if isinstance(x, ir.Call)]
-    return any(x in _SUMS or x[0] == "add" for x in calls)
+    return any(map(_is_sum, ir.parts_of(body)))
 
 
 def _has_branches(body: ir.Body) -> bool:
@@ -857,14 +871,14 @@ def _is_one(value: Value) -> bool:
 def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
     """Whether a call may write a slope into one of its arguments, in Julia the first one."""
     match value:
-        case ir.Call(callee, (ir.Name(), _, *_), ()) if _name(callee).endswith("!"):
+        case ir.Call(callee, (ir.Name(), _, *_), ()) if callee_name(callee).endswith("!"):
             pass
         case ir.Call(callee, (_, *others), ()) if any(map(_is_place, others)):
             pass
         case _:
             return False
-    names = {_name(callee)} & (_COPIES | _TELLING)
-    return (_name(callee), len(value.args)) not in _SUMS and not names
+    names = {callee_name(callee)} & (COPIES | TELLING)
+    return (callee_name(callee), len(value.args)) not in SUMS and not names
 
 
 def _is_place(expr: ir.Expr) -> bool:
@@ -880,12 +894,12 @@ def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
     if callee is None:
         return -1
     assigned = [x for x in ir.statements(way) if isinstance(x, ir.Assign)]
-    used = {y for x in assigned for y in ir.inside(x.value) if isinstance(y, ir.Name)}
+    used = {y for x in assigned for y in x.names}
     sums: set[str] = set()
     changed: list[list[bool]] = []
     for x in ir.statements(way):
         match x:
-            case ir.Assign(target, value) if any(map(_is_sum, ir.inside(value))):
+            case ir.Assign(target) if any(map(_is_sum, x.parts)):
                 sums |= {*names_of(target)}
             case ir.Do(ir.Call(of, args)) if of == callee:
                 names = [{y for y in ir.inside(z) if isinstance(y, ir.Name)} for z in args]
@@ -916,47 +930,3 @@ def _is_over_components(name: str, body: ir.Body) -> bool:
     if isinstance(inner, ir.Loop):
         return bool(inner.name) and _is_over_components(inner.name, inner.body)
     return are_plain and are_own and bool(entries)
-
-
-def _name(callee: ir.Expr) -> str:
-    return callee.name.lower() if isinstance(callee, ir.Name | ir.Field) else ""
-
-
-def _tells(name: str) -> bool:
-    """Whether a function stores or prints its arguments without changing them."""
-    return name.lower() in _TELLING or name.startswith(("set_", "setState", "setTime"))
-
-
-_TELLING = {
-    *("print", "println", "printf", "fprintf", "disp", "append", "push", "push_back", "add"),
-    *("push!", "emplace_back", "write", "writeln"),
-}
-"""Functions that store or print their arguments without changing them."""
-_COPIES = {"memcpy", "dbl_memcpy", "copyto!", "set", "copy", "assign"}
-"""Functions that assign their second argument to their first."""
-_OPERATIONS = {
-    **dict.fromkeys(("add", "plus", "sum", "vec_add", "vadd", "add_vectors", "vector_add"), "+"),
-    **dict.fromkeys(("sub", "subtract", "minus"), "-"),
-    **dict.fromkeys(("mul", "multiply", "times", "scale", "scaled", "mult_scalar", "mult"), "*"),
-    **dict.fromkeys(("divide", "div"), "/"),
-}
-"""Functions and methods that are operations on vectors."""
-_CHANGING = {
-    *("match statement", "where statement", "forall statement", "goto statement"),
-    *("select type statement", "select rank statement"),
-}
-"""Statements that change values in ways that are not followed."""
-_SUMS = {
-    (name, len(roles.split())): roles
-    for name, roles in (
-        *(("add", "x x ="), ("add", "x * x ="), ("add", "* x * x ="), ("vecwaxpy", "= * x x")),
-        *(("vecaxpy", "+ * x"), ("n_vlinearsum", "* x * x ="), ("axpy!", "* x +")),
-    )
-}
-"""Functions that add vectors, by name and number of arguments: of MFEM, PETSc and SUNDIALS."""
-_MATHEMATICS = {
-    *("min", "max", "minimum", "maximum", "fmin", "fmax", "amin", "amax", "clamp", "clip"),
-    *("hypot", "atan2", "arctan2", "pow", "power", "mod", "rem", "div", "fmod", "copysign"),
-    *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
-}
-"""Functions of two numbers in various languages."""

@@ -49,7 +49,7 @@ def _lines(text: str) -> Iterator[int]:
 
 
 def _has_matrix(mapping: Mapping[str, Any]) -> bool:
-    return any(key in mapping for key in ("A", "a", "Amat"))
+    return any(isinstance(mapping.get(key), list | dict) for key in ("A", "a", "Amat"))
 
 
 def _tableaus(

@@ -1,0 +1,171 @@
+"""Hints that statements may be a step, by the names in them alone.
+
+A step adds multiples of slopes to a value that f is given, ``x + h*f(t, x)``: some sum has a call
+of f times a symbol, and a name from the arguments of f.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterable
+from functools import reduce
+
+from garkcli.frozen import Frozen, fields
+from garkcli.sources import ir
+from garkcli.sources.evaluate import names_of
+from garkcli.sources.known import CONVERSIONS
+from garkcli.sources.step_words import COPIES, NO_SLOPES, OPERATIONS, SUMS, callee_name
+
+
+class _Made(Frozen):
+    """A value: the functions whose slopes it has, those whose slopes are multiplied by a symbol,
+    and the names that may be its base.
+    """
+
+    slopes: frozenset[ir.Expr] = frozenset()
+    multiples: frozenset[ir.Expr] = frozenset()
+    bases: frozenset[str] = frozenset()
+
+    def __or__(self, other: _Made) -> _Made:
+        if self is _EMPTY or other is _EMPTY:
+            return self if other is _EMPTY else other
+        both = self.slopes | other.slopes, self.multiples | other.multiples
+        return _Made(*both, self.bases | other.bases)
+
+    def times(self, other: _Made) -> _Made:
+        """The product; that with a number has slopes and bases as before."""
+        if self is _EMPTY or other is _EMPTY:
+            return self | other
+        every = self.slopes | self.multiples | other.slopes | other.multiples
+        return _Made(frozenset(), every) if every else _NUMBER
+
+
+_EMPTY = _Made()
+_NUMBER = _Made()
+
+
+class Hints:
+    """What names say of statements: in order, in all branches, twice in loops.
+
+    Args:
+        body: the statements.
+        functions: the functions of the source.
+
+    Attributes:
+        of_step: whether they may be a step: a sum has a multiple of f and a name that f is given; a
+            function of one argument is called more than once.
+        of_stages: whether f is given a multiple of its own slope.
+    """
+
+    def __init__(self, body: Iterable[ir.Statement], functions: Collection[str]) -> None:
+        self._functions = functions
+        self._named: dict[str, _Made] = {}
+        self._given: dict[ir.Expr, set[str]] = defaultdict(set)
+        self._calls: Counter[ir.Expr] = Counter()
+        self._sums: list[_Made] = []
+        self.of_stages = False
+        self._over(body)
+        self.of_step = any(
+            self._calls[f] > 1 and not x.bases.isdisjoint(self._given[f])
+            for x in self._sums
+            for f in x.multiples
+        )
+
+    def _over(self, body: Iterable[ir.Statement]) -> None:
+        for statement in body:
+            match statement:
+                case ir.Assign(target, value, sign=sign) if value is not None:
+                    made = self._value(value)
+                    if isinstance(value, ir.Call):
+                        # status = f(t, x, k)
+                        self._effected(value)
+                    if sign not in {"", "."}:
+                        made = self._combined(sign, made, self._value(target))
+                    elif not isinstance(target, ir.Name):
+                        self._value(target)
+                    self._stored(target, made)
+                case ir.Do(ir.Call() as call):
+                    self._effected(call)
+                case ir.Return(value):
+                    self._value(value)
+                case ir.Branch(arms):
+                    for arm in arms:
+                        self._over(arm)
+                case ir.Loop(name, over, inner):
+                    self._stored(ir.Name(name), self._value(over))
+                    self._over(inner)
+                    self._over(inner)
+                case ir.Scope(kind="entry", body=inner):
+                    self._over(inner)
+
+    def _effected(self, call: ir.Call) -> None:
+        """Any argument of a call may be its result."""
+        made = self._called(call, is_effect=True)
+        of = [call.callee.of] if isinstance(call.callee, ir.Field) else []
+        for target in (*call.args, *of):
+            self._stored(target, made)
+
+    def _stored(self, target: ir.Expr, made: _Made) -> None:
+        for name in names_of(target):
+            self._named[name] = self._named.get(name, _EMPTY) | made
+
+    def _value(self, expr: object) -> _Made:
+        match expr:
+            case ir.Literal() | ir.Text():
+                return _EMPTY
+            case ir.Name(name):
+                return self._of_name(name)
+            case ir.Binary(sign, left, right):
+                return self._combined(sign, self._value(left), self._value(right))
+            case ir.Call():
+                return self._called(expr)
+            case ir.Field(of, name):
+                return self._value(of) | self._of_name(name)
+            case ir.Index(of, (_, _, *_) as at):
+                # f(t, y) in Fortran
+                return self._called(ir.Call(of, tuple(at))) | self._value(of)
+            case ir.Index(of, at):
+                self._all(at)
+                return self._value(of)
+            case Frozen():
+                return self._all([getattr(expr, x) for x in fields(expr)])
+            case tuple():
+                return self._all(expr)
+        return _EMPTY
+
+    def _all(self, parts: Iterable[object]) -> _Made:
+        return reduce(_Made.__or__, map(self._value, parts), _EMPTY)
+
+    def _of_name(self, name: str) -> _Made:
+        return self._named.get(name, _EMPTY) | _Made(bases=frozenset({name}))
+
+    def _combined(self, sign: str, x: _Made, y: _Made) -> _Made:
+        if "*" in sign or "/" in sign:
+            return x.times(y)
+        made = x | y
+        if made.multiples and sign.endswith(("+", "-")):
+            self._sums.append(made)
+        return made
+
+    def _called(self, call: ir.Call, is_effect: bool = False) -> _Made:
+        callee, name = call.callee, callee_name(call.callee)
+        count = len(call.args) + len(call.named)
+        given = self._all((*call.args, *(x for _, x in call.named)))
+        # k1(i) is an entry
+        of = self._value(callee.of if isinstance(callee, ir.Field) else callee)
+        made, is_sum = given | of, (name, count) in SUMS or name == "add"
+        is_sum |= name in OPERATIONS and not is_effect
+        is_other = name in NO_SLOPES | COPIES or (name in CONVERSIONS and count == 1)
+        if not count or (is_other and not is_sum):
+            return made
+        if is_sum or getattr(callee, "name", "") in self._functions:
+            made = _Made(frozenset(), made.slopes | made.multiples, made.bases)
+            self._sums.append(made)
+            if is_sum:
+                return made
+        else:
+            made = of
+        self.of_stages |= count > 1 and callee in given.multiples
+        self._given[callee] |= given.bases
+        self._calls[callee] += 1 + (count > 1)
+        return made | _Made(frozenset({callee}))

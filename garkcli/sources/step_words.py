@@ -1,0 +1,50 @@
+"""Functions in steps that are no vector fields: sums, copies, output, mathematics."""
+
+from __future__ import annotations
+
+from garkcli.sources import ir
+
+
+def callee_name(callee: ir.Expr) -> str:
+    return callee.name.lower() if isinstance(callee, ir.Name | ir.Field) else ""
+
+
+def tells(name: str) -> bool:
+    """Whether a function stores or prints its arguments without changing them."""
+    return name.lower() in TELLING or name.startswith(("set_", "setState", "setTime"))
+
+
+TELLING = {
+    *("print", "println", "printf", "fprintf", "disp", "append", "push", "push_back", "add"),
+    *("push!", "emplace_back", "write", "writeln"),
+}
+"""Functions that store or print their arguments without changing them."""
+COPIES = {"memcpy", "dbl_memcpy", "copyto!", "set", "copy", "assign"}
+"""Functions that assign their second argument to their first."""
+OPERATIONS = {
+    **dict.fromkeys(("add", "plus", "sum", "vec_add", "vadd", "add_vectors", "vector_add"), "+"),
+    **dict.fromkeys(("sub", "subtract", "minus"), "-"),
+    **dict.fromkeys(("mul", "multiply", "times", "scale", "scaled", "mult_scalar", "mult"), "*"),
+    **dict.fromkeys(("divide", "div"), "/"),
+}
+"""Functions and methods that are operations on vectors."""
+CHANGING = {
+    *("match statement", "where statement", "forall statement", "goto statement"),
+    *("select type statement", "select rank statement"),
+}
+"""Statements that change values in ways that are not followed."""
+SUMS = {
+    (name, len(roles.split())): roles
+    for name, roles in (
+        *(("add", "x x ="), ("add", "x * x ="), ("add", "* x * x ="), ("vecwaxpy", "= * x x")),
+        *(("vecaxpy", "+ * x"), ("n_vlinearsum", "* x * x ="), ("axpy!", "* x +")),
+    )
+}
+"""Functions that add vectors, by name and number of arguments: of MFEM, PETSc and SUNDIALS."""
+MATHEMATICS = {
+    *("min", "max", "minimum", "maximum", "fmin", "fmax", "amin", "amax", "clamp", "clip"),
+    *("hypot", "atan2", "arctan2", "pow", "power", "mod", "rem", "div", "fmod", "copysign"),
+    *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
+}
+"""Functions of two numbers in various languages."""
+NO_SLOPES = MATHEMATICS | TELLING

@@ -1,0 +1,44 @@
+"""Hints of a step: a sum of what f is given and a multiple of its slope."""
+
+from __future__ import annotations
+
+import pytest
+
+from garkcli.sources.languages.python import PythonLowering
+from garkcli.sources.step_hints import Hints
+
+NO_STEPS = {
+    "no multiple of a slope": "y = x + f(t, x)",
+    "a number times a slope": "y = x + 2*f(t, x)",
+    "a name that f is not given": "y = z + h*f(t, x)",
+    "a factor that f is given": "y = z + x*f(t, x)",
+    "mathematics": "y = x + h*max(t, x)",
+    "one call of one argument": "y = x + h*f(x)",
+    "no sum": "y = h*f(t, x)",
+}
+
+
+@pytest.mark.parametrize("name", NO_STEPS)
+def test_names_rule_out_a_step(name: str) -> None:
+    """Statements that are almost a step of Euler; with the last change undone they may be one."""
+    assert not _hints(NO_STEPS[name]).of_step
+    assert _hints(NO_STEPS[name] + "\ny = x + h*f(t, x)").of_step
+
+
+def test_a_slope_of_stages() -> None:
+    """The function is given a multiple of its own slope, also when a loop comes back to it."""
+    loop = "for i in range(s):\n    k = f(t, y)\n    y = y + h*k"
+    assert _hints("k = f(t, x)\nl = f(t, x + h*k)").of_stages
+    assert _hints(loop).of_stages
+    assert not _hints("k = f(t, x)\nl = g(t, x + h*k)").of_stages
+
+
+def _hints(text: str) -> Hints:
+    return Hints(PythonLowering(text).module(), ())
+
+
+def test_functions_of_a_source_are_followed() -> None:
+    """A sum may be in a function that is given a slope."""
+    text = "k = f(t, x)\ny = moved(x, k)"
+    assert not _hints(text).of_step
+    assert Hints(PythonLowering(text).module(), {"moved"}).of_step
