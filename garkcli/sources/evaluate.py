@@ -535,6 +535,8 @@ class Evaluator:
                 return self._ranged(first, last, space)
             case ir.Lambda(parameters=parameters, body=body):
                 return Function(parameters, body, space)
+            case ir.Either():
+                return self.unknown("either of two values")
             case ir.Opaque(reason=reason):
                 return self.unknown(reason)
 

@@ -109,6 +109,12 @@ class Lambda(Frozen):
     body: Expr
 
 
+class Either(Frozen):
+    """One of two values, ``x if … else y``; as the value of an assignment a branch."""
+
+    values: tuple[Expr, Expr]
+
+
 class Nothing(Frozen):
     """``NULL``, ``None``, ``nothing``."""
 
@@ -134,6 +140,7 @@ Expr: TypeAlias = (
     | Transposed
     | Fields
     | Lambda
+    | Either
     | Nothing
     | Opaque
 )

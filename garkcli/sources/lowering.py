@@ -10,6 +10,7 @@ from importlib import import_module
 from itertools import islice
 from typing import TYPE_CHECKING, ClassVar
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.naming import ROLES, speaks
@@ -59,6 +60,8 @@ class Lowering(ABC):
 
     grammar: ClassVar[str]
     kinds: ClassVar[Mapping[str, str]]
+    first: ClassVar[int] = 1
+    """The place of the first value in a conditional expression; the condition is before it."""
 
     def __init__(self, text: str, grammar: str | None = None) -> None:
         self._data = text.encode(errors="replace")
@@ -120,7 +123,7 @@ class Lowering(ABC):
                 continue
             self._depth += 1
             try:
-                lowered += self.statement(node)
+                lowered += map(_branched, self.statement(node))
             finally:
                 self._depth -= 1
         return tuple(lowered)
@@ -270,6 +273,9 @@ class Lowering(ABC):
                 return ir.Range(*self.exprs(inside))
             case "transposed" if inside:
                 return ir.Transposed(self.expr(inside[0]))
+            case "either" if len(inside) == 3:
+                values = self.exprs(inside)
+                return ir.Either((values[self.first], values[2]))
         return self.other(node, inside)
 
     def declares(self, record: str, names: Iterable[str], least: int | None = None) -> None:
@@ -349,7 +355,7 @@ def kinds(**nodes: str) -> Mapping[str, str]:
     ``record`` for declarations of records, ``passed`` for statements that change values in unknown
     ways, and ``tried`` for a block with handlers of its errors. Expressions are a ``name``,
     ``number``, ``nothing``, ``text``, ``list``, ``unary``, ``binary``, ``field``, ``index``,
-    ``call``, ``range``, ``transposed``, or ``inside`` of brackets.
+    ``call``, ``range``, ``transposed``, ``either`` of two values, or ``inside`` of brackets.
     """
     return _KINDS | {node: kind for kind, text in nodes.items() for node in text.split()}
 
@@ -430,6 +436,15 @@ def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr 
 def is_in_c(text: str) -> bool:
     """Whether an include file is C, and not Fortran."""
     return ";" in text and "{" in text
+
+
+def _branched(statement: ir.Statement) -> ir.Statement:
+    """A statement; an assignment of either of two values is a branch."""
+    match statement:
+        case ir.Assign(value=ir.Either(values), line=line):
+            arms = tuple((replace(statement, value=x),) for x in values)
+            return ir.Branch(arms, line, is_total=True)
+    return statement
 
 
 def unmeant(node: Node) -> ir.Opaque:

@@ -226,11 +226,15 @@ class _FollowedStep:
 
     def _increments(self) -> Mapping[str, _Sum]:
         """The values that a caller adds to the solution, with the step or without it."""
-        bases = {x.base for of in self._args.values() for x in of if x and x.row}
+        own = [x for of in self._args.values() for x in of if x and x.row]
+        bases = {x.base for x in own}
+        # the first slope may be an argument
+        given = {name for x in own for name in x.row} - self._names
+        slopes = self._names | (given if len(given) == 1 else set())
         found: dict[str, _Sum] = {}
         for name, form in self._forms.items() if len(bases) == 1 else ():
-            rows = {x: form[at] for at in form for x in at if x in self._names}
-            others = {tuple(x for x in at if x not in self._names) for at in form}
+            rows = {x: form[at] for at in form for x in at if x in slopes}
+            others = {tuple(x for x in at if x not in slopes) for at in form}
             is_sum = others in ({(self._h,)}, {()}) and len(rows) == len(form)
             if is_sum and _is_whole(rows) and (len(rows) > 1 or name in self._returned):
                 found[name] = _Sum(min(bases), ZERO, rows)

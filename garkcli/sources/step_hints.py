@@ -45,7 +45,7 @@ _NUMBER = _Made()
 
 
 class Hints:
-    """What names say of statements: in order, in all branches, twice in loops.
+    """Names in statements that hint at a step, over all branches and twice over loops.
 
     Args:
         body: the statements.

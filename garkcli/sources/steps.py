@@ -291,13 +291,18 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
     stay.
     """
     found: list[list[ir.Statement]] = [[]]
-    for statement in body:
+    for i, statement in enumerate(body):
         arms: list[list[ir.Statement]] = [[statement]]
         if isinstance(statement, ir.Branch):
-            inside = (_plain(x) for x in statement.arms)
+            inside = [_plain(x) for x in statement.arms]
             staying = [x for x in inside if not (x and isinstance(x[-1], ir.Return))]
+            is_total = statement.is_total
+            if not staying and not _has_sums(body[i + 1 :]):
+                # a step that is accepted is returned
+                accepted = [x for x in inside if _has_sums(x[-1:])]
+                staying, is_total = accepted or staying, is_total or bool(accepted)
             arms = [way for arm in staying for way in _ways(arm)]
-            if not statement.is_total:
+            if not is_total:
                 arms.append([])
         if len(found) * len(arms) > MAX_WAYS:
             arms = [[statement]]

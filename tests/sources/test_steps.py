@@ -8,7 +8,7 @@ import pytest
 
 from garkcli.bridges.audit import audit
 from garkcli.frozen import replace
-from garkcli.sources.languages import c, fortran, java, julia, matlab, python
+from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust
 
 KUTTA = """
 subroutine rk4(me, t, x, h, xf)
@@ -568,3 +568,47 @@ def test_drifts_and_kicks_in_turns(last: str, order: int | None) -> None:
     }}"""
     found = [x for x in map(audit, c.find(text, "x")) if x is not None and x.is_read]
     assert [x.order and x.order.order for x in found] == ([order] if order else [])
+
+
+CHOSEN = {
+    "python": (python.find, "    k = f(t, y) if k0 is None else k0\n"),
+    "nothing": (python.find, "    k = f(t, y)\n"),
+    "a branch": (
+        python.find,
+        "    if k0 is None:\n        k = f(t, y)\n    else:\n        k = k0\n",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_increments_of_accepted_steps(name: str) -> None:
+    """The first slope may be given; what is returned is an increment, if the error is small."""
+    find, first = CHOSEN[name]
+    text = f"""
+def step(f, t, y, h, k0=None):
+{first}    l = f(t + h, y + h*k)
+    error = norm(h/2*(l - k))
+    if error < 1:
+        return h/2*(k + l)
+    else:
+        return False
+"""
+    (table,) = find(text, "x")
+    assert (table.b, table.c) == ((("1/2", "1/2"),), (("0", "1"),))
+    assert not any(x.b for x in find(text.replace("h/2*(k + l)", "h/2*(k + 2*l)"), "x"))
+
+
+def test_values_that_depend_on_a_condition() -> None:
+    """Either value of a conditional expression gives the same step, in each language."""
+    sources = {
+        c: "void step(double t, double *y, double h) { double k = d ? d : f(t, y); BODY }",
+        java: "class A { void step(double t, double y, double h) "
+        "{ double k = d > 0 ? d : f(t, y); BODY } }",
+        julia: "function step(f, t, y, h)\n k = d > 0 ? d : f(t, y)\n BODY\nend",
+        rust: "fn step(t: f64, h: f64) { let k = if d > 0.0 { d } else { f(t, y) }; BODY }",
+    }
+    for module, text in sources.items():
+        for second, count in (("f(t + 1.0*h, y + h*k)", 1), ("f(t + 1.0*h, y + h*k*k)", 0)):
+            body = f"l = {second}; y = y + 0.5*h*(k + l);"
+            tables = module.find(text.replace("BODY", body), "x")
+            assert sum(x.b == (("1/2", "1/2"),) for x in tables) == count, module

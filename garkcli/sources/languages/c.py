@@ -73,6 +73,7 @@ class CLowering(Lowering):
         binary="binary_expression",
         field="field_expression",
         index="subscript_expression",
+        either="conditional_expression",
     )
 
     def __init__(self, text: str, grammar: str) -> None:

@@ -56,6 +56,7 @@ class JavaLowering(Lowering):
         binary="binary_expression",
         field="field_access",
         index="array_access",
+        either="ternary_expression",
     )
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:

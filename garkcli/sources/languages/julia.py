@@ -81,6 +81,7 @@ class JuliaLowering(Lowering):
         field="field_expression",
         range="range_expression",
         transposed="adjoint_expression",
+        either="ternary_expression",
     )
 
     def __init__(self, text: str) -> None:

@@ -25,6 +25,7 @@ class PythonLowering(Lowering):
     """Assignments, classes, functions, lists and dictionaries of Python."""
 
     grammar = "tree_sitter_python"
+    first = 0
     kinds = kinds(
         comment="line_continuation",
         block="module block with_statement else_clause",
@@ -40,6 +41,7 @@ class PythonLowering(Lowering):
         binary="binary_operator",
         index="subscript",
         call="call",
+        either="conditional_expression",
     )
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:

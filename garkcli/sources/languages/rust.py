@@ -202,8 +202,10 @@ class RustLowering(Lowering):
                 return self._matrix(self.text(inside[-1])[1:-1])
             case "macro_invocation" if self.text(inside[0]) == "dec":
                 return self._fragment(self.text(inside[-1]))
-            case "block" if len(inside) == 1:
+            case "block" | "else_clause" if len(inside) == 1:
                 return self.expr(inside[0])
+            case "if_expression" if len(inside) == 3:
+                return ir.Either((self.expr(inside[1]), self.expr(inside[2])))
         return unmeant(node)
 
     def _list(self, node: Node, inside: list[Node]) -> ir.Expr:
