@@ -10,13 +10,14 @@ from typing import TypeAlias
 
 from flint import fmpq
 
+from garkcli.bridges.constants import tables_with_constants
 from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.estimates import with_orders
 from garkcli.bridges.finding import EXPLAINED
 from garkcli.bridges.judging import Judged, at_least
 from garkcli.bridges.limited import judged_within_limits
 from garkcli.bridges.plausible import is_plausible, speaks
-from garkcli.bridges.readers.registry import demand_grammars, find_tables, readers_for
+from garkcli.bridges.readers.registry import demand_grammars
 from garkcli.bridges.subject import HIGH, TableSubject, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, Remark, Severity, counted
@@ -118,7 +119,7 @@ def audited(
 def _tables(
     text: str, source: str, orders: Mapping[str, int], others: Sequence[str]
 ) -> list[FoundTable]:
-    tables = with_bases(find_tables(text, source, readers_for(source)), source, others)
+    tables = with_bases(tables_with_constants(text, source, others), source, others)
     return list(with_declared(tables, text, orders))
 
 

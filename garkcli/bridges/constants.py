@@ -1,0 +1,77 @@
+"""Constants that a source takes from others of its tree, such as a module of fractions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Mapping, Sequence
+
+from garkcli.bridges.readers.registry import find_tables, readers_for
+from garkcli.bridges.sources import source_text
+from garkcli.errors import UsageProblem
+from garkcli.sources.found import FoundTable
+
+MAX_ROUNDS = 6
+"""Most times a source is read again: constants are made of others."""
+_UNKNOWN = re.compile(r"the name (?P<name>\w{2,40}), line [0-9]+, is not known")
+_DECLARED = (
+    r"^(?P<before>[^\n=]{{0,200}}?)\b(?P<name>{names})\b(?::[ \t]*\w+)?[ \t]*[= \t][ \t]*"
+    r"(?P<value>[-+*/().\w \t]{{1,80}}?)[ \t]*(?:$|[;,!#]|//|/\*)"
+)
+"""A name with its value on one line."""
+_CONSTANT = re.compile(r"\b(?:parameter|const|constexpr|define|final)\b|^$", re.IGNORECASE)
+_TAKING = re.compile(r"[ \t]*(?:#[ \t]*include|use|using|import|from)\b", re.IGNORECASE)
+
+
+def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list[FoundTable]:
+    """The tables of a source; names without values there have those that all constants of their
+    name in other sources of its language have.
+    """
+    readers = readers_for(source)
+    tables = find_tables(text, source, readers)
+    for _ in range(MAX_ROUNDS):
+        missing = {x["name"] for table in tables if (x := _UNKNOWN.search(table.trouble))}
+        constants = _constants(missing, source, others) if missing else {}
+        if not constants:
+            break
+        text = "".join(_with_values(line, constants) for line in text.splitlines(keepends=True))
+        tables = find_tables(text, source, readers)
+    return tables
+
+
+def _constants(names: Collection[str], source: str, others: Sequence[str]) -> Mapping[str, str]:
+    """The values of constants by their names in lower case."""
+    pattern = _DECLARED.format(names="|".join(map(re.escape, sorted(names))))
+    declared = re.compile(pattern, re.MULTILINE | re.IGNORECASE)
+    readers = readers_for(source)
+    found: dict[str, set[str]] = {}
+    for path in others:
+        if path == source or readers_for(path) != readers:
+            continue
+        try:
+            text, _ = source_text(path)
+        except UsageProblem:
+            continue
+        if any(name.lower() in text.lower() for name in names):
+            for name, value in _declared_in(text, declared):
+                found.setdefault(name, set()).add(value)
+    return {name: values.pop() for name, values in found.items() if len(values) == 1}
+
+
+def _declared_in(text: str, declared: re.Pattern[str]) -> Iterator[tuple[str, str]]:
+    for match in declared.finditer(text):
+        value = match["value"].strip()
+        is_number = re.search("[0-9]", value) and value.count("(") == value.count(")")
+        if is_number and _CONSTANT.search(match["before"]):
+            yield match["name"].lower(), value
+
+
+def _with_values(line: str, constants: Mapping[str, str]) -> str:
+    """A line with the values of constants, unless it says where they are from."""
+    if _TAKING.match(line):
+        return line
+
+    def value(match: re.Match[str]) -> str:
+        known = constants.get(match[0].lower())
+        return match[0] if known is None else f"({known})"
+
+    return re.sub(r"\b[^\W\d]\w*", value, line)

@@ -1,0 +1,41 @@
+"""Constants of other sources in a tree."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli.bridges.constants import tables_with_constants
+
+CONSTANTS = {
+    "f90": "module numbers\n  real(rk), parameter :: two_thr = two/3._rk, two = 2._rk\n"
+    "  real(rk), parameter :: two = 2._rk\nend module\n",
+    "h": "#define TWO_THR (2.0 / 3.0) // a fraction\n",
+    "rs": "pub const TWO_THR: f64 = 2.0 / 3.0;\n",
+    "py": "TWO_THR = 2 / 3\n",
+}
+TABLES = {
+    "f90": "subroutine ralston(a, b)\n  use numbers, only: two_thr\n  real(rk) :: a(2,2), b(2)\n  a = 0._rk\n  a(2,1) = two_thr\n"
+    "  b = [0.25_rk, 0.75_rk]\nend subroutine\n",
+    "h": '#include "numbers.h"\nconst double A[2][2] = {{0, 0}, {TWO_THR, 0}};\n'
+    "const double b[2] = {0.25, 0.75};\n",
+    "rs": "use numbers::TWO_THR;\nconst A: [[f64; 2]; 2] = [[0.0, 0.0], [TWO_THR, 0.0]];\n"
+    "const B: [f64; 2] = [0.25, 0.75];\n",
+    "py": "from numbers import TWO_THR\nA = [[0, 0], [TWO_THR, 0]]\nb = [0.25, 0.75]\n",
+}
+
+
+@pytest.mark.parametrize("suffix", TABLES)
+def test_constants_of_another_source(suffix: str, tmp_path: Path) -> None:
+    """Ralston's method has 2/3, which another source has; two values in a tree are none."""
+    first, second = tmp_path / f"numbers.{suffix}", tmp_path / f"other.{suffix}"
+    first.write_text(CONSTANTS[suffix], encoding="utf-8")
+    second.write_text(CONSTANTS[suffix].replace("3", "4"), encoding="utf-8")
+    text, source = TABLES[suffix], f"tables.{suffix}"
+    alone = tables_with_constants(text, source, ())
+    assert not any(x.b for x in alone)
+    found = [x for x in tables_with_constants(text, source, [str(first)]) if x.b]
+    assert [x.A[0][0][1][0].replace(" ", "") for x in found] == ["2/3"]
+    both = tables_with_constants(text, source, [str(first), str(second)])
+    assert not any(x.b for x in both)
