@@ -53,6 +53,7 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
     tried = [
         *(each for x, y in permutations(rows, 2) for each in _of_two_rows(x, y, rows)),
         *(_shu_osher(x, y, rows) for of in (matrices, rows) for x, y in permutations(of, 2)),
+        *(each for x, y in permutations(rows, 2) for each in _of_three_rows(x, y, rows)),
         *(each for x in arrays[:MOST_ARRAYS] for each in _nystrom(x, rows)),
         *(each for x in rows for each in composition(x)),
     ]
@@ -300,6 +301,35 @@ def _shu_osher(x: Given, y: Given, rows: Sequence[Given]) -> Reading | None:
         for i in range(1, n):
             if not alpha[i, :, VALUE].any():
                 alpha[i, i - 1] = ALL
+    return _combination(alpha, beta, (x, y), rows)
+
+
+def _of_three_rows(x: Given, y: Given, rows: Sequence[Given]) -> Iterator[Reading | None]:
+    """Convex combinations of the value before the step and the one before: in each stage their
+    coefficients have the sum 1, and that of f is in a third row.
+    """
+    a, b = x.numbers, y.numbers
+    n = len(a)
+    if n != len(b) or n < 2 or x.owner != y.owner:
+        return
+    if np.abs(a[:, VALUE] + b[:, VALUE] - 1).max() > 1e-10 + 12 * unit_of(a, b):
+        return
+    alpha = np.zeros((n, n, a.shape[-1]))
+    alpha[:, 0] = a
+    alpha[range(n), range(n)] = b
+    alpha[0, 0] = ALL
+    for z in rows:
+        if z not in (x, y) and z.owner == x.owner and len(z.numbers) == n:
+            beta = np.zeros_like(alpha)
+            beta[range(n), range(n)] = z.numbers
+            yield _combination(alpha, beta, (x, y, z), [w for w in rows if w is not z])
+
+
+def _combination(
+    alpha: Floats, beta: Floats, arrays: tuple[Given, ...], rows: Sequence[Given]
+) -> Reading | None:
+    """The method of α and β, which are in some arrays; nodes are in others."""
+    x, y, n = arrays[0], arrays[-1], len(alpha)
     if len(beta) != n or not y.fractions or max(alpha.shape[1], beta.shape[1]) > n:
         return None
     if not (is_lower(alpha) and is_lower(beta)):
@@ -320,7 +350,7 @@ def _shu_osher(x: Given, y: Given, rows: Sequence[Given]) -> Reading | None:
     bits += float(np.minimum(30, alpha[several][..., LENGTH].max(1, initial=0)).sum())
     best, wrong, nodes = _nodes(A, unit, rows)
     told = {"alpha": alpha, "beta": beta, **({"nodes": nodes.numbers} if nodes else {})}
-    used = (x, y, *([nodes.of] if nodes else []))
+    used = (*arrays, *([nodes.of] if nodes else []))
     how = "the form of Shu and Osher"
     named = nodes is not None and NODES.search(nodes.of.name)
     names, by_names = _names(

@@ -57,6 +57,8 @@ _SETTER = re.compile(r"set|fill|assign", re.IGNORECASE)
 _ORDER = re.compile(
     r"(?:^|[._])(?:p|q|order\w*|rk_?order|expected_order|__order__|p_?order|ord)$", re.IGNORECASE
 )
+NEAR_ONE = 1e-6
+"""Sums of weights that differ from 1 by less are 1."""
 MOST_INDEX = 40
 MOST_BESIDE = 3
 """Most single numbers tried as a diagonal."""
@@ -314,9 +316,8 @@ def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
     for (stem, indices), numbers in families.items():
         if indices == 1 and (10,) not in numbers:
             # c21 beside c2 has two indices
-            of_one = {at: x for at, x in numbers.items() if at[0] < 10}
-            numbers = of_one or numbers
-        highest = max(max(at) for at in numbers)
+            numbers = {at: x for at, x in numbers.items() if at[0] < 10}
+        highest = max((max(at) for at in numbers), default=0)
         is_sparse = indices == 1 and (len(numbers) < 2 or len(numbers) < 0.4 * highest)
         if highest <= MOST_INDEX and not is_sparse and (len(numbers) > 1 or highest == 2):
             line = min(line for _, line in numbers.values())
@@ -347,7 +348,18 @@ def _filled(name: str, numbers: _Numbers, line: int, first: int) -> Iterator[Giv
         yield Given(name, line, (tuple(entry(i) for i in indices),), is_made=True)
     else:
         rows = tuple(tuple(entry(i, j) for j in indices) for i in indices)
+        heads = rows[: 1 + max(i for i, *_ in numbers) - indices[0]]
+        if len(heads) == 2 < len(rows) and all(_is_one(x) for x in heads):
+            # b11 to b23 are two rows of weights
+            for i, row in enumerate(heads, start=1):
+                yield Given(f"{name}{i}", line, (row,), is_made=True)
+            return
         yield Given(name, line, rows, is_matrix=True, is_made=True)
+
+
+def _is_one(row: Sequence[Entry]) -> bool:
+    """Whether a row has the sum 1."""
+    return abs(sum(x.value for x in row) - 1) < NEAR_ONE
 
 
 def _of_rows(arrays: Sequence[Given]) -> Iterator[Given]:

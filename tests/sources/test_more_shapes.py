@@ -712,3 +712,22 @@ def test_values_that_hold_one_another_have_a_limit(text: str) -> None:
     """No recursion of Python ends the program."""
     with pytest.raises(TooLarge, match="nested too deep"):
         python.find(text, "x")
+
+
+NUMBERED = """
+const double pair::c2 = 1.0/3.0, pair::c3 = 2.0/3.0;
+const double pair::a21 = 1.0/3.0, pair::a31 = 0.0, pair::a32 = 2.0/3.0;
+const double pair::b11 = 1.0/4.0, pair::b12 = 0.0, pair::b13 = 3.0/4.0;
+const double pair::b21 = -1.0/2.0, pair::b22 = 3.0/2.0, pair::b23 = 0.0;
+"""
+
+
+def test_weights_in_two_rows_of_numbers() -> None:
+    """b11 to b23 are two rows of weights: Heun's method of order 3, and one of order 2."""
+    (found,) = (audit(x) for x in c.find(NUMBERED, "x.cpp"))
+    assert found is not None
+    assert found.order is not None
+    assert found.embedded_order is not None
+    assert (found.order.order, found.embedded_order.order) == (3, 2)
+    wrong = [audit(x) for x in c.find(NUMBERED.replace("b13 = 3.0", "b13 = 1.0"), "x.cpp")]
+    assert not any(x is not None and x.order and x.order.order == 3 for x in wrong)

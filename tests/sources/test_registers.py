@@ -218,3 +218,26 @@ def test_decimals_of_six_digits_are_rounded() -> None:
     assert findings(table) == []
     (wrong,) = c.find(DECIMALS.replace("0.666667, 0}", "0.663667, 0}"), "x")
     assert findings(wrong) == [("order", "error")]
+
+
+COMBINATIONS = """
+  real(rp), parameter :: a(3) = [1.0_rp, 3.0_rp/4.0_rp, 1.0_rp/3.0_rp]
+  real(rp), parameter :: b(3) = [0.0_rp, 1.0_rp/4.0_rp, 2.0_rp/3.0_rp]
+  real(rp), parameter :: c(3) = [1.0_rp, 1.0_rp/4.0_rp, 2.0_rp/3.0_rp]
+  real(rp), parameter :: d(3) = [0.0_rp, 1.0_rp, 0.5_rp]
+"""
+
+
+def test_combinations_of_two_values_and_f() -> None:
+    """Each stage has y before the step, the one before, and f: Shu and Osher's method of order 3; d
+    has the nodes. With another coefficient there is no such method.
+    """
+    text = f"module runge_kutta\n{COMBINATIONS}end module\n"
+    (found,) = (audit(x) for x in fortran.find(text, "x"))
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.table.c) == (3, (("0", "1", "1/2"),))
+    assert not found.has_errors
+    for old, new in (("2.0_rp/3.0_rp]", "1.0_rp/3.0_rp]"), ("3.0_rp/4.0_rp", "1.0_rp/4.0_rp")):
+        others = [audit(x) for x in fortran.find(text.replace(old, new), "x")]
+        assert not any(x is not None and (x.is_read or x.has_errors) for x in others)
