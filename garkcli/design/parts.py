@@ -19,7 +19,7 @@ from garkcli.design.member import value_of
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided, TooManyTerms
 from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
-from garkcli.exact.field import Number, NumberField
+from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
@@ -226,10 +226,10 @@ def values_on(part: Part, name: str) -> tuple[Interval, ...] | None:
 
 
 class RationalChart(Frozen):
-    """Points of a part with at most one coordinate that is not free.
+    """Points of a part with the same values of those coordinates that are not free.
 
     Attributes:
-        one: the exact value of that one.
+        one: the exact values of these.
         index: the number of its real root.
         names: the free coordinates.
     """
@@ -238,6 +238,11 @@ class RationalChart(Frozen):
     index: int
     names: tuple[str, ...]
 
+    @property
+    def root(self) -> RealRoot:
+        """The real number that generates the field of the values."""
+        return self.one.real[self.index]
+
     def point(self, part: Part, free: Sequence[fmpq]) -> Solution | None:
         """All unknowns at one of the points; None if there is no method."""
         values = {**self.one.values, **dict(zip(self.names, free, strict=True))}
@@ -245,23 +250,39 @@ class RationalChart(Frozen):
             return None
         return part.extended(replace(self.one, values=values))
 
+    def images(self, part: Part, ring: Parameters) -> list[fmpq_mpoly]:
+        """The coordinates of a part in a ring of the free ones and, last, the root."""
+        gens = dict(zip(ring.names, ring.context.gens(), strict=True))
+        root = ring.context.gens()[-1]
+        for name, value in self.one.values.items():
+            powers = value.poly.coeffs() if isinstance(value, Algebraic) else [value]
+            gens[name] = sum((root**k * a for k, a in enumerate(powers)), root * 0)
+        return [gens[name] for name in part.ring.names]
+
 
 def charts(part: Part) -> list[RationalChart]:
-    """Charts for all real points of a part that is free or has one equation in one coordinate; none
-    for other parts.
+    """Charts for all real points of a part if some coordinates have finitely many values and the
+    others are free; none for other parts.
     """
-    names = part.ring.names
+    names, equations = part.ring.names, part.equations
     if part.is_free:
         origin = RealRoot.rational(fmpq(0))
         return [RationalChart(Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,)), 0, tuple(names))]
-    equations = {name: what_is_asked(part, name) for name in names}
-    constrained = [(name, p) for name, p in equations.items() if p is not None]
-    if len(constrained) != 1 or len(part.equations) > 1:
+    places = {i for p in equations for i in unknowns_of(p)}
+    others = tuple(x for i, x in enumerate(names) if i not in places)
+    if len(places) == 1 and len(equations) == 1:
+        [place] = places
+        roots = [root for root, _ in real_roots(in_one(equations[0], place))]
+        return [RationalChart(at_root(names[place], x), x.number, others) for x in roots]
+    ring = Parameters([names[i] for i in sorted(places)])
+    ideal = Ideal(ring).with_zeros([p.project_to_context(ring.context) for p in equations])
+    if ideal.dimension or ideal.degree > MOST_POINTS:
         return []
-    [(name, p)] = constrained
-    others = tuple(x for x in names if x != name)
-    roots = [root for root, _ in real_roots(in_one(p))]
-    return [RationalChart(at_root(name, root), root.number, others) for root in roots]
+    return [
+        RationalChart(solution, k, others)
+        for solution in solutions(ideal)
+        for k in range(len(solution.real))
+    ]
 
 
 def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:

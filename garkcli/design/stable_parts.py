@@ -18,6 +18,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time, checked
 from garkcli.design.family_step import FamilyStep, Flat
 from garkcli.design.fewer import step_polynomials
+from garkcli.design.ideal import UNIT
 from garkcli.design.member import (
     MOST_DEGREE,
     TABLEAUS,
@@ -371,8 +372,8 @@ def points(size: int) -> Iterator[tuple[fmpq, ...]]:
 
 
 def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solution, RealRoot]]:
-    """Stable methods of a part that is free or has one equation in one coordinate, all other
-    coordinates being short rational numbers; all of them if they are finitely many.
+    """Stable methods of a part whose coordinates are free or have finitely many values, the free
+    ones being short rational numbers; all of them if they are finitely many.
     """
     if not part.dimension:
         for solution_of_all in map(part.extended, points_of(part)):
@@ -381,19 +382,22 @@ def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solut
                 if is_method and is_as_stable(family, whose, solution_of_all, root):
                     yield solution_of_all, root
         return
+    for chart in _sampled(part) if part.is_free else charts(part):
+        for point in points(len(chart.names)):
+            solution = chart.point(part, point)
+            if solution is not None and is_on(family, part, solution, chart.root):
+                yield solution, chart.root
+
+
+def _sampled(part: Part) -> Iterator[RationalChart]:
+    """Charts of a part with a number in each interval of its sets."""
     names = part.ring.names
     *_, name = [names[0], *(x for x, _ in part.sets if x in names)]
-    if not charts(part):
-        return
     values = values_on(part, name)
     for x in (Interval(None, None),) if values is None else values:
         t = x.start if x.is_point else RealRoot.rational(between(x.start, x.end))
         assert t is not None
-        others = [key for key in names if key != name]
-        for point in points(len(others)):
-            solution = RationalChart(at_root(name, t), t.number, tuple(others)).point(part, point)
-            if solution is not None and is_on(family, part, solution, solution.real[t.number]):
-                yield solution, solution.real[t.number]
+        yield RationalChart(at_root(name, t), t.number, tuple(key for key in names if key != name))
 
 
 def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> bool:
@@ -461,15 +465,16 @@ def has_stable_method(family: Family, whose: Whose, parts: Sequence[StablePart])
 
 
 def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValues, ...]]:
-    """The stable values of at most two free coordinates of a part, for each wanted kind of
-    stability, at each admissible value of a coordinate with an equation, if there is one.
+    """The stable values of the free coordinates of a part, for each wanted kind of stability, at
+    all admissible values of the others.
 
     Raises:
-        NotDecided: there are other equations or more coordinates, or the time limit has passed.
+        NotDecided: the others have infinitely many values, the step depends on more than two free
+            coordinates, or the time limit has passed.
         UsageProblem: a kind of stability is not applicable.
     """
     found = charts(part)
-    if not found or len(found[0].names) > 2:
+    if not found:
         raise NotDecided
     sets = []
     for chart in found:
@@ -496,7 +501,7 @@ def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
         if any(p.degrees()[k] for p in parts for k in places):
             raise NotDecided
         over, under = (value_of(p, part.ring, fixed) for p in parts)
-        value = value_at(over / under, chart.one.real[chart.index])
+        value = value_at(over / under, chart.root)
         if radical.meant not in (None, value):
             return False
     return True
@@ -506,12 +511,14 @@ def _on_chart(
     family: Family, whose: Whose, part: Part, chart: RationalChart, wanted: RequiredStability
 ) -> StableValues | None:
     """The stable values of the free coordinates of a chart; None if none is admissible."""
-    ring = Parameters([*chart.names, *chart.one.values])
-    root = chart.one.real[chart.index]
-    coordinates: Any = {x: ring.parameter(x) for x in ring.names}
+    known = tuple(chart.one.values) if len(chart.one.values) < 2 else (UNIT,)
+    ring, root = Parameters([*chart.names, *known]), chart.root
+    one = ring.constant(fmpq(1))
+    images = (ring.quotient(x, one) for x in chart.images(part, ring))
+    coordinates: Any = dict(zip(part.ring.names, images, strict=True))
     others = {x: ends for x, ends in family.ranges.items() if x not in chart.names}
     family = replace(family, not_negative=tuple(not_negative(replace(family, ranges=others))))
-    radicals = [Radical.of(name, root) for name in chart.one.values]
+    radicals = [Radical.of(name, root) for name in known]
     on_chart = restricted(family, ring, part.at(coordinates), chart.names, radicals)
 
     def is_free(p: fmpq_mpoly) -> bool:

@@ -23,6 +23,7 @@ from garkcli.exact.field import Number
 from garkcli.exact.parametric import factors, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, is_nonnegative, number_of
+from garkcli.frozen import Frozen
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 """ℚ[y, t]: y is eliminated, t stays."""
@@ -149,12 +150,40 @@ cube of the degree.
 """
 
 
-def kept_sign(p: fmpq_mpoly) -> int | None:
+class Along(Frozen):
+    """A variable with its values: a number or an interval.
+
+    Attributes:
+        place: of the variable.
+        values: the number, or the interval.
+    """
+
+    place: int
+    values: Interval
+
+    def reduced(self, p: fmpq_mpoly) -> fmpq_mpoly:
+        """The polynomial of least degree with the values of another one at a number."""
+        number = self.values.start
+        return p if number is None or not self.values.is_point else modulo(p, self.place, number)
+
+
+def modulo(p: fmpq_mpoly, place: int, number: RealRoot) -> fmpq_mpoly:
+    """The polynomial of least degree with the same values where a variable is a number."""
+    gen = p.context().gens()[place]
+    powers = enumerate(number.polynomial.coeffs())
+    return divmod(p, sum((gen**k * fmpq(a) for k, a in powers), gen * 0))[1]
+
+
+def kept_sign(p: fmpq_mpoly, along: Along | None = None) -> int | None:
     """1 if p ≥ 0 at all real points, −1 if p ≤ 0; None if neither holds or the tests below fail.
 
     Each irreducible factor of odd power has to keep its sign. This is decided if all terms are
     squares of one sign; in one or two variables always, up to a degree; and for a v² + b v + c if a
     keeps its sign and 4ac − b² ≥ 0.
+
+    Args:
+        p: the polynomial.
+        along: a variable with its values; None if all variables have all values.
 
     >>> from flint import Ordering, fmpq_mpoly_ctx
     >>> x, y, z = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex).gens()
@@ -162,40 +191,89 @@ def kept_sign(p: fmpq_mpoly) -> int | None:
     (1, -1, None)
     """
     check_time()
+    if along is not None:
+        p = along.reduced(p)
     if not p:
         return 1
     content, powers = p.factor()
     common = 1 if content > 0 else -1
     for factor, power in powers:
         if power % 2:
-            own = _of_factor(factor)
+            own = _of_factor(factor, along)
             if own is None:
                 return None
             common *= own
     return common
 
 
-def _of_factor(p: fmpq_mpoly) -> int | None:
+def _of_factor(p: fmpq_mpoly, along: Along | None) -> int | None:
     """``kept_sign`` of an irreducible polynomial that is not constant."""
-    if any(degree % 2 for degree in p.degrees()):
+    t = -1 if along is None else along.place
+    if any(degree % 2 for k, degree in enumerate(p.degrees()) if k != t):
         return None  # it has both signs on a line
     signs = {(a > 0) - (a < 0) for a in p.coeffs()}
     if len(signs) == 1 and not any(int(k) % 2 for e in p.monoms() for k in e):
         return signs.pop()
-    used = unknowns_of(p)
-    if len(used) <= 2:
-        if p.total_degree() > MOST_DEGREE:
-            return None
-        moved = in_plane(p, used[0], used[-1])
-        return next((own for own in (1, -1) if is_nowhere_negative(moved * own)), None)
+    used = [i for i in unknowns_of(p) if i != t]
+    if along is not None and len(used) <= 1:
+        return _in_plane(p, used[0] if used else (t + 1) % len(p.degrees()), along)
+    if along is None and len(used) <= 2:
+        return _in_plane(p, used[0], Along(used[-1], Interval(None, None)))
+    if along is not None and len(used) == 2 and along.values.is_point:
+        own = _beside_number(p, (used[0], used[1]), along)
+        if own is not None:
+            return own
     for i in used:
         if p.degrees()[i] == 2:
             a, b, c = (coefficient_of(p, k, i) for k in (2, 1, 0))
-            own = kept_sign(a)
+            own = kept_sign(a, along)
             # 4 a p = (2 a v + b)² + 4ac − b², and a is zero on no open set
-            if own is not None and kept_sign(4 * a * c - b * b) == 1:
+            if own is not None and kept_sign(4 * a * c - b * b, along) == 1:
                 return own
     return None
+
+
+def _in_plane(p: fmpq_mpoly, y: int, along: Along) -> int | None:
+    """``kept_sign`` of a polynomial in two variables."""
+    if p.total_degree() > MOST_DEGREE and not along.values.is_point:
+        return None
+    moved = in_plane(p, y, along.place)
+    within = None if along.values == Interval(None, None) else [along.values]
+    return next((own for own in (1, -1) if is_nowhere_negative(moved * own, within)), None)
+
+
+MOST_BESIDE = 4
+"""Largest degree of the variable that is eliminated beside a number."""
+SPACE = fmpq_mpoly_ctx.get(["y", "x", "t"], Ordering.lex)
+"""ℚ[y, x, t]: y is eliminated, t is a number."""
+
+
+def _beside_number(p: fmpq_mpoly, variables: tuple[int, int], along: Along) -> int | None:
+    """``kept_sign`` of an irreducible polynomial in two variables and a number, by one line in each
+    strip between the critical values of a variable.
+    """
+    x, y = sorted(variables, key=lambda i: p.degrees()[i], reverse=True)
+    moved = p.project_to_context(SPACE, {y: 0, x: 1, along.place: 2})
+    root = along.values.start
+    assert root is not None
+    number = number_of(root, MOST_FIELD)
+    if number is None or moved.degrees()[0] > MOST_BESIDE:
+        return None
+
+    def at_number(q: fmpq_mpoly, place: int) -> Polynomial:
+        """A polynomial in one variable and the number."""
+        powers = (coefficient_of(q, k, place) for k in range(q.degrees()[place] + 1))
+        return Polynomial([in_one(c, 2)(number) for c in powers])
+
+    critical = [at_number(modulo(q, 2, root), 1) for q in seen_along([moved], [])]
+    if not all(critical):
+        return None
+    first, _, third = SPACE.gens()
+    lines = [
+        at_number(moved.compose(first, SPACE.constant(value), third), 0)
+        for value in between_roots(critical)
+    ]
+    return next((own for own in (1, -1) if all(is_nonnegative(q * own) for q in lines)), None)
 
 
 MOST_FIELD = 6

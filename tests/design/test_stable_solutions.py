@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import jsonschema
+import numpy as np
 import pytest
 from flint import fmpq, fmpq_poly, fmpz_poly
 
@@ -509,3 +510,51 @@ def test_the_two_coordinates_of_a_family_of_an_order() -> None:
     plane = stable_set(loads_family(text, settings={"e": "1/2"}), "a-stable")
     assert (values.names, values.found) == (plane.names, plane.found)
     assert step.has_methods is True
+
+
+def test_two_irrational_coordinates() -> None:
+    """Orders 1 of both colours ask for g² = 2 and w² = 3; R = 1 + z/(1 − (g h − w) z) in the second
+    is A-stable for g h − w ≥ 1/2.
+    """
+    text = (
+        "parameters: {g: {free: true, range: [0, 3]}, w: {free: true, range: [0, 3]}, h: free}\n"
+        'ark:\n  A: [[[0]], [["g*h - w"]]]\n  b: [["g^2 - 1"], ["w^2 - 2"]]\n'
+        "design: {a-stable: {2: true}}\n"
+    )
+    step = find_parameters(loads_family(text), 1).last
+    [values] = step.known.stable
+    assert values.names == ("h",)
+    [interval] = values.found
+    assert interval.start is not None
+    assert (interval.has_start, interval.end) == (True, None)
+    assert float(interval.start) == pytest.approx((1 / 2 + 3**0.5) / 2**0.5)
+    assert step.has_methods is True
+
+
+def test_three_coordinates_and_two_forms_of_them() -> None:
+    """The step depends on h + k and on the second node alone; the set is that of single methods, by
+    |R| on the imaginary axis.
+    """
+    text = (
+        "parameters: {h: free, k: free, l: free, g: {free: true, range: [0, 3]}}\n"
+        'A: [["h + k", 0], ["l", "h + k"]]\nb: ["g^2/4", 1/2]\n'
+    )
+    step = find_parameters(loads_family(text + "design: {a-stable: true}\n"), 1).last
+    [values] = step.known.stable
+    assert values.names == ("h + k", "c2")
+    verdicts = set()
+    y = 1j * np.linspace(0.01, 60, 3000)
+    for s in (fmpq(1, 5), fmpq(1, 3), fmpq(1, 2), fmpq(2)):
+        for c in (fmpq(k, 7) for k in range(-7, 50, 3)):
+            a, node = float(s), float(c)
+            # R = 1 + z bᵀ(I − zA)⁻¹𝟙
+            first = 1 / (1 - a * y)
+            R = 1 + y * (first + (1 + y * (node - a) * first) * first) / 2
+            is_in = any(
+                has([strip], s)
+                and has([x for p in strip.parts if (x := p.over(RealRoot.rational(s)))], c)
+                for strip in values.strips
+            )
+            verdicts.add(is_in)
+            assert is_in is bool((abs(R) <= 1 + 1e-9).all())
+    assert verdicts == {True, False}

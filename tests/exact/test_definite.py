@@ -9,7 +9,9 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.exact.projection import kept_sign
+from garkcli.exact.cells import Interval
+from garkcli.exact.projection import Along, kept_sign
+from garkcli.exact.roots import RealRoot, square_root
 from tests.whole import at_most
 
 CONTEXT = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex)
@@ -49,6 +51,42 @@ def test_signs_that_are_kept(p: fmpq_mpoly, expected: int | None) -> None:
     squares and has zeros, and products.
     """
     assert kept_sign(p) == expected
+
+
+def at_root(square: int) -> Interval:
+    root = square_root(RealRoot.rational(fmpq(square)))
+    return Interval(root, root, has_start=True, has_end=True)
+
+
+def to_end(end: fmpq) -> Interval:
+    return Interval(RealRoot.rational(fmpq(0)), RealRoot.rational(end), True, True)
+
+
+@pytest.mark.parametrize(
+    ("p", "values", "expected"),
+    [
+        (X**2 + 2 * X * Y * Z + 2 * Y**2, at_root(2), 1),
+        (X**2 + 2 * X * Y * Z + 2 * Y**2, at_root(3), None),
+        (X**4 - Z * X**2 * Y**2 + Y**4, at_root(3), 1),
+        (X**4 - Z * X**2 * Y**2 + Y**4, at_root(4), 1),
+        (X**4 - Z * X**2 * Y**2 + Y**4, at_root(5), None),
+        (-(X**4) + Z * X**2 * Y**2 - Y**4, at_root(2), -1),
+        ((X**2 * Y - Z) ** 2 + (X * Y**2 - Z) ** 2 + Z - fmpq(7, 5), at_root(2), 1),
+        ((X**2 * Y - Z) ** 2 + (X * Y**2 - Z) ** 2 + Z - fmpq(3, 2), at_root(2), None),
+        ((Z**2 - 2) * X + X**2 + Y**2, at_root(2), 1),
+        (Z * X**2 - Y * Z**3 + Y**2 + 2, at_root(2), 1),
+        (Z**2 - 2, at_root(2), 1),
+        (Z - 1, at_root(2), 1),
+        (Z * X**2 - Z**2 + 2, to_end(fmpq(1)), 1),
+        (Z * X**2 - Z**2 + 2, to_end(fmpq(2)), None),
+        (X**2 + (Y - Z) ** 2 - Z**2 + 1, to_end(fmpq(1)), 1),
+        (X**2 + (Y - Z) ** 2 - Z**2 + 1, to_end(fmpq(3, 2)), None),
+        (X - Z, to_end(fmpq(1)), None),
+    ],
+)
+def test_signs_along_values(p: fmpq_mpoly, values: Interval, expected: int | None) -> None:
+    """Of polynomials in which z is an irrational number, or in an interval."""
+    assert kept_sign(p, Along(2, values)) == expected
 
 
 COEFFICIENTS = st.lists(st.integers(-3, 3), min_size=9, max_size=9)

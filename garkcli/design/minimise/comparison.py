@@ -172,7 +172,12 @@ class Minimisation(Mutable):
         check_time()
         for one in parts:
             self.parts.append(one)
-            self.over(one)
+            if not self.is_worse(one):
+                self.over(one)
+
+    def is_worse(self, part: Part) -> bool:  # noqa: ARG002
+        """Whether all methods of a part are known to be worse than the best one so far."""
+        return False
 
     def is_settled(self, part: Part) -> bool:
         """Whether the sets of a part decide the stability of its methods."""

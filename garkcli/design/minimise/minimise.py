@@ -87,14 +87,14 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
 
 
 def _over(comparison: Minimisation, parts: Sequence[Part]) -> None:
-    """Compares the methods of all parts, each in its share of the time; if a part is too large or
-    curved, the best of the others is only the best found.
+    """Compares the methods of all parts, those of the largest dimension first, each in its share of
+    the time; if a part is too large or curved, the best of the others is only the best found.
 
     Raises:
         NotDecided: no part gives a method to compare.
     """
     missed = 0
-    for number, part in enumerate(parts):
+    for number, part in enumerate(sorted(parts, key=lambda x: -x.dimension)):
         left = seconds_left()
         try:
             with within(None if left is None else left / (len(parts) - number)):

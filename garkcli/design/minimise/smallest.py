@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from functools import cmp_to_key
 from itertools import combinations
 from typing import cast
 
 from flint import fmpq, fmpq_mat, fmpq_mpoly, fmpz_mpoly
 
-from garkcli.deadline import check_time, checked, until
+from garkcli.deadline import check_time, checked, seconds_left, until, within
 from garkcli.design.critical import minors, slopes
-from garkcli.design.member import not_negative
+from garkcli.design.ideal import UNIT
+from garkcli.design.member import is_in, not_negative
 from garkcli.design.minimise.comparison import Minimisation
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.result import Candidate, Extent, ObjectiveLimit, Proof
-from garkcli.design.parts import Part, RationalChart, at_root, charts, parts_within, values_on
+from garkcli.design.parts import Part, RationalChart, at_root, charts, parts_within
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import System, as_float, in_decimals, polynomial_functions
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.steps import Found
+from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
-from garkcli.exact.cells import Interval, between
+from garkcli.exact.cells import Interval, Point, between, ends_of, has, sign_of, where
 from garkcli.exact.enclosing import midpoint
-from garkcli.exact.parametric import Parameters, factors, fraction
+from garkcli.exact.parametric import Parameters, fraction, unknowns_of
 from garkcli.exact.polynomial import in_one
-from garkcli.exact.projection import MOST_DEGREE, in_plane, is_nowhere_negative
+from garkcli.exact.projection import Along, kept_sign
 from garkcli.exact.roots import RealRoot
 
 
@@ -126,40 +129,6 @@ def critical_point_near(
     return rounded
 
 
-def is_nowhere_less(
-    numerator: fmpq_mpoly,
-    denominator: fmpq_mpoly,
-    m: fmpq,
-    place: int = 1,
-    lines: Sequence[Interval] | None = None,
-) -> bool | None:
-    """Whether N/D ≥ m on the plane, or on some lines; None if that would take too long.
-
-    Args:
-        numerator: N, in two variables.
-        denominator: D.
-        m: the bound.
-        place: the place of the variable that is constant on a line.
-        lines: its values; None for all.
-    """
-    difference = in_plane(numerator - denominator * m, 1 - place, place)
-    is_plane = lines is None or not all(x.is_point for x in lines)
-    if is_plane and any(p.total_degree() > MOST_DEGREE for p in factors([difference])):
-        return None
-    return is_nowhere_negative(difference * in_plane(denominator, 1 - place, place), lines)
-
-
-def _lines(part: Part) -> tuple[int, tuple[Interval, ...] | None]:
-    """A coordinate of a part with two that is restricted to a set of values, and the set; None for
-    no restriction.
-    """
-    for place, name in enumerate(part.ring.names):
-        values = values_on(part, name)
-        if values is not None:
-            return place, values
-    return 1, None
-
-
 CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 """Values of coordinates at which methods are sought."""
 
@@ -215,6 +184,8 @@ def _bounded_by_quadratic(terms: Mapping[tuple[int, ...], fmpq], bounded: set[in
 
 SLACK = fmpq(1, 10**9)
 """Relative size by which an irrational least value may be missed."""
+GLANCE = 0.1
+"""The share of the time for a proof that a part has nothing better."""
 MOST_COORDINATES = 4
 """Most coordinates for which the objective is expanded as a function."""
 SHORT = 64
@@ -296,10 +267,66 @@ class Smallest(Minimisation):
             return self.is_settled(part)
         if self.extent == "critical-points" and self._is_convex(part):
             return True
-        if not charts(part) or len(part.ring.names) != 2:
+        return self._is_above(part, _bound(best))
+
+    def is_worse(self, part: Part) -> bool:
+        values = [x.value for x in self.candidates]
+        if not values or not part.dimension:
             return False
-        place, lines = _lines(part)
-        return bool(is_nowhere_less(*self._formula(part), _bound(best), place, lines))
+        best = cast("RealRoot", self.best(values))
+        left = seconds_left()
+        with suppress(NotDecided), within(None if left is None else GLANCE * left):
+            return self._is_above(part, midpoint(best.ball(SHORT)) * (1 + SLACK))
+        return False
+
+    def _is_above(self, part: Part, bound: fmpq) -> bool:
+        """Whether the value of no method of a part is less than a bound."""
+        numerator, denominator = self._formula(part)
+        above = (numerator - denominator * bound) * denominator
+        if not part.is_free:
+            bounds = [self._is_bounded_on(part, chart, above) for chart in charts(part)]
+            return bool(bounds) and all(bounds)
+        if kept_sign(above) == 1:
+            return True
+        allowed = (self._allowed(part, place) for place in range(len(part.ring.names)))
+        return any(
+            all(kept_sign(above, Along(place, x)) == 1 for x in values)
+            for place, values in enumerate(allowed)
+            if values is not None
+        )
+
+    def _allowed(self, part: Part, place: int) -> tuple[Interval, ...] | None:
+        """The values of a free coordinate by the conditions on it alone; None if there are none."""
+        family = self.design.family
+        sets = [x for name, x in part.sets if name == part.ring.names[place]]
+        ends = (part.expressed(p, family.ring) for p in not_negative(family))
+        signs = [sign_polynomial(x, part.ring) for x in ends]
+        alone = [in_one(p, place) for p in signs if unknowns_of(p) == [place]]
+        if not sets and not alone:
+            return None
+
+        def holds(t: Point) -> bool:
+            return all(has(x, t) for x in sets) and all(sign_of(p, t) >= 0 for p in alone)
+
+        return where(holds, [*alone, *(p for x in sets for p in ends_of(x))])
+
+    def _is_bounded_on(self, part: Part, chart: RationalChart, above: fmpq_mpoly) -> bool:
+        """Whether a polynomial is nowhere negative at the methods of a chart."""
+        family, root, place = self.design.family, chart.root, len(chart.names)
+        known = chart.one.values
+        if not all(is_in(x, known[name], root) for name, x in part.sets if name in known):
+            return True  # it has no method
+        ring = Parameters([*chart.names, UNIT])
+        images = chart.images(part, ring)
+        for end in not_negative(family):
+            sign = sign_polynomial(part.expressed(end, family.ring), part.ring)
+            on_chart = sign.compose(*images, ctx=ring.context)
+            is_alone = unknowns_of(on_chart) in ([], [place])
+            if is_alone and sign_of(in_one(on_chart, place), root) < 0:
+                return True
+        there = above.compose(*images, ctx=ring.context)
+        point = Interval(root, root, has_start=True, has_end=True)
+        return kept_sign(there, Along(place, point)) == 1
 
     def value_of(self, solution: Solution, index: int) -> Size:
         quotient = self.objective.formula(self.subject(solution.values), None)
@@ -387,7 +414,7 @@ class Smallest(Minimisation):
     @staticmethod
     def _about(chart: RationalChart, name: str) -> fmpq:
         """The coordinate of a chart that is not free, rounded."""
-        root = value_at(chart.one.values[name], chart.one.real[chart.index])
+        root = value_at(chart.one.values[name], chart.root)
         return midpoint(root.ball(BITS))
 
     def _over_smaller(self, part: Part, zeros: list[fmpq_mpoly]) -> None:
