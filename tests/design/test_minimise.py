@@ -799,11 +799,28 @@ SADDLE = of_squares(
     "parameters: {h: free, k: free, l: free}", "[[1], [1]]", "h*k*l - 1", "k*h^2", "l", "h - k"
 )
 
+ESCAPING = of_squares(
+    "parameters: {h: free, k: free, l: free}", "[[1], [1]]", "h*k*l - 1", "k", "k - l", "0"
+)
+ESCAPING_OVER = of_squares(
+    "parameters: {g: {free: true, range: [0, 2]}, h: free, k: free}",
+    '[["g^2 - 1"], [1]]',
+    *("g*h*k - 1", "k", "0", "0"),
+)
+
 
 @pytest.mark.parametrize(
     ("text", "least_value", "extent"),
     [
+        pytest.param(ESCAPING, 1, "critical-points", id="less at infinity"),
+        pytest.param(ESCAPING_OVER, 1, "critical-points", id="less at infinity over a root"),
         pytest.param(SQUARE_ROOT, 0.6948288628709869, "nearly", id="over a square root"),
+        pytest.param(
+            SQUARE_ROOT.replace("[0, 2]", "[-2, 0]"),
+            4.480508121877554,
+            "nearly",
+            id="over the other root",
+        ),
         pytest.param(TWO_ROOTS, 2.0012082848057817, "nearly", id="over two roots"),
         pytest.param(FREE, 2.35071713134469, "nearly", id="three coordinates"),
         pytest.param(SADDLE, 0.917608420490083, "nearly", id="two minimisers"),
@@ -812,11 +829,26 @@ SADDLE = of_squares(
 )
 def test_quadratic_coordinates(text: str, least_value: float, extent: str) -> None:
     """No method has less where all coordinates but two or an irrational one are in the sum with
-    degree two; the values are those of SciPy's BFGS from 60 starts.
+    degree two; the values are those of SciPy's BFGS from 60 starts. Values that are approached at
+    infinity leave it open.
     """
     minimum = least(text, "error", 1)
     assert float(minimum.value or 0) == pytest.approx(least_value, rel=1e-9)
     assert minimum.extent == extent
+
+
+@pytest.mark.parametrize("product", ["(g - 1)*(h - 2)", "(h - 1)*(g - 2)"])
+def test_a_later_part_may_be_better(product: str) -> None:
+    """(k − g)² + (g h − 5)² + (k + 1)² is 2 where g = 1, and 49/9 where h = 2."""
+    first, second = ("g", "h") if "(g - 1)" in product else ("h", "g")
+    text = of_squares(
+        "parameters: {g: free, h: free, k: free}",
+        f'[["1 + {product}"], [1]]',
+        *(f"k - {first}", f"{first}*{second} - 5", "k + 1", "0"),
+    )
+    minimum = least(text, "error", 1)
+    assert value(minimum) == "2"
+    assert minimum.extent == "all"
 
 
 def test_emitted_claims(tmp_path: Path) -> None:

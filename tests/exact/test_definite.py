@@ -75,6 +75,13 @@ def to_end(end: fmpq) -> Interval:
         ((X**2 * Y - Z) ** 2 + (X * Y**2 - Z) ** 2 + Z - fmpq(3, 2), at_root(2), None),
         ((Z**2 - 2) * X + X**2 + Y**2, at_root(2), 1),
         (Z * X**2 - Y * Z**3 + Y**2 + 2, at_root(2), 1),
+        # (x² − z y)² ((x − 5)² + y² − z), irreducible over ℚ without z²
+        (
+            (X**4 - 2 * Z * X**2 * Y + 2 * Y**2) * ((X - 5) ** 2 + Y**2 - Z)
+            - 2 * X**2 * Y * (Z**2 - 2),
+            at_root(2),
+            None,
+        ),
         (Z**2 - 2, at_root(2), 1),
         (Z - 1, at_root(2), 1),
         (Z * X**2 - Z**2 + 2, to_end(fmpq(1)), 1),
