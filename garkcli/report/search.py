@@ -84,13 +84,16 @@ def solved(successes: int, starts: int) -> str:
 
 
 def _verdict(method: FoundMethod) -> str:
+    orders = f"order {'at least ' * (method.proof == 'exists')}{method.order}"
+    if method.embedded is not None:
+        orders += f" and embedded order {method.embedded}"
     match method.proof:
         case "exact":
-            return f"exact: order {method.order}, by the certificate"
+            return f"exact: {orders}, by the certificate"
         case "exists":
-            return f"proved to exist: order at least {method.order}, by Krawczyk's test"
+            return f"proved to exist: {orders}, by Krawczyk's test"
         case "numerical":
-            return f"numerical: residuals below {method.residual} up to order {method.order}"
+            return f"numerical: residuals below {method.residual} up to {orders}"
 
 
 def with_root(values: Mapping[str, str]) -> Mapping[str, str]:
@@ -175,6 +178,7 @@ OF_METHOD: Rows[FoundMethod] = [
     Row("start", POSITION, lambda x: x.start),
     Row("values", Kind(Json(VALUES, lambda values, _: dict(values))), lambda x: x.values),
     maybe("objective", TEXT, lambda x: x.objective),
+    maybe("embedded_order", COUNT, lambda x: x.embedded),
 ]
 METHOD: Section[tuple[FoundMethod, str | None]] = Section(
     maybe("file", TEXT, lambda x: x[1]), via(lambda x: x[0], OF_METHOD)

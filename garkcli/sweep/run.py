@@ -61,7 +61,7 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
             cure = "columns, conditions or a method file have changed: choose another --rows"
             raise UsageProblem(message, cure, code="other-file")
     if missing and store.rows and not store.is_resumed:
-        raise store.exists
+        raise store.refusal
     progress = Progress(len(plan), len(plan) - len(missing))
     yield progress
     quick = [x for x in missing if not x.template.is_searched]

@@ -60,7 +60,7 @@ class RowStore:
         os.close(self._file)
 
     @property
-    def exists(self) -> UsageProblem:
+    def refusal(self) -> UsageProblem:
         """The error of a sweep that would add rows to those of another run."""
         message = f"{self.path} exists"
         cure = "--resume adds the missing rows; or choose another --rows"
@@ -103,7 +103,7 @@ class RowStore:
             self.rows.setdefault(str(row["key"]), row)
         if whole < len(data):
             if not is_resumed:
-                raise self.exists
+                raise self.refusal
             os.ftruncate(self._file, whole)
         os.lseek(self._file, whole, os.SEEK_SET)
 

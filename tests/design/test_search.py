@@ -31,6 +31,7 @@ from garkcli.frozen import replace
 from garkcli.methodfile.family import FamilyFile
 from garkcli.order.conditions import elementary_weight
 from garkcli.report.schemas import report_schema
+from garkcli.tableau.embedded import with_weights
 from tests.cli.harness import gark
 from tests.whole import at_most, in_whole
 
@@ -516,6 +517,21 @@ def test_embedded_weights_are_of_the_start() -> None:
     values = dict(zip(family.parameters, point, strict=True))
     assert values["bh1"] == pytest.approx(7 / 24)
     assert values["bh4"] == pytest.approx(1 / 8)
+
+
+def test_the_embedded_order_of_a_find(tmp_path: Path) -> None:
+    """Text and JSON have the order of the embedded weights that the emitted file has."""
+    text = "unknown: {stages: 4, shape: explicit, embedded: true}\n"
+    wanted = "design: {order: 3, embedded-order: 2, fix: {bh4: 0}}\n"
+    path = tmp_path / "found.gark.yaml"
+    call = "design", "-", "--search", "4", "--most", "1"
+    run = gark(*call, "--format", "json", "--emit", str(path), stdin=text + wanted)
+    [method] = json.loads(run.out)["methods"]
+    own, further = load(str(path)).tableau, load(str(path)).further
+    assert further.embedded is not None
+    assert method["embedded_order"] == find_order(with_weights(own, further.embedded)).order >= 2
+    said = " ".join(gark(*call, stdin=text + wanted).out.split())
+    assert f"order 3 and embedded order {method['embedded_order']}, by the certificate" in said
 
 
 def test_a_start_has_the_stages_of_the_file(tmp_path: Path) -> None:
