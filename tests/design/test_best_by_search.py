@@ -163,8 +163,8 @@ def assert_gradient(function: Any, x: Any, gradient: Any) -> None:
     """Derivatives are those of central differences."""
     for k in range(len(x)):
         step = np.zeros(len(x))
-        step[k] = 1e-4
-        slope = (function(x + step) - function(x - step)) / 2e-4
+        step[k] = 1e-6
+        slope = (function(x + step) - function(x - step)) / 2e-6
         # weights near 0 magnify rounding
         assert gradient[k] == pytest.approx(slope, rel=1e-4, abs=2e-3)
 
@@ -285,6 +285,18 @@ def test_stability_is_a_constraint() -> None:
     )
     [method] = best(text, "error").methods
     assert method.values["gamma"] == "1 - sqrt(2)/2"
+
+
+@pytest.mark.parametrize(
+    ("objective", "greatest"), [("-real-interval", 6.0272594), ("-imaginary-interval", 8**0.5)]
+)
+def test_intervals_on_which_a_value_touches_one(objective: str, greatest: float) -> None:
+    """With R = 1 + z + z²/2 + z³/6 + κ z⁴ the real interval is longest where |R| = 1 within it, and
+    the imaginary one where |R|² loses its term y⁴: short numbers keep both sides.
+    """
+    [method] = best(SSP43, objective, 3).methods
+    assert method.proof == "exact"
+    assert greatest - 1e-5 < float(method.objective) <= greatest + 1e-9
 
 
 @in_whole

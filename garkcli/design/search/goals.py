@@ -51,8 +51,16 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 SAMPLES = 40
 """Points of an interval at which a stability function is compared with 1."""
+FINE = 16
+"""Pieces between two of these, to see the minima between them."""
+INNER = 3e-8
+"""The least distance of a stability function from 1 for the optimiser, so that rounding keeps it
+below 1.
+"""
 HEAVIEST = 1e5
 """The largest weight of a point near 0, so that rounding does not violate inequalities."""
+EXACT = 1e8
+"""The largest weight of a point from which a value at 0 is extrapolated: rounding grows with it."""
 NOTHING = 1e-10
 """Smaller coefficients count as zero."""
 TINY = 1e-20
@@ -106,9 +114,11 @@ class Reach(Frozen):
 
     Attributes:
         at: the inequalities at a point of the unknowns, with y as the last one.
+        margin: a lower bound on them for the optimiser.
     """
 
     at: Callable[[Array], Gradient]
+    margin: float = 0.0
 
 
 class Bound(Frozen):
@@ -334,7 +344,7 @@ def _at_infinity(setting: Setting, tableau: Tableau, key: str) -> Goal:
 
 def _interval(direction: complex) -> Callable[[Setting], Goal]:
     return lambda setting: Reach(
-        _Bounded.on_line(setting.tableau, setting.ring, direction, setting.order).at
+        _OnInterval(setting.tableau, setting.ring, direction, setting.order).at, INNER
     )
 
 
@@ -423,6 +433,7 @@ class _Step:
 
     def __init__(self, tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]) -> None:
         system = stage_system(tableau, fields)
+        self.pattern = _pattern(system.W)
         self.W, self.B = _matrix(system.W, ring), _matrix(system.B, ring)
         self.E = _matrix(system.E, ring)
 
@@ -446,43 +457,98 @@ class _Step:
         by_z = B @ right + z * (left @ W @ right)
         return M, slopes, by_z
 
+    def values(self, x: Array, z: Array) -> Array:
+        """M alone."""
+        import numpy as np
+
+        W, B, E = (m.at(x)[0] for m in (self.W, self.B, self.E))
+        z = z[:, None, None]
+        M: Array = np.eye(len(B)) + z * (B @ np.linalg.solve(np.eye(len(W)) - z * W, E))
+        return M
+
 
 class _Bounded:
     """|R(z)| ≤ 1 at points of a line, weighted so that points near 0 count too."""
 
-    def __init__(self, step: _Step, direction: complex, points: Array, power: int) -> None:
+    def __init__(self, step: _Step, direction: complex, power: int) -> None:
         self.step = step
         self.direction = direction
-        self.points = points
         self.power = power
 
-    @classmethod
-    def on_line(
-        cls, tableau: Tableau, ring: Parameters, direction: complex, order: int
-    ) -> _Bounded:
-        """On an interval from 0, whose length is the last unknown."""
+    def weights(self, points: Array) -> Array:
         import numpy as np
 
-        refuse_partitioned(tableau)
-        step = _Step(on_linear_problems(tableau), ring, [((ONE,),)] * tableau.size)
-        return cls(step, direction, np.arange(1, SAMPLES + 1) / SAMPLES, order + 1)
+        near: Array = np.minimum(np.minimum(1.0, points) ** -self.power, HEAVIEST)
+        return near
 
-    def at(self, point: Array) -> Gradient:
-        return self.over(point[:-1], float(point[-1]))
-
-    def over(self, x: Array, length: float) -> Gradient:
-        """The inequalities on an interval of a length, with derivatives in the unknowns and the
+    def over(self, x: Array, length: float, points: Array, weight: Array | None = None) -> Gradient:
+        """The inequalities at multiples of a length, with derivatives in the unknowns and the
         length.
         """
         import numpy as np
 
-        z = self.direction * length * self.points
+        z = self.direction * length * points
         M, slopes, by_z = (found[..., 0, 0] for found in self.step.at(x, z))
-        weight = np.minimum(np.minimum(1.0, self.points) ** -self.power, HEAVIEST)
+        weight = self.weights(points) if weight is None else weight
         value = 1 - np.abs(M) ** 2
         derivatives = -2 * (M.conj() * slopes).real
-        by_length = -2 * (M.conj() * by_z * self.direction * self.points).real
+        by_length = -2 * (M.conj() * by_z * self.direction * points).real
         return weight * value, (weight * np.concatenate([derivatives, by_length[None]])).transpose()
+
+
+class _OnInterval(_Bounded):
+    """|R| ≤ 1 on an interval from 0, whose length is the last unknown: at its points, the minima of
+    the inequality among them, and at 0.
+    """
+
+    def __init__(self, tableau: Tableau, ring: Parameters, direction: complex, order: int) -> None:
+        import numpy as np
+
+        refuse_partitioned(tableau)
+        step = _Step(on_linear_problems(tableau), ring, [((ONE,),)] * tableau.size)
+        super().__init__(step, direction, 2 * (order // 2 + 1))
+        self.grid = np.linspace(1 / SAMPLES, 1, (SAMPLES - 1) * FINE + 1)
+        # 1 − |R(iy)|² over its first power of y is a polynomial in y² if R is one
+        count = len(step.pattern) - order // 2
+        is_exact = (
+            direction.imag and not np.linalg.matrix_power(step.pattern, len(step.pattern)).any()
+        )
+        if not is_exact or count**self.power > EXACT:
+            count = 0
+        self.near = np.arange(1, count + 1) / max(count, 1)
+        squares = self.near**2
+        others = [np.delete(squares, k) for k in range(count)]
+        # Lagrange's polynomials at 0
+        self.at_zero = np.array(
+            [np.prod(x / (x - u)) for u, x in zip(squares, others, strict=True)]
+        )
+
+    def at(self, point: Array) -> Gradient:
+        import numpy as np
+
+        x, length = point[:-1], float(point[-1])
+        values, slopes = self.over(x, length, self._least(x, length))
+        if len(self.near):
+            first, of_first = self.over(x, length, self.near, self.near**-self.power)
+            values = np.append(values, self.at_zero @ first)
+            slopes = np.concatenate([slopes, (self.at_zero @ of_first)[None]])
+        return values, slopes
+
+    def _least(self, x: Array, length: float) -> Array:
+        """The ends of the pieces; in place of an end the minimum within its piece, by a parabola
+        through three neighbours.
+        """
+        import numpy as np
+
+        R = self.step.values(x, self.direction * length * self.grid)[:, 0, 0]
+        values = self.weights(self.grid) * (1 - np.abs(R) ** 2)
+        left, middle, right = values[:-2], values[1:-1], values[2:]
+        curvature = left - 2 * middle + right
+        points = self.grid[::FINE].copy()
+        for k in np.flatnonzero((middle < left) & (middle <= right) & (curvature > 0)):
+            shift = (left[k] - right[k]) / curvature[k] / 2
+            points[k // FINE + 1] = self.grid[k + 1] + shift * (self.grid[1] - self.grid[0])
+        return points
 
 
 class AStable:
@@ -498,11 +564,12 @@ class AStable:
         tableau = family.tableau
         shares = [fmpq(int(colour in (None, l))) for l in range(tableau.size)]
         step = _Step(tableau, family.ring, [((share,),) for share in shares])
-        self._bounded = _Bounded(step, 1.0j, whole_axis(), order + 1)
+        self._bounded = _Bounded(step, 1.0j, order + 1)
+        self._points = whole_axis()
 
     def at(self, x: Array) -> Gradient:
         """The inequalities and their derivatives in the unknowns."""
-        values, derivatives = self._bounded.over(x, 1.0)
+        values, derivatives = self._bounded.over(x, 1.0, self._points)
         return values, derivatives[:, :-1]
 
 

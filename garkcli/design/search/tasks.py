@@ -36,6 +36,7 @@ class Height:
 
     def __init__(self, reach: Reach) -> None:
         self.at = reach.at
+        self.margin = reach.margin
         self.of = kept(self._of)
 
     def _holds(self, x: Array, y: float) -> bool:
@@ -191,7 +192,7 @@ class Least(OptimiserTask):
             gradient[k] = weight
             more = np.zeros((len(values), len(z)))
             more[:, :n], more[:, k] = slopes[:, :-1], slopes[:, -1]
-            inequalities.append((values, more))
+            inequalities.append((values - level.margin, more))
         signs = np.concatenate([values for values, _ in inequalities])
         of_signs = np.concatenate([padded(slopes, len(z)) for _, slopes in inequalities])
         # sizes are known without their variables
