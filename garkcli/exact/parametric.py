@@ -337,7 +337,7 @@ def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
 
 def unknowns_of(p: fmpq_mpoly) -> list[int]:
     """The indices of the variables that occur."""
-    return [k for k, degree in enumerate(p.degrees()) if degree]
+    return [k for k, degree in enumerate(p.degrees()) if degree > 0]  # of 0 they are −1
 
 
 def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, get_args
+from itertools import chain, groupby
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast, get_args
 
 from garkcli.design.choices import Choice as Choices
 from garkcli.design.design import Design, estimates_nothing
@@ -28,6 +28,7 @@ from garkcli.design.steps import (
 )
 from garkcli.design.steps import Kind as Verdict
 from garkcli.errors import counted
+from garkcli.exact.parametric import Parameters, fraction, unknowns_of
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
@@ -406,16 +407,35 @@ def _briefly(step: Step) -> str:
     return counted(count, "solution") if real == count else f"{real} of {count} solutions"
 
 
-def embedded_rows(x: DesignReport, d: Plain) -> Texts:
-    """A warning that the embedded weights estimate no error."""
-    best = _best(x.design)
-    if best is None or not estimates_nothing(x.design, best):
+def further_rows(x: DesignReport, d: Plain) -> Texts:
+    """Warnings that embedded weights estimate no error, or that no condition is on the unknowns of
+    further weights.
+    """
+    best, family = _best(x.design), x.design.family
+    if not isinstance(best, Decided):
         return []
-    text = (
-        "the embedded weights are b at every value, and estimate no error: a lower embedded-order"
-        " under design, or more stages, may leave others"
-    )
-    return [("embedded", d.prose(text))]
+    if estimates_nothing(x.design, best):
+        text = (
+            "the embedded weights are b at every value, and estimate no error: a lower"
+            " embedded-order under design, or more stages, may leave others"
+        )
+        return [("embedded", d.prose(text))]
+    further, ring = family.further, family.ring
+    used = _unknowns(family.tableau.entries, ring)
+    used |= {ring.names[i] for p in best.polynomials for i in unknowns_of(cast("Any", p))}
+    rows = []
+    for label, weights in (("embedded", further.embedded or ()), ("dense", chain(*further.powers))):
+        names = _unknowns(chain(*weights), ring)
+        if names and not names & used:
+            text = f"no condition is on its unknowns: {label}-order under design asks for some"
+            rows.append((label, d.prose(text)))
+    return rows
+
+
+def _unknowns(numbers: Iterable[object], ring: Parameters) -> set[str]:
+    """The unknowns that numbers depend on."""
+    parts = (p for x in numbers for p in fraction(x, ring))
+    return {ring.names[i] for p in parts for i in unknowns_of(p)}
 
 
 def stable_rows(x: DesignReport, d: Plain) -> Texts:
@@ -704,7 +724,7 @@ WHOLE: Section[DesignReport] = Section(
         DATA,
     ),
     itself("orders_in_words", rows_of(order_rows)),
-    itself("embedded_in_words", rows_of(embedded_rows)),
+    itself("further_in_words", rows_of(further_rows)),
     optional("objective", part(OBJECTIVE), lambda x: x.minimum, DATA),
     Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
     optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),

@@ -286,3 +286,24 @@ def test_the_least_error_over_theta() -> None:
     tableau = loads(text.split("dense")[0]).tableau
     assert of_errors(tableau, further.dense, 3) == least.value.exact
     assert order_by_values(tableau, further.dense, 4) == 2
+
+
+@pytest.mark.parametrize(
+    ("wanted", "says"),
+    [
+        ("", ["embedded", "dense"]),
+        ("design: {embedded-order: 1}", ["dense"]),
+        ("design: {embedded-order: 1, dense-order: 1}", []),
+    ],
+)
+def test_unknowns_of_which_nothing_is_asked(wanted: str, says: list[str]) -> None:
+    """The report names the key that asks for an order of them."""
+    text = (
+        'A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\nembedded: ["?", "?"]\n'
+        f'dense: {{degree: 2, weights: [["?", "?"], ["?", "?"]]}}\n{wanted}\n'
+    )
+    run = gark("design", "-", stdin=text)
+    assert run.code == 0
+    for label in ("embedded", "dense"):
+        said = f"no condition is on its unknowns: {label}-order under design asks for some"
+        assert (said in " ".join(run.out.split())) is (label in says)
