@@ -25,6 +25,7 @@ INCLUDED = ".inc"
 """The ending of include files in several languages."""
 FEWEST_NUMBERS = 5
 SHORT = 300
+A_PART = 150
 HEAD = 100
 """Characters at the beginning of a function that may name it."""
 _WORDS = re.compile(
@@ -222,8 +223,12 @@ class Lowering(ABC):
         return self.block(inside)
 
     def may_hold_a_table(self, node: Node) -> bool:
-        """Whether the text of a function has numbers and names like those of a table."""
+        """Whether the text of a function has numbers and names like those of a table; a short one
+        may be part of a step.
+        """
         text = self.text(node)
+        if len(text) < A_PART:
+            return True
         is_likely = len(text) < SHORT or self._speaks or speaks(text[:HEAD])
         numbers = _NUMBER.finditer(text)
         fewest = 1 if is_likely else FEWEST_NUMBERS

@@ -66,6 +66,18 @@ def terms_of(value: Value | None) -> Terms | None:
     return value.terms if isinstance(value, Form) else None
 
 
+def without_steps(slopes: Sequence[StageSlope]) -> list[StageSlope]:
+    """The slopes that are not the step, as a function of the values gives it: such ones are factors
+    of slopes of a function that is given its own ones.
+    """
+    of = {x.name: x.callee for x in slopes}
+    terms = [(x, at) for x in slopes for form in x.args for at in form or ()]
+    stages = {x.callee for x, at in terms if any(of.get(name) == x.callee for name in at)}
+    callees = [{of[name] for name in at if name in of} for _, at in terms]
+    steps = set().union(*(x for x in callees if x & stages)) - stages
+    return [x for x in slopes if x.callee not in steps]
+
+
 def step_in(
     slopes: Sequence[StageSlope],
     values: Mapping[str, Value],

@@ -26,7 +26,7 @@ from garkcli.sources.evaluate import (
 )
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
-from garkcli.sources.stages import NEAR, NoStep, Roles, StageSlope, step_in, terms_of
+from garkcli.sources.stages import NEAR, NoStep, Roles, StageSlope, step_in, terms_of, without_steps
 from garkcli.sources.step_hints import Hints
 from garkcli.sources.step_words import (
     CHANGING,
@@ -91,7 +91,7 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     modes = [("", False)]
     if helpers and not is_long:
         modes.append(("", True))
-    if evaluations > 1 and not is_long and _has_sums_in_calls(body):
+    if evaluations > 1 and not is_long and _has_sums_in_calls(body, like):
         # the step may be a number that is set around it
         modes += [(name, False) for name in _numbers_in(body, space)]
     looks_like = has_helpers = False
@@ -243,12 +243,8 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
     return found if len(found) <= MAX_NUMBERS else []
 
 
-def _has_sums_in_calls(body: ir.Body) -> bool:
-    return any(
-        isinstance(x, ir.Call) and any(_is_sum(y) for of in x.args for y in ir.inside(of))
-        for x in ir.parts_of(body)
-        if callee_name(getattr(x, "callee", ir.Nothing())) not in NO_SLOPES
-    )
+def _has_sums_in_calls(body: ir.Body, like: Evaluator) -> bool:
+    return any(_is_sum(y) for x in _calls(body, like) for of in x.args for y in ir.inside(of))
 
 
 def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
@@ -258,19 +254,28 @@ def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
 
 
 def _calls_in(body: ir.Body, like: Evaluator) -> tuple[int, int]:
-    """The most calls of one function, and the number of functions of the source that evaluate
-    others or are called several times.
-    """
-    callees = [
-        x.callee
-        for x in ir.parts_of(body)
-        if isinstance(x, ir.Call) and x.args
-        if callee_name(x.callee) not in NO_SLOPES
-    ]
-    counts = Counter(callees)
-    known = {x: like.functions.get(getattr(x, "name", "")) for x in counts}
-    helpers = sum(of is not None and (counts[x] > 1 or _evaluates(of)) for x, of in known.items())
+    """The most calls of one function, and the number of functions of the source that are called."""
+    counts = Counter(x.callee for x in _calls(body, like) if x.args)
+    helpers = sum(getattr(x, "name", "") in like.functions for x in counts)
     return max(counts.values(), default=0), helpers
+
+
+def _calls(body: ir.Body, like: Evaluator) -> Iterator[ir.Call]:
+    """The calls in some statements, in Fortran also those that look like entries, without
+    mathematics and output of other sources.
+    """
+    for x in ir.parts_of(body):
+        match x:
+            case ir.Call(callee):
+                name = getattr(callee, "name", "")
+                if name in like.functions or callee_name(callee) not in NO_SLOPES:
+                    yield x
+            case ir.Index(ir.Name() as callee, (_, _, *_) as at) if _is_of_fortran(like):
+                yield ir.Call(callee, tuple(at))
+
+
+def _is_of_fortran(like: Evaluator) -> bool:
+    return like.base == 1 and like.has_whole_quotients
 
 
 def _counted(loop: ir.Loop) -> Iterator[str]:
@@ -550,7 +555,7 @@ class Follower(Evaluator):
 
     def _entry(self, expr: ir.Index, space: Space) -> Value:
         whole = self._array_behind(expr)
-        if whole is expr and len(expr.at) > 1 and self.base == 1 and self.has_whole_quotients:
+        if whole is expr and len(expr.at) > 1 and _is_of_fortran(self):
             # f(t, y) in Fortran
             of = self.value(expr.of, space)
             if isinstance(of, Form) and of.terms.keys() == {(getattr(expr.of, "name", ""),)}:
@@ -646,6 +651,10 @@ class Follower(Evaluator):
         if is_entry and (self._components or self._counters):
             # k1(i), entries of classes in C++
             return self.value(whole, space)
+        match call:
+            case ir.Call(ir.Name("list of each"), (ir.Lambda(names, body), over), ()):
+                if (each := self._of_each(names, body, over, space)) is not None:
+                    return each
         args = [self.value(x, space) for x in call.args]
         args += [x for _, y in call.named if isinstance(x := self.value(y, space), Form)]
         if name in CONVERSIONS and len(args) == 1:
@@ -676,6 +685,30 @@ class Follower(Evaluator):
             # y = state(): a value independent of the step
             return self._named_by(call)
         return called_value
+
+    def _of_each(
+        self, names: Sequence[str], body: ir.Expr, over: ir.Expr, space: Space
+    ) -> Value | None:
+        """An expression for all components of vectors; None for lists of numbers."""
+        inner = Space(space)
+        match over:
+            case ir.Call(ir.Name("range")) if len(names) == 1 and not items_of(
+                self.value(over, space)
+            ):
+                self._components += names
+                value = self.value(body, inner)
+                del self._components[-1]
+                return value
+            case ir.Call(ir.Name("zip"), args, ()) if len(args) == len(names):
+                values = [self.value(x, space) for x in args]
+            case _ if len(names) == 1:
+                values = [self.value(over, space)]
+            case _:
+                return None
+        if not any(isinstance(x, Form) for x in values):
+            return None
+        inner.update(zip(names, values, strict=True))
+        return self.value(body, inner)
 
     def _followed(self, call: ir.Call, args: Sequence[Value]) -> Value | None:
         """The value of a function of the source that computes with slopes or evaluates f; None for
@@ -760,6 +793,7 @@ class Follower(Evaluator):
         """
         self.follow(space)
         slopes = [x for x in self._slopes if callee_name(x.callee) not in MATHEMATICS]
+        slopes = without_steps(slopes)
         if self._is_lost or not 0 < len(slopes) <= MAX_STAGES:
             raise NoStep(self.looks_like)
         try:

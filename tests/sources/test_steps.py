@@ -612,3 +612,60 @@ def test_values_that_depend_on_a_condition() -> None:
             body = f"l = {second}; y = y + 0.5*h*(k + l);"
             tables = module.find(text.replace("BODY", body), "x")
             assert sum(x.b == (("1/2", "1/2"),) for x in tables) == count, module
+
+
+PROGRAM = """
+program main
+  h = 0.1d0
+  y = 1d0
+  do i = 1, 10
+    k1 = h*f(x, y)
+    k2 = h*f(x + h, y + k1)
+    y = y + 0.5d0*(k1 + k2)
+    x = x + h
+  end do
+  do i = 1, 10
+    k1 = h*f(x, z)
+    k2 = h*f(x + h/2, z + k1/2)
+    z = z + k2
+    x = x + h
+  end do
+end program
+"""
+LISTS = """
+def moved(u, v, s):
+    return [a + s*b for a, b in zip(u, v)]
+
+def step(f, t, y, h):
+    k = f(t, y)
+    l = f(t + h/2, [y[i] + h/2*k[i] for i in range(len(y))])
+    return moved(y, l, h)
+"""
+COMPUTED = """
+def step(f, t, y):
+    h = courant(y, t)
+    k = f(t, y)
+    l = f(t + h/2, y + h/2*k)
+    return y + h*l
+"""
+
+
+def test_steps_of_a_program() -> None:
+    """Each loop of a program is a step, with functions that look like entries."""
+    found = [x.b for x in fortran.find(PROGRAM, "x")]
+    assert found == [(("1/2", "1/2"),), (("0", "1"),)]
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new"),
+    [
+        (LISTS, "a + s*b", "a + b"),
+        (LISTS, "h/2*k[i]", "h/2*k[0]"),
+        (COMPUTED, "y + h/2*k", "y + courant(k, t)/2*k"),
+    ],
+)
+def test_steps_with_lists_and_computed_steps(text: str, old: str, new: str) -> None:
+    """Comprehensions over components, a helper without numbers, a step that a function gives."""
+    (table,) = python.find(text, "x")
+    assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
+    assert not any(x.b for x in python.find(text.replace(old, new), "x"))
