@@ -444,11 +444,12 @@ def is_in_c(text: str) -> bool:
 
 
 def _branched(statement: ir.Statement) -> ir.Statement:
-    """A statement; an assignment of either of two values is a branch."""
+    """A statement; an assignment of what a call gives, or of what is known already, is a branch."""
     match statement:
         case ir.Assign(value=ir.Either(values), line=line):
-            arms = tuple((replace(statement, value=x),) for x in values)
-            return ir.Branch(arms, line, is_total=True)
+            if sum(isinstance(x, ir.Call) for x in values) == 1:
+                arms = tuple((replace(statement, value=x),) for x in values)
+                return ir.Branch(arms, line, is_total=True)
     return statement
 
 

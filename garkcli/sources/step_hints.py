@@ -45,30 +45,39 @@ _NUMBER = _Made()
 
 
 class Hints:
-    """Names in statements that hint at a step, over all branches and twice over loops.
+    """Names in statements that hint at a step, over all branches and twice over outer loops.
 
     Args:
         body: the statements.
         functions: the functions of the source.
+        has_status: whether functions may change their arguments and return a status.
 
     Attributes:
-        of_step: whether they may be a step: a sum has a multiple of f and a name that f is given; a
-            function of one argument is called more than once.
-        of_stages: whether f is given a multiple of its own slope.
+        of_step: whether they may be a step: a sum has a multiple of f and a name that f is
+            given, or a function with multiples of f; one of one argument is called several times.
+        of_stages: whether functions are given multiples of each other's slopes, or one of its own.
     """
 
-    def __init__(self, body: Iterable[ir.Statement], functions: Collection[str]) -> None:
+    def __init__(
+        self, body: Iterable[ir.Statement], functions: Collection[str], has_status: bool = False
+    ) -> None:
         self._functions = functions
+        self._has_status = has_status
         self._named: dict[str, _Made] = {}
         self._given: dict[ir.Expr, set[str]] = defaultdict(set)
+        self._passed: dict[ir.Expr, set[ir.Expr]] = defaultdict(set)
         self._calls: Counter[ir.Expr] = Counter()
         self._sums: list[_Made] = []
-        self.of_stages = False
+        self._is_inside = False
         self._over(body)
+        several = {f for f, count in self._calls.items() if count > 1}
+        passed = self._passed
+        self.of_stages = any(g in passed[f] and f in passed[g] for f in several for g in several)
         self.of_step = any(
-            self._calls[f] > 1 and not x.bases.isdisjoint(self._given[f])
+            not x.bases.isdisjoint(self._given[g])
             for x in self._sums
-            for f in x.multiples
+            for f in x.multiples & several
+            for g in {f, *(g for g in several if f in self._passed[g])}
         )
 
     def _over(self, body: Iterable[ir.Statement]) -> None:
@@ -76,7 +85,7 @@ class Hints:
             match statement:
                 case ir.Assign(target, value, sign=sign) if value is not None:
                     made = self._value(value)
-                    if isinstance(value, ir.Call):
+                    if self._has_status and isinstance(value, ir.Call):
                         # status = f(t, x, k)
                         self._effected(value)
                     if sign not in {"", "."}:
@@ -93,8 +102,12 @@ class Hints:
                         self._over(arm)
                 case ir.Loop(name, over, inner):
                     self._stored(ir.Name(name), self._value(over))
+                    is_outer, self._is_inside = not self._is_inside, True
                     self._over(inner)
-                    self._over(inner)
+                    if is_outer:
+                        # what a turn makes, the next one uses
+                        self._over(inner)
+                        self._is_inside = False
                 case ir.Scope(kind="entry", body=inner):
                     self._over(inner)
 
@@ -165,7 +178,7 @@ class Hints:
                 return made
         else:
             made = of
-        self.of_stages |= count > 1 and callee in given.multiples
         self._given[callee] |= given.bases
+        self._passed[callee] |= given.multiples
         self._calls[callee] += 1 + (count > 1)
         return made | _Made(frozenset({callee}))

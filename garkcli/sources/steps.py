@@ -56,6 +56,7 @@ from garkcli.sources.values import (
     items_of,
     near,
 )
+from garkcli.sources.written_out import with_functions
 
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
@@ -64,6 +65,8 @@ MAX_TURNS = 20
 """Most turns of a loop over stages."""
 MAX_STATEMENTS = 400
 """Most statements of a function that is followed in several ways."""
+MAX_STATEMENTS_OF_ONE_STAGE = 20
+"""Most statements of a function in which a step of one stage is sought."""
 MAX_NUMBERS = 6
 """Most numbers tried as the step."""
 FEWEST_TURNS = 5
@@ -84,10 +87,26 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     Raises:
         NoStep: there is none.
     """
-    if not Hints(body, like.functions).of_step:
+    try:
+        return _steps_with_calls(body, space, like, is_function)
+    except NoStep:
+        other = with_functions(body)
+        if other is None:
+            raise
+    try:
+        return _steps_with_calls(other, space, like, is_function)
+    except NoStep as error:
+        raise NoStep(error.looks_like) from None
+
+
+def _steps_with_calls(
+    body: ir.Body, space: Space, like: Evaluator, is_function: bool
+) -> list[Roles]:
+    hints, count = _hints(body, like), sum(1 for _ in ir.statements(body))
+    if not hints.of_step or (count > MAX_STATEMENTS_OF_ONE_STAGE and not hints.of_stages):
         raise NoStep
     evaluations, helpers = _calls_in(body, like)
-    is_long = sum(1 for _ in ir.statements(body)) > MAX_STATEMENTS
+    is_long = count > MAX_STATEMENTS
     modes = [("", False)]
     if helpers and not is_long:
         modes.append(("", True))
@@ -172,7 +191,7 @@ class _StepReader:
         arms = (arm for x in body if isinstance(x, ir.Branch) for arm in x.arms)
         have_sums = any(map(_has_sums, arms))
         for way in reversed(_ways(body)):
-            if is_lost and have_sums and not Hints(way, self._like.functions).of_stages:
+            if is_lost and have_sums and not _hints(way, self._like).of_stages:
                 # there is no step, and this path does not look like one
                 continue
             follower = self._follower(way, counters)
@@ -225,6 +244,10 @@ class _StepReader:
                 else:
                     if len(items_of(roles["b"])) > 1:
                         yield roles
+
+
+def _hints(body: Sequence[ir.Statement], like: Evaluator) -> Hints:
+    return Hints(body, like.functions, like.has_whole_quotients)
 
 
 def _plain(arm: ir.Body) -> ir.Body:

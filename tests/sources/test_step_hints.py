@@ -26,10 +26,13 @@ def test_names_rule_out_a_step(name: str) -> None:
 
 
 def test_a_slope_of_stages() -> None:
-    """The function is given a multiple of its own slope, also when a loop comes back to it."""
+    """A function is given a multiple of its own slope, also when a loop comes back to it, or two
+    functions of each other's.
+    """
     loop = "for i in range(s):\n    k = f(t, y)\n    y = y + h*k"
     assert _hints("k = f(t, x)\nl = f(t, x + h*k)").of_stages
     assert _hints(loop).of_stages
+    assert _hints("k = f(v)\nl = g(x)\nk = f(v + h*l)\nl = g(x + h*k)").of_stages
     assert not _hints("k = f(t, x)\nl = g(t, x + h*k)").of_stages
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from garkcli.bridges.audit import audit
 from garkcli.frozen import replace
+from garkcli.sources.found import Find
 from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust
 
 KUTTA = """
@@ -669,3 +670,39 @@ def test_steps_with_lists_and_computed_steps(text: str, old: str, new: str) -> N
     (table,) = python.find(text, "x")
     assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
     assert not any(x.b for x in python.find(text.replace(old, new), "x"))
+
+
+PENDULUM = """
+def step(x, v, h):
+    k1x = v
+    k1v = -g*sin(x)
+    k2x = v + 0.5*h*k1v
+    k2v = -g*sin(x + 0.5*h*k1x)
+    return x + h*k2x, v + h*k2v
+"""
+DECAY = """
+void step(double &x, double t, double h) {
+  double k1 = h * (-2.0*x + t);
+  double k2 = h * (-2.0*(x + 0.5*k1) + (t + 0.5*h));
+  x += k2;
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "nodes", "old", "new"),
+    [
+        (python.find, PENDULUM, (), "sin(x + 0.5*h*k1x)", "cos(x + 0.5*h*k1x)"),
+        (python.find, PENDULUM, (), "v + 0.5*h*k1v", "v + 0.5*h*k1x"),
+        (c.find, DECAY, ("0", "1/2"), "0.5*k1) +", "0.5*k1) -"),
+    ],
+)
+def test_vector_fields_that_are_written_out(
+    find: Find, text: str, nodes: tuple[str, ...], old: str, new: str
+) -> None:
+    """The expressions of a family are values of one function, if only its arguments differ."""
+    (table,) = find(text, "x")
+    assert table.b == (("0", "1"),)
+    assert table.A == (((("0", "0"), ("1/2", "0")),),)
+    assert (table.c[0] if nodes else ()) == nodes
+    assert not any(x.b for x in find(text.replace(old, new), "x"))
