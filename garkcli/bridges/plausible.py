@@ -26,17 +26,20 @@ FAR = 0.5
 
 
 def is_plausible(table: FoundTable, method: MethodFile) -> bool:
-    """Whether a table is a method, by its source or its numbers. Integers with one stage or without
-    nodes need words.
+    """Whether a table is a method, by its source or its numbers. A matrix of zeros has no nodes;
+    integers with one stage or without nodes need words.
 
     If no reading of the numbers decides, as with several misprints, the sum of the weights must be
     near 1, and the nodes the row sums of half of the rows; without nodes order 2 must nearly hold,
     or the matrix be triangular.
     """
-    if table.is_sure or table.linked:
-        return True
     tableau = method.tableau
     rows = [row for block in tableau.blocks.values() for row in block]
+    if len(rows) > 1 and not any(map(any, rows)) and table.c[0] is not None:
+        # f at several times, and always at y: no steps of one method
+        return not any(map(any, (x.c for x in tableau.colours)))
+    if table.is_sure or table.linked:
+        return True
     is_bare = len(rows) < 2 or table.c[0] is None
     is_single = len(rows) < 2 and table.order is None
     if is_single or (is_bare and _are_whole((*rows, *(x.b for x in tableau.colours)))):

@@ -731,3 +731,34 @@ def test_weights_in_two_rows_of_numbers() -> None:
     assert (found.order.order, found.embedded_order.order) == (3, 2)
     wrong = [audit(x) for x in c.find(NUMBERED.replace("b13 = 3.0", "b13 = 1.0"), "x.cpp")]
     assert not any(x is not None and x.order and x.order.order == 3 for x in wrong)
+
+
+OCTAVE = """
+function [t] = step (x)
+  persistent a = [0 0 0; 1/2 0 0; 0 3/4 0];   # "stages"
+  persistent b = [0, 1/2, 3/4, 1];
+  if (! isempty (x) && x != 1)
+    y = 1;
+  endif
+  persistent c = [2/9, 1/3, 4/9];
+endfunction
+"""
+
+
+def test_words_of_octave() -> None:
+    """Values that stay, other comments, negations and ends: the method of Bogacki and Shampine."""
+    (found,) = (audit(x) for x in matlab.find(OCTAVE, "runge_kutta_23.m"))
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.table.b) == (3, (("2/9", "1/3", "4/9"),))
+
+
+def test_a_matrix_of_zeros_has_no_nodes() -> None:
+    """Slopes at other times make no method, whatever order is declared; zeros alone are Euler's."""
+    text = "class RungeKutta:\n    order = 2\n    A = [[0, 0], [0, 0]]\n    b = [1/2, 1/2]\n"
+    (found,) = (audit(x) for x in python.find(f"{text}    c = [-1, 1]\n", "x"))
+    assert found is not None
+    assert [x.level for x in found.findings] == ["note"]
+    (euler,) = (audit(x) for x in python.find(f"{text}    c = [0, 0]\n", "x"))
+    assert euler is not None
+    assert euler.has_errors
