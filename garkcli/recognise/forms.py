@@ -60,7 +60,7 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
     # few arrays have rows that fit, whatever they are tried as
     pairs = ((x, y, of) for of in tables for x, y in permutations(of, 2))
     more = [x for pair in pairs for x in _of_two_rows(*pair) if x and x.order >= LEAST]
-    more += filter(None, map(_of_four_rows, (*_alike(rows), *tables)))
+    more += filter(None, map(_of_registers_of_ketcheson, (*_alike(rows), *tables)))
     return [*more, *(x for x in tried if x is not None)], len(tried) + len(more)
 
 
@@ -190,30 +190,35 @@ def _of_registers(form: str, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return A, y
 
 
-def _of_four_rows(rows: Sequence[Given]) -> Reading | None:
-    """Ketcheson's registers without the third one: γ₁, γ₂, δ and β, of which every stage begins at
-    y. With names of their own they may be in any order.
+def _of_registers_of_ketcheson(rows: Sequence[Given]) -> Reading | None:
+    """Ketcheson's registers: γ₁, γ₂, δ and β, perhaps γ₃, of which every stage begins at y. With
+    names of their own they may be in any order.
     """
     most, order, used = 0.0, 0, tuple[Given, ...]()
     unit = unit_of(*(x.numbers for x in rows))
     lengths = [n for x in rows for n in x.numbers[:, LENGTH]]
-    for each in permutations(rows, 4):
+    for each in (*permutations(rows, 4), *permutations(rows, 5)):
         made = _of_sums([x.numbers[:, VALUE] for x in each], unit)
         bits, reached = (0.0, 0) if made is None else _of_conditions(*made, unit, lengths)
         if reached >= 2 and bits > most:
             most, order, used = bits, reached, each
     if not used:
         return None
-    told = dict(zip(("gamma1", "gamma2", "delta", "A"), (x.numbers for x in used), strict=True))
-    how = "the form 3S* without its third register"
+    names = ("gamma1", "gamma2", "delta", "A", "gamma3")[: len(used)]
+    told = dict(zip(names, (x.numbers for x in used), strict=True))
+    how = "the form 3S*" + (" without its third register" if len(used) == 4 else "")
     count, by_names = _names(*(bool(re.search("gam|del|bet", x.name, re.I)) for x in used[:3]))
     line = used[0].line
     return Reading("3S*", told, how, most + by_names, order, most, used, line, names=count)
 
 
 def _of_sums(rows: Sequence[Floats], unit: float) -> tuple[Floats, Floats] | None:
-    """The tableau of two registers; None if a stage does not begin at y."""
-    gamma1, gamma2, delta, beta = rows
+    """The tableau of two registers, or three; None if a stage does not begin at y."""
+    gamma1, gamma2, delta, beta, *third = rows
+    gamma3 = third[0] if third else np.zeros_like(beta)
+    tolerance = 1e-12 + 100 * unit
+    if abs(gamma1[0] + gamma2[0] * delta[0] + gamma3[0] - 1) > tolerance:
+        return None
     s = len(beta)
     first, second = np.zeros(s + 1), np.zeros(s + 1)
     first[s] = 1
@@ -222,8 +227,9 @@ def _of_sums(rows: Sequence[Floats], unit: float) -> tuple[Floats, Floats] | Non
         second = second + delta[i] * first
         stages.append(first[:s].copy())
         first = gamma1[i] * first + gamma2[i] * second
+        first[s] += gamma3[i]
         first[i] += beta[i]
-        if abs(first[s] - 1) > 1e-12 + 100 * unit:
+        if abs(first[s] - 1) > tolerance:
             return None
     return np.array(stages), first[:s]
 

@@ -241,3 +241,21 @@ def test_combinations_of_two_values_and_f() -> None:
     for old, new in (("2.0_rp/3.0_rp]", "1.0_rp/3.0_rp]"), ("3.0_rp/4.0_rp", "1.0_rp/4.0_rp")):
         others = [audit(x) for x in fortran.find(text.replace(old, new), "x")]
         assert not any(x is not None and (x.is_read or x.has_errors) for x in others)
+
+
+def test_five_rows_of_registers_with_names_of_their_own() -> None:
+    """γ₁, γ₂, γ₃, δ and β in any order, in arrays of a case; without γ₃ there is no method."""
+    names = {"gamma1": "rkg1", "gamma2": "rkg2", "gamma3": "rkg3", "delta": "rkd", "beta": "rkx"}
+    text = RANOCHA
+    for name, other in names.items():
+        text = text.replace(f"{name} = T", f"{other} = T")
+    text = text.split("return")[0].replace("RDPK3Sp35ConstantCache", "runge_kutta") + "end\n"
+    (found,) = (audit(x) for x in julia.find(text, "x"))
+    assert found is not None
+    assert found.order is not None
+    assert found.order.order == 3
+    wrong = [
+        audit(x)
+        for x in julia.find(text.replace("rkg3 = T[0, 0, 0, 2.7", "rkg3 = T[0, 0, 0, 1.7"), "x")
+    ]
+    assert not any(x is not None and (x.is_read or x.has_errors) for x in wrong)
