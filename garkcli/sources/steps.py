@@ -753,7 +753,10 @@ class Follower(Evaluator):
         inner.update(zip(names, map(copied, args), strict=True))
         self.followed.add(function.line)
         self._inlined += 1
+        # its loops have names of their own
+        spans, self._spans = self._spans, {}
         self._run(function.body, inner)
+        self._spans = spans
         self._inlined -= 1
         return inner.returned
 

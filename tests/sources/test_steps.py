@@ -706,3 +706,25 @@ def test_vector_fields_that_are_written_out(
     assert table.A == (((("0", "0"), ("1/2", "0")),),)
     assert (table.c[0] if nodes else ()) == nodes
     assert not any(x.b for x in find(text.replace(old, new), "x"))
+
+
+LAMBDA = """
+void rk2_step(State& y, double t, double dt) {
+  auto moved = [](const State& a, double s, const State& b) {
+    State r(a.size());
+    for (size_t i = 0; i < a.size(); i++) r[i] = a[i] + s*b[i];
+    return r;
+  };
+  State k1 = rhs(t, y);
+  State k2 = rhs(t + dt/2, moved(y, dt/2, k1));
+  for (size_t i = 0; i < y.size(); i++) y[i] += dt*k2[i];
+}
+"""
+
+
+def test_local_functions_of_cpp() -> None:
+    """A lambda of several statements, with a loop of its own."""
+    (table,) = c.find(LAMBDA, "x.cpp")
+    assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
+    wrong = LAMBDA.replace("a[i] + s*b[i]", "a[i] + b[i]")
+    assert not any(x.b for x in c.find(wrong, "x.cpp"))

@@ -252,6 +252,10 @@ class CLowering(Lowering):
             if initialiser is None and (not extents or each.type not in _DECLARED):
                 continue
             value = None if initialiser is None else self.expr(initialiser)
+            is_lambda = initialiser is not None and initialiser.type == "lambda_expression"
+            if initialiser and is_lambda and isinstance(value, ir.Opaque):
+                yield self._local_function(name, initialiser)
+                continue
             if (
                 initialiser
                 and initialiser.type == "argument_list"
@@ -444,6 +448,16 @@ class CLowering(Lowering):
             case (ir.Return(value),):
                 return ir.Lambda(parameters, value)
         return unmeant(node)
+
+    def _local_function(self, name: str, node: Node) -> ir.Scope:
+        """A lambda of several statements with its name."""
+        parameters = (
+            self._declared(each)[0]
+            for x in self.children(part(node, "declarator", "parameters"))
+            if (each := part(x, "declarator"))
+        )
+        body = self.block([part(node, "body")])
+        return ir.Scope("function", name, body, line_of(node), tuple(parameters))
 
     def _is_type(self, node: Node) -> bool:
         """Whether a name in parentheses is a type of declared variables."""
