@@ -9,6 +9,7 @@ that does not fit gives no table.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
@@ -877,12 +878,16 @@ def _steps_from(at: ir.Expr, counters: Sequence[str]) -> int | None:
 def _difference(x: Terms | None, y: Terms | None) -> str:
     """The name of the step between two times of an array, ``t[n + 1] - t[n]``; empty for others."""
     names = [next(iter(z))[0] for z in (x, y) if z and len(z) == 1 and len(next(iter(z))) == 1]
-    heads = [name.partition("@") for name in names]
-    if len(heads) != 2 or heads[0][0] != heads[1][0]:
+    heads = [match for name in names if (match := _AT_A_STEP.fullmatch(name))]
+    if len(heads) != 2 or heads[0]["head"] != heads[1]["head"]:
         return ""
-    is_next = int(heads[0][2] or 0) - int(heads[1][2] or 0) == 1
+    is_next = int(heads[0]["by"] or 0) - int(heads[1]["by"] or 0) == 1
     are_plain = all(z and _is_one(next(iter(z.values()))) for z in (x, y))
-    return f"step@{heads[0][0]}" if is_next and are_plain else ""
+    return f"step@{heads[0]['head']}" if is_next and are_plain else ""
+
+
+_AT_A_STEP = re.compile(r"(?P<head>.*?)(?:@(?P<by>-?[0-9]{1,6}))?")
+"""A value of an array at a step, ``t@1``."""
 
 
 def _symbols(forms: Iterable[Terms]) -> set[str]:

@@ -728,3 +728,19 @@ def test_local_functions_of_cpp() -> None:
     assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
     wrong = LAMBDA.replace("a[i] + s*b[i]", "a[i] + b[i]")
     assert not any(x.b for x in c.find(wrong, "x.cpp"))
+
+
+INDEXED = """
+def rk2(f, t, y, h):
+    for n in range(steps):
+        d = z[t[n - 1]] - z[t[n + 1]]
+        k = f(t[n], y[n])
+        l = f(t[n] + h/2, y[n] + h/2*k)
+        y[n + 1] = y[n] + h*l
+"""
+
+
+def test_entries_at_entries_are_no_steps() -> None:
+    """A difference of entries whose indices are entries, too, is not the step."""
+    (table,) = python.find(INDEXED, "x")
+    assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
