@@ -1,10 +1,7 @@
-"""Methods that use derivatives of f on problems: a step by its definition, and the orders that they
-show.
-"""
+"""Methods that use derivatives of f on problems: a step by its definition, and its evaluations."""
 
 from __future__ import annotations
 
-import pytest
 from flint import fmpq
 from mpmath import cos, mp, mpf, sin
 
@@ -12,7 +9,6 @@ from garkcli.api.runs import converge
 from garkcli.methodfile.load import load, loads
 from garkcli.problems.builtin import problem
 from garkcli.stepping.integrator import Stepper, bind
-from tests.whole import in_whole
 
 THREE = """\
 derivatives:
@@ -52,27 +48,6 @@ def test_a_step_by_its_definition() -> None:
         end = start + size * (one[0] + two[0]) / 2 + size**2 * (one[1] / 6 + two[1] / 2)
         end += size**3 * two[2] / 12
         assert abs(mpf(found.str(35, radius=False)) - end) < mpf(10) ** -28
-
-
-@pytest.mark.parametrize(
-    ("name", "on", "order"),
-    [
-        ("tdrk-4", None, 4),
-        ("tdrk-5", "lotka-volterra", 5),
-        ("obreshkov-6", "oscillator", 6),
-        ("hb-i2drk6", "logistic", 6),
-        pytest.param("tdrk-5", None, 5, marks=in_whole),
-        pytest.param("tdrk-4", "van-der-pol", 4, marks=in_whole),
-        pytest.param("obreshkov-6", "kepler", 6, marks=in_whole),
-    ],
-)
-def test_observed_orders(name: str, on: str | None, order: int) -> None:
-    """The errors fall with the order that gark check proves, no faster."""
-    found = converge(name, on)
-    assert found.verdict == "agree"
-    assert found.predicted_order == order
-    assert found.observed_order is not None
-    assert abs(found.observed_order - order) < 0.15
 
 
 def test_no_derivative_is_evaluated_in_vain() -> None:

@@ -1,10 +1,8 @@
-"""Nyström and nonlinearly partitioned methods on problems: their steps by their definitions, the
-orders that they show, and what they are not for.
+"""Nyström and nonlinearly partitioned methods on problems: their steps by their definitions, and
+what they are not for.
 """
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import pytest
 from flint import fmpq
@@ -17,9 +15,6 @@ from garkcli.errors import UsageProblem
 from garkcli.methodfile.load import load
 from garkcli.problems.builtin import problem
 from garkcli.stepping.integrator import Stepper, bind
-from tests.whole import in_whole
-
-ERRATA = Path(__file__).resolve().parents[1] / "examples" / "errata"
 
 
 def stepped_once(name: str, on: str, h: fmpq) -> list[mpf]:
@@ -60,32 +55,6 @@ def test_a_step_of_two_arguments() -> None:
         (found,) = stepped_once("imex-nprk-21", "logistic", fmpq(1, 4))
         y, h = mpf(1) / 10, mpf(1) / 4
         assert abs(found - (y - h * y**2) / (1 - h)) < mpf(10) ** -28
-
-
-@pytest.mark.parametrize(
-    ("name", "on", "order"),
-    [
-        ("fine-34", None, 4),
-        ("fine-34-misprint", None, 1),
-        (str(ERRATA / "tracker-rkng-56.gark.yaml"), None, 2),
-        ("nystrom-5-positions", "kepler", 5),
-        ("nystrom-4", "oscillator", 4),
-        ("imex-nprk-54sa", None, 3),
-        pytest.param("nystrom-4", "van-der-pol", 4, marks=in_whole),
-        pytest.param("fehlberg-rkng-56", None, 5, marks=in_whole),
-        pytest.param("sharp-fine-56", None, 6, marks=in_whole),
-        pytest.param("murua-5", None, 5, marks=in_whole),
-        pytest.param("imex-nprk-54si", None, 3, marks=in_whole),
-        pytest.param("imim-nprk-32b", "kepler", 2, marks=in_whole),
-    ],
-)
-def test_observed_orders(name: str, on: str | None, order: int) -> None:
-    """The errors fall with the order that gark check proves, no faster."""
-    found = converge(name, on)
-    assert found.verdict == "agree"
-    assert found.predicted_order == order
-    assert found.observed_order is not None
-    assert abs(found.observed_order - order) < 0.15
 
 
 @pytest.mark.parametrize(
