@@ -14,7 +14,7 @@ import click
 
 from garkcli.cli import streams
 from garkcli.cli.command import command_of, help_option
-from garkcli.cli.table import COMMANDS, current
+from garkcli.cli.table import COMMANDS, FORMER
 from garkcli.ending import Ended, at_once
 from garkcli.errors import GarkError, NotDecided, UsageProblem, counted
 from garkcli.files import noting_inputs
@@ -43,7 +43,10 @@ class _LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        args = current(args)
+        words = FORMER.get(args[0], args[:1])
+        if args[0] == "conjugate" and "--pair" in args:  # which took its place
+            words = words[:1]
+        args = [*words, *args[1:]]
         # a shell that asks what may follow hears of no mistakes
         is_run = not ctx.resilient_parsing
         is_word = args[0] == "-" or not args[0].startswith("-")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from garkcli.frozen import Frozen
 
 
@@ -237,10 +235,3 @@ FORMER = {
     "certificate": ("export", "--to", "certificate"),
 }
 """Former names of commands, which the help does not list, and the words they stand for."""
-
-
-def current(words: Sequence[str]) -> list[str]:
-    """The words of a command line with the former name of a command replaced."""
-    if words[0] == "conjugate" and "--pair" in words:
-        return ["tableau", *words[1:]]
-    return [*FORMER.get(words[0], words[:1]), *words[1:]]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
@@ -91,13 +91,9 @@ def missed_entries(
         block = tableau.blocks.get((k, m))
         found = (ZERO,) * len(row) if block is None else block[i]
         for j, (a, b) in enumerate(zip(found, row, strict=True)):
-            if not _is_close(a, b, 2 * tolerance):
+            if a != b and not (tolerance and within(a - b, 2 * tolerance)):
                 missed.append((m, j))
     return missed
-
-
-def _is_close(a: Number, b: Number, allowed: fmpq) -> bool:
-    return a == b or (bool(allowed) and within(a - b, allowed))
 
 
 def _is_stage(

@@ -61,9 +61,6 @@ class StageGraph(Frozen):
         found = {(space, fields) for (space, _), fields in self.fields.items()}
         return len(found) > len({space for space, _ in found})
 
-    def is_loop(self, vertex: Vertex) -> bool:
-        return vertex in self.successors[vertex]
-
 
 def spaces_that_matter(tableau: Tableau) -> set[int]:
     """The stage spaces with weights, and those that their stages see; no step depends on the
@@ -176,7 +173,7 @@ class Shape(Frozen):
 
 def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
-    alone = [found[0] for found in graph.systems if len(found) == 1 and graph.is_loop(found[0])]
+    alone = [x for x, *others in graph.systems if not others and x in graph.successors[x]]
     implicit = sum(map(len, together)) + len(alone) if graph.is_certain else None
     kind: Kind | None = None
     if together:

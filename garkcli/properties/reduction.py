@@ -62,7 +62,7 @@ def _once(tableau: Tableau, tolerance: fmpq) -> Tableau:
     kept = []
     for k, space in enumerate(tableau.spaces):
         kept.append([i for i in range(space.stages) if (k, i) in matters] or [0])
-    smaller = _without(tableau, kept)
+    smaller = _joined(tableau, [[[stage] for stage in stages] for stages in kept])
     return merged(_with_idle_stages_zero(smaller), tolerance)
 
 
@@ -147,11 +147,6 @@ def stages_that_matter(tableau: Tableau, tolerance: fmpq = ZERO) -> set[Vertex]:
 def _with_entries(space: int, row: Vector, tolerance: fmpq) -> set[Vertex]:
     """The stages of a space with nonzero entries in a row."""
     return {(space, j) for j, entry in enumerate(row) if is_nonzero(entry, tolerance)}
-
-
-def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
-    """The tableau with the kept stages of each space."""
-    return _joined(tableau, [[[stage] for stage in stages] for stages in kept])
 
 
 def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
