@@ -14,8 +14,8 @@ from garkcli.bridges.finding import EXPLAINED
 from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.bridges.subject import TableSubject, read
+from garkcli.check.culprit import misprints
 from garkcli.check.findings import misprint_text, witness_text
-from garkcli.check.misprint import misprints
 from garkcli.constructions.rosenbrock import seen
 from garkcli.errors import Remark
 from garkcli.exact.display import decimal, to_ball, to_float

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.check.analysis import Analysis, analyse, analyse_any, remark_of
 from garkcli.check.claims import verify
-from garkcli.check.culprit import culprit
-from garkcli.check.misprint import misprints
+from garkcli.check.culprit import culprit, misprints
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
 from garkcli.errors import (

@@ -1,15 +1,17 @@
-"""Polynomials and algebraic numbers as text and as data."""
+"""Polynomials, algebraic numbers and the letters of these as text and as data."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from flint import arb
+from flint import arb, fmpq, fmpz_poly
 
 from garkcli.exact.display import to_latex
 from garkcli.exact.field import Number
+from garkcli.exact.letters import LETTERS
 from garkcli.exact.multivariate import Multivariate
+from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.parametric import Parametric
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
@@ -19,6 +21,7 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
+from garkcli.exact.rewriting import PlainText
 from garkcli.exact.roots import RealRoot
 from garkcli.page.schema import TEXT, Schema, one_of
 
@@ -31,6 +34,8 @@ ROOT_OF: Schema = {
 """An algebraic number without simple radicals: a polynomial in x and a decimal."""
 ALGEBRAIC: Schema = one_of(TEXT, ROOT_OF)
 """The schema of ``root_data``."""
+DIGITS = 12
+"""Digits of the decimal behind a letter."""
 
 
 def polynomial_latex(p: Polynomial, variable: str) -> str:
@@ -91,3 +96,19 @@ def root_data(root: RealRoot, digits: int = 17) -> Any:
         return simple
     polynomial = polynomial_text(Polynomial.from_flint(root.polynomial), "x")
     return {"root_of": polynomial, "decimal": root_decimal(root, digits)}
+
+
+def decimal_of(root: AlgebraicRoot) -> str:
+    return root_decimal(RealRoot(fmpz_poly([*root.coefficients]), root.number), DIGITS)
+
+
+def definition(root: AlgebraicRoot, letter: str) -> str:
+    """``γ = root_of(6*x**3-18*x**2+9*x-1, 0.4358665215) = 0.435866521508…``."""
+    return f"{letter} = {PlainText().algebraic(root)} = {decimal_of(root)}…"
+
+
+def definition_latex(root: AlgebraicRoot, letter: str) -> str:
+    r"""``6\gamma ^{3}-18\gamma ^{2}+9\gamma -1 = 0``, with its decimal."""
+    command = LETTERS[letter]
+    polynomial = polynomial_latex(Polynomial([fmpq(a) for a in root.coefficients]), command)
+    return rf"{polynomial} = 0, \quad {command}\approx {decimal_of(root)}"

@@ -13,8 +13,7 @@ from garkcli.errors import GarkError, printable
 from garkcli.exact.polynomial_text import integral
 from garkcli.ntrees.drawing import draw_svg_sheet
 from garkcli.page.cells import remark
-from garkcli.page.exactly import polynomial_latex
-from garkcli.page.letters import definition, definition_latex
+from garkcli.page.exactly import definition, definition_latex, polynomial_latex
 from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
 from garkcli.tableau.letters import with_letters

@@ -501,7 +501,7 @@ class Plain(Mutable):
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:
         """A line for each letter of a root that is in the text."""
-        from garkcli.page.letters import definition
+        from garkcli.page.exactly import definition
 
         for root, letter in letters.items():
             if re.search(rf"(?<![A-Za-z]){self.spelt(letter)}(?![A-Za-z])", text):

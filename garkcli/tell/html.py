@@ -99,7 +99,7 @@ class Html(Plain):
         return [f"<p>… {count} more</p>"]
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:
-        from garkcli.page.letters import definition, definition_latex
+        from garkcli.page.exactly import definition, definition_latex
 
         for root, letter in letters.items():
             if letter in text or LETTERS[letter].strip() in text:

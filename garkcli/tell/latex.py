@@ -183,7 +183,7 @@ class Latex(Plain):
         yield ""
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:
-        from garkcli.page.letters import definition_latex
+        from garkcli.page.exactly import definition_latex
 
         for root, letter in letters.items():
             if LETTERS[letter].strip() in text:

@@ -12,7 +12,7 @@ from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.exact.display import to_latex
 from garkcli.exact.rewriting import decimal_latex
-from garkcli.page.letters import definition_latex
+from garkcli.page.exactly import definition_latex
 from garkcli.page.tableau_latex import displays
 from garkcli.tableau.letters import with_letters
 from garkcli.tableau.pointwise import Cell, Entries

@@ -12,7 +12,7 @@ from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.letters import letters_now
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import TableauLine, lines_of, parts_of, remark
-from garkcli.page.letters import definition, definition_latex
+from garkcli.page.exactly import definition, definition_latex
 from garkcli.page.tableau_latex import dense_polynomials
 from garkcli.page.tableau_text import readable
 from garkcli.report.tableau import OF_POSITIONS, shown_parts
