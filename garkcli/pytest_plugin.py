@@ -139,6 +139,8 @@ class GarkItem(pytest.Item):
         super().__init__(**settings)
         self.place = place
         self.is_first = is_first
+        # plugins such as pytest-lsp ask each item for the values of its fixtures
+        self.funcargs: dict[str, object] = {}
 
     def runtest(self) -> None:
         """Checks the claim; skips it if it is undecided.

@@ -13,7 +13,7 @@ from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.parametric import Parametric
 from garkcli.exact.rewriting import decimal_latex
 
-_LONG_DENOMINATOR = 10000
+_LONG_DENOMINATOR = 1000
 _SMALL = fmpq(1, 1000)
 
 BITS_OF_A_DIGIT = 3.33

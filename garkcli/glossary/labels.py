@@ -15,7 +15,7 @@ LABELS = {
     "p_stable": "P-stable",
     "i_stable": "I-stable",
     "conserved": "conserved form",
-    "degenerate": "in floats with no method near",
+    "degenerate": "not refined to a method",
     "unstable": "not shown to be stable",
     "discriminant": "4D² − N²",
     "e_polynomial": "E(x), x = y²",

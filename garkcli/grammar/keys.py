@@ -103,7 +103,7 @@ class Key(Frozen):
         if self.is_listed:
             yield KeyMeaning(path, self.text, self.line, self.default, own, self.is_word)
         for key in self.kind.inside():
-            yield from key.entries(f"{path}.", page)
+            yield from key.entries(f"{path}.", own)
 
 
 class ReadMapping(dict[str, Any]):

@@ -157,7 +157,13 @@ def _line(text: str, sign: str) -> _PastedLine:
 
 
 def _with_nodes(lines: list[_PastedLine]) -> Pasted:
-    """Reads lines with bars: stages have a node before the bar, weights have none."""
+    """Reads lines with bars: stages have a node before the bar, weights have none.
+
+    The first stage of an explicit method may be its node 0 alone.
+    """
+    first = lines[0]
+    if first.node is None and len(first.row) == 1 and not first.row[0].strip("0."):
+        lines = [_PastedLine(first.row[0], ()), *lines[1:]]
     nodes = tuple(takewhile(bool, (line.node or "" for line in lines)))
     rows = [line.row for line in lines]
     return _made(rows[: len(nodes)], rows[len(nodes) :], nodes)

@@ -77,6 +77,9 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         if table.is_read and table.order is not None and order is not None:
             holders[id(order)] = frozenset().union(*by_role.values())
     for reading in readings_of(finder.groups, source.fellows(read_off)):
+        # what a table of names has is not idle beside another one
+        idle = (x for x in reading.idle if not source.numbers((x,)) <= everywhere)
+        reading = replace(reading, idle=tuple(idle))
         numbers = source.numbers(reading.used)
         about = [i for i, x in enumerate(numbers_of_tables) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].is_read]

@@ -195,6 +195,13 @@ def test_what_is_idle_is_told(tmp_path: Path) -> None:
     assert [(x.code, x.level) for x in found.findings] == [("stored", "note"), ("idle", "warning")]
 
 
+def test_nodes_of_another_table_are_not_idle(tmp_path: Path) -> None:
+    """Registers beside a table that names tell, whose nodes are not theirs."""
+    text = "x_A = [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]\nx_b = [1/6, 1/6, 2/3]\nx_c = [0, 1, 1/2]\n"
+    found = found_in(tmp_path, text + "w_a = [0, -5/9, -153/128]\nw_b = [1/3, 15/16, 8/15]\n")
+    assert [[x.code for x in each.findings] for each in found] == [[], ["stored"]]
+
+
 def test_a_first_stage_at_another_time_is_meant(tmp_path: Path) -> None:
     """Oliver's method of order 5 begins at the node 2/3, which costs nothing: a note."""
     rows = [

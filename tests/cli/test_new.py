@@ -106,10 +106,11 @@ def test_a_tableau_in_latex() -> None:
         "0\t\t\n1/2\t1/2\t\n1\t−1\t2\n\t1/6\t2/3\t1/6",
         "0,,,\n1/2,1/2,,\n1,-1,2,\n,1/6,2/3,1/6\n",
         "0 | \n½ | ½\n1 | −1 2\n--+--\n | 1/6 2/3 1⁄6",
+        "0\n1/2 | 1/2\n1 | -1 2\n | 1/6 2/3 1/6",
         r"""\begin{array}{c|ccc} 0 & & & \\ \frac12 & \frac{1}{2} & & \\
         $1$ & -1 & 2 \\[1ex] \hline & \dfrac{1}{6} & \frac{2}{3} & 1/6 \end{array}""",
     ],
-    ids=["page", "spreadsheet", "book", "latex"],
+    ids=["page", "spreadsheet", "book", "bare", "latex"],
 )
 def test_a_tableau_from_elsewhere(text: str) -> None:
     """Kutta's method off a page, a spreadsheet, a book and a paper."""
@@ -159,6 +160,7 @@ def test_families(tmp_path: Path) -> None:
         (["--tableau", "[[0,0],[1/2,0]] [0,1]"], "in brackets belongs"),
         (["--tableau", "0 |; 0,5 | 0,5; | 0 1"], "with a point: 0.5"),
         (["--tableau", "0 | 0;1 | 1"], "no line of weights"),
+        (["--tableau", "1;1/2 | 1/2; | 0 1"], "no line of weights"),
         (["--tableau", "0 | 0 1;| 1"], "row 1 has 2 entries"),
         (["--tableau", "0 | 0;| 1 2"], "2 weights for 1 stage"),
         (["--tableau", "0 | 0;|1;|1;|1"], "3 lines follow"),

@@ -92,7 +92,8 @@ def _ends(x: Fraction) -> bool:
 
 
 def test_long_fractions_are_decimals_if_these_are_shorter() -> None:
-    """From denominators of 10 000 on, and in powers of ten below a thousandth."""
+    """From denominators of 1000 on, and in powers of ten below a thousandth."""
+    assert (shortest(fmpq(109, 250)), shortest(fmpq(-2417, 2000))) == ("109/250", "-1.2085")
     assert shortest(fmpq(1, 8192)) == "1/8192"
     assert shortest(fmpq(9999, 10000)) == "0.9999"
     assert shortest(fmpq(-1, 10**9)) == "-1e-9"

@@ -102,6 +102,13 @@ def test_each_claim_is_a_test(project: pytest.Pytester) -> None:
     assert "pytest_plugin.py" not in text
 
 
+def test_plugins_find_no_values_of_fixtures(project: pytest.Pytester) -> None:
+    """Some, such as pytest-lsp, fail items without ``funcargs``."""
+    hook = "import pytest\n\n@pytest.hookimpl\ndef pytest_runtest_call(item):\n"
+    project.makeconftest(hook + "    assert item.funcargs == {}\n")
+    assert outcomes(run(project, "methods/good.gark.yaml")) == {"passed": 2}
+
+
 def test_an_undecided_claim_is_skipped_with_its_reason(project: pytest.Pytester) -> None:
     """It neither passes nor fails; the claim beside it is judged."""
     path = project.path / "open.gark.yaml"
