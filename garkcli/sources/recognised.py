@@ -182,7 +182,9 @@ class _Source:
             assembled = table_of(Meant(empty, rows, _FORMS[reading.form], "numbers"))
         except NoTable:
             return None
-        return None if assembled.trouble else replace(assembled, how=how, is_recognised=True)
+        if assembled.trouble:
+            return None
+        return replace(assembled, order=order, how=how, is_recognised=True)
 
     def _of_rk(self, reading: Reading, empty: FoundTable) -> FoundTable:
         rows = reading.rows

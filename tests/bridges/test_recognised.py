@@ -202,6 +202,15 @@ def test_nodes_of_another_table_are_not_idle(tmp_path: Path) -> None:
     assert [[x.code for x in each.findings] for each in found] == [[], ["stored"]]
 
 
+@pytest.mark.parametrize("declared", [3, 4])
+def test_an_order_beside_registers_is_declared(tmp_path: Path, declared: int) -> None:
+    """Williamson's method of order 3: the declared order is compared."""
+    text = f"w_order = {declared}\nw_a = [0, -5/9, -153/128]\nw_b = [1/3, 15/16, 8/15]\n"
+    (found,) = found_in(tmp_path, text)
+    assert found.table.order == declared
+    assert ("order" in [x.code for x in found.findings]) == (declared > 3)
+
+
 def test_a_first_stage_at_another_time_is_meant(tmp_path: Path) -> None:
     """Oliver's method of order 5 begins at the node 2/3, which costs nothing: a note."""
     rows = [
