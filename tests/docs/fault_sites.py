@@ -128,8 +128,12 @@ def sites() -> list[Site]:
         for node in file.around:
             assert isinstance(node, ast.Call)
             place = _message_place(node)
-            is_finding = file.path in FINDINGS and _name(node.func) == "Remark"
-            if place is None or is_finding:
+            name = _name(node.func)
+            is_finding = file.path in FINDINGS and name == "Remark"
+            is_of_others = name == "__init__" and not _is_error(
+                file.owner.get(file.around[node], "")
+            )
+            if place is None or is_finding or is_of_others:
                 continue
             message = _argument(node, place, "message")
             if message is None:
@@ -149,6 +153,14 @@ def _code(call: ast.Call, file: _File) -> str:
             return DECLARED[name][1]
         return _code_of_class(file.owner.get(file.around[call], name) if name in METHODS else name)
     return str(said.value) if isinstance(said, ast.Constant) else HOLE
+
+
+def _is_error(name: str) -> bool:
+    """Whether a class of the package is an exception."""
+    definition = _classes().get(name)
+    if definition is None:
+        return name.endswith(("Error", "Exception"))
+    return any(_is_error(_name(base)) for base in definition.bases)
 
 
 def _code_of_class(name: str) -> str:
