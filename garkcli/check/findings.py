@@ -269,7 +269,7 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
 
 
 def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
-    """The number of conditions that fail, and the blocks in all or in none of them."""
+    """The number of failing conditions, and the blocks in all or in none of them."""
     names = blame.names or own
     letter = "Â" if blame.of == "conjugate-order" else "A"
     verb = "fails" if blame.failing == 1 else "fail"

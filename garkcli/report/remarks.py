@@ -55,12 +55,14 @@ FAILURE: Section[FailedRun] = Section(
 
 
 def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """Remarks with their levels and codes, cures below. A hint is its own cure."""
+    """Remarks with their levels and codes, cures below. A usual report has hints alone, which say
+    what to change.
+    """
     found: list[tuple[str, str]] = []
     for x in remarks:
         level = d.bad(x.level) if x.level == "error" else d.note(x.level)
         message = d.reason(x.reason) if isinstance(x, Aside) else d.prose(x.message)
-        if x.level == "hint":
+        if x.level == "hint" and d.is_brief:
             found.append((level, message))
             continue
         found.append((level, f"{message} ({x.code})"))

@@ -280,7 +280,9 @@ def other() -> Outcome:
 
 
 def test_text_has_every_finding_once(example: Example) -> None:
-    """One file and several, with code and level or with a label, and with the cure; a hint is one."""
+    """One file and several, with code and level or with a label, and with the cure; a hint has them
+    with -v.
+    """
     alone, short = LABELS.get(example.finding.rule, (example.remark.code, example.remark.code))
     one, several = example.text("text"), example.text("text", other())
     assert (alone in one, short in several) == (True, True)
@@ -288,6 +290,9 @@ def test_text_has_every_finding_once(example: Example) -> None:
         assert text.count(example.begin) == (example.finding.rule != "no-claim")  # its label
         assert example.remark.help in text or example.is_hint
         assert example.finding.rule in LABELS or example.remark.level in text
+    if example.is_hint:
+        whole = words(FORMATS["text"]([example.outcome], Look(), 1, None, 80))
+        assert f"({example.remark.code}) help {example.remark.help}" in whole
 
 
 def test_markdown_has_every_finding(example: Example) -> None:
@@ -308,6 +313,7 @@ def test_latex_and_the_page_have_every_finding(example: Example) -> None:
     """Claims have a table of their own in the page."""
     label, _ = LABELS.get(example.finding.rule, (example.remark.code, ""))
     assert label in example.text("latex")
+    assert f"({example.remark.code})" in example.text("latex") or example.finding.rule in SIGNS
     page = render([reported(example.outcome.file, None, has_pictures=False)])
     assert SIGNS.get(example.finding.rule, f">{example.remark.code}</span>") in page
 
