@@ -299,6 +299,33 @@ def test_finitely_many() -> None:
     assert (minimum.extent, minimum.candidates) == ("all", 2)
 
 
+def test_the_error_is_the_same_for_every_embedded_weight() -> None:
+    """One of the SDIRK methods of order 3 with equal weights is found, whatever its free embedded
+    weight: that with γ = 1/2 − √3/6, by the four trees of order 4.
+    """
+    entries = "A: [[g, 0], [h, g]]\nb: [1/2, 1/2]\nembedded: [t, 1 - t]\n"
+    text = "parameters: {g: {free: true}, h: {free: true}, t: {free: true}}\n" + entries
+
+    def error(sign: int) -> float:
+        g, h = 0.5 + sign * 3**0.5 / 6, -sign / 3**0.5
+        A, b = np.array([[g, 0], [h, g]]), np.array([0.5, 0.5])
+        c = A @ np.ones(2)
+        found = [
+            (b @ c**3 - 1 / 4) / 6,
+            b @ (c * (A @ c)) - 1 / 8,
+            (b @ A @ c**2 - 1 / 12) / 2,
+            b @ A @ A @ c - 1 / 24,
+        ]
+        return float(sum(x * x for x in found))
+
+    minimum = least(text, "error", 3)
+    [candidate] = minimum.minimisers
+    assert floats(minimum, candidate)["g"] == pytest.approx(0.5 - 3**0.5 / 6)
+    assert minimum.value is not None
+    assert error(-1) < error(1)
+    assert float(minimum.value.ball(80)) == pytest.approx(error(-1))
+
+
 def test_zero_is_least() -> None:
     """Three midpoint rules: the error of order 3 is zero at the triple jump, b_1 = 1/(2 − ∛2)."""
     text = "unknown: {stages: 3, shape: [symplectic-dirk, palindromic]}\n"
