@@ -18,7 +18,7 @@ from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import value_of
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided, TooManyTerms
-from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
+from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
@@ -208,21 +208,20 @@ def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
     return None
 
 
-def values_on(part: Part, name: str) -> tuple[Interval, ...] | None:
-    """The values of a coordinate allowed by the equation in it alone; None if all are."""
+def values_on(
+    part: Part, name: str, not_negative: Sequence[Polynomial] = ()
+) -> tuple[Interval, ...] | None:
+    """The values of a free coordinate allowed by the sets of a part and by polynomials in it that
+    are not negative; None without such conditions.
+    """
     sets = [x for key, x in part.sets if key == name]
-    equation = what_is_asked(part, name)
-    zero = None if equation is None else in_one(equation)
-    if zero is None and not sets:
+    if not sets and not not_negative:
         return None
-    critical = [p for x in sets for p in ends_of(x)]
-    if zero is not None:
-        critical.append(zero)
 
-    def is_allowed(t: Any) -> bool:
-        return all(has(x, t) for x in sets) and (zero is None or sign_of(zero, t) == 0)
+    def is_allowed(t: Point) -> bool:
+        return all(has(x, t) for x in sets) and all(sign_of(p, t) >= 0 for p in not_negative)
 
-    return where(is_allowed, critical)
+    return where(is_allowed, [*not_negative, *(p for x in sets for p in ends_of(x))])
 
 
 class RationalChart(Frozen):

@@ -25,8 +25,12 @@ from garkcli.design.parts import (
     values_on,
     what_is_asked,
 )
+from garkcli.exact.cells import Interval
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parameters, evaluated, fraction
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot
+from garkcli.frozen import replace
 from garkcli.methodfile.family import loads_family
 from tests.whole import at_most
 
@@ -161,19 +165,20 @@ def test_curves_and_surfaces_in_parts(
 
 
 def test_one_coordinate_of_a_part() -> None:
-    """The equation in it alone, and its values, within sets too."""
+    """The equation in it alone, and its values; those of a free one within sets."""
     [part] = parts_of(Ideal(RING).with_zeros([X**2 - 2, Z - X * Y]), kept=("y",))
     equation = what_is_asked(part, "x")
     assert equation is not None
     assert str(equation) == "x^2 - 2"
     assert what_is_asked(part, "y") is None
     assert values_on(part, "y") is None
-    found = values_on(part, "x")
-    assert found is not None
-    assert [float(x.start or 0) for x in found] == pytest.approx([-(2**0.5), 2**0.5])
-    assert all(x.is_point for x in found)
+    one, two = (RealRoot.rational(fmpq(k)) for k in (1, 2))
+    within = replace(part, sets=(("y", (Interval(None, two),)), ("z", (Interval(None, one),))))
+    at_least_one = Polynomial([fmpq(-1), fmpq(1)])
+    assert values_on(within, "y", [at_least_one]) == (Interval(one, two, has_start=True),)
     charts_of_both = charts(part)
     assert [chart.index for chart in charts_of_both] == [0, 1]
+    assert [float(chart.root) for chart in charts_of_both] == pytest.approx([-(2**0.5), 2**0.5])
     assert all(chart.names == ("y",) for chart in charts_of_both)
     assert charts(next(parts_of(Ideal(RING).with_zeros([X**2 + Y**2 - 3])))) == []
 

@@ -18,14 +18,14 @@ from garkcli.design.minimise.comparison import Minimisation
 from garkcli.design.minimise.line import on_line
 from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.result import Candidate, Extent, ObjectiveLimit, Proof
-from garkcli.design.parts import Part, RationalChart, at_root, charts, parts_within
+from garkcli.design.parts import Part, RationalChart, at_root, charts, parts_within, values_on
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import System, as_float, in_decimals, polynomial_functions
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.steps import Found
 from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
-from garkcli.exact.cells import Interval, Point, between, ends_of, has, sign_of, where
+from garkcli.exact.cells import Interval, between, sign_of
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.parametric import Parameters, fraction, unknowns_of
 from garkcli.exact.polynomial import in_one
@@ -60,19 +60,6 @@ def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> li
         numerator.derivative(i) * denominator - numerator * denominator.derivative(i)
         for i in range(size)
     ]
-
-
-def is_convex(p: fmpq_mpoly) -> bool:
-    """Whether a polynomial is quadratic and convex: the signs of the characteristic polynomial of
-    its second derivatives alternate.
-    """
-    if p.total_degree() > 2:
-        return False
-    size = p.context().nvars()
-    rows = [[p.derivative(i).derivative(j) for j in range(size)] for i in range(size)]
-    second = fmpq_mat([[x.leading_coefficient() if x else fmpq(0) for x in row] for row in rows])
-    signs = second.charpoly().coeffs()[::-1]
-    return all(a * (-1) ** k >= 0 for k, a in enumerate(signs))
 
 
 def is_of_one_dimension(part: Part) -> bool:
@@ -188,8 +175,6 @@ GLANCE = 0.1
 """The share of the time for a proof that a part has nothing better."""
 MOST_COORDINATES = 4
 """Most coordinates for which the objective is expanded as a function."""
-SHORT = 64
-"""Most bits of a rational value that serves as a bound itself."""
 
 
 def _larger_first(a: Size, b: Size) -> int:
@@ -197,21 +182,6 @@ def _larger_first(a: Size, b: Size) -> int:
     assert a is not None
     assert b is not None
     return (a < b) - (b < a)
-
-
-def _is_short(best: RealRoot) -> bool:
-    value = best.exact
-    return value is not None and int(value.height_bits()) <= SHORT
-
-
-def _bound(best: RealRoot) -> fmpq:
-    """A short value itself, else a short number below it by at most ``SLACK`` of it."""
-    if best.exact is not None and _is_short(best):
-        return best.exact
-    about = midpoint(best.ball(SHORT))
-    low = RealRoot.rational(about * (1 - SLACK))
-    high = RealRoot.rational(about * (1 - SLACK / 2))
-    return between(low, high)
 
 
 class Smallest(Minimisation):
@@ -232,7 +202,7 @@ class Smallest(Minimisation):
             return "all"
         if not all(self._is_bounded(part, best) for part in self.parts):
             return self.extent
-        return "all" if _is_short(best) else "nearly"
+        return "all" if self._is_sharp(best) else "nearly"
 
     @property
     def _is_coercive(self) -> bool:
@@ -248,26 +218,25 @@ class Smallest(Minimisation):
         family = self.design.family
         return not (self.step.nonzero or family.positive or family.stable or family.radicals)
 
-    def _is_convex(self, part: Part) -> bool:
-        """Whether a part is a whole space on which the value is a convex quadratic polynomial: then
-        its critical points have the least value.
-        """
-        if not (self._is_closed and part.is_free) or part.nonzero or part.sets:
-            return False
-        if any(True for _ in not_negative(self.design.family)):
-            return False
-        numerator, denominator = self._formula(part)
-        return denominator.is_constant() and is_convex(
-            numerator / denominator.leading_coefficient()
-        )
-
     def _is_bounded(self, part: Part, best: RealRoot) -> bool:
         """Whether no method of a part has a smaller value, up to rounding for irrational ones."""
         if part.dimension == 0 or (part.is_free and part.dimension == 1):
             return self.is_settled(part)
-        if self.extent == "critical-points" and self._is_convex(part):
-            return True
-        return self._is_above(part, _bound(best))
+        return self._is_above(part, self._bound(best))
+
+    def _is_sharp(self, best: RealRoot) -> bool:
+        """Whether a value is rational, and that of a critical point or a limit itself."""
+        sharp = [x.value for x in self.candidates if x.proof == "exact"]
+        return best.exact is not None and best in [*sharp, *(x.value for x in self.limits)]
+
+    def _bound(self, best: RealRoot) -> fmpq:
+        """A rational value itself, else a short number below it by at most ``SLACK`` of it."""
+        if best.exact is not None and self._is_sharp(best):
+            return best.exact
+        about = midpoint(best.ball(BITS))
+        low = RealRoot.rational(about * (1 - SLACK))
+        high = RealRoot.rational(about * (1 - SLACK / 2))
+        return between(low, high)
 
     def is_worse(self, part: Part) -> bool:
         values = [x.value for x in self.candidates]
@@ -276,7 +245,7 @@ class Smallest(Minimisation):
         best = cast("RealRoot", self.best(values))
         left = seconds_left()
         with suppress(NotDecided), within(None if left is None else GLANCE * left):
-            return self._is_above(part, midpoint(best.ball(SHORT)) * (1 + SLACK))
+            return self._is_above(part, self._bound(best) * (1 + 3 * SLACK))
         return False
 
     def _is_above(self, part: Part, bound: fmpq) -> bool:
@@ -298,17 +267,10 @@ class Smallest(Minimisation):
     def _allowed(self, part: Part, place: int) -> tuple[Interval, ...] | None:
         """The values of a free coordinate by the conditions on it alone; None if there are none."""
         family = self.design.family
-        sets = [x for name, x in part.sets if name == part.ring.names[place]]
         ends = (part.expressed(p, family.ring) for p in not_negative(family))
         signs = [sign_polynomial(x, part.ring) for x in ends]
         alone = [in_one(p, place) for p in signs if unknowns_of(p) == [place]]
-        if not sets and not alone:
-            return None
-
-        def holds(t: Point) -> bool:
-            return all(has(x, t) for x in sets) and all(sign_of(p, t) >= 0 for p in alone)
-
-        return where(holds, [*alone, *(p for x in sets for p in ends_of(x))])
+        return values_on(part, part.ring.names[place], alone)
 
     def _is_bounded_on(self, part: Part, chart: RationalChart, above: fmpq_mpoly) -> bool:
         """Whether a polynomial is nowhere negative at the methods of a chart."""
