@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import takewhile
+from pathlib import PurePath
 
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.errors import UsageProblem
 from garkcli.sources.found import FoundTable
 
+MAX_SOUGHT = 5_000_000
+"""Most characters of other sources in which constants of one source are sought, near ones first."""
 MAX_ROUNDS = 6
 """Most times a source is read again: constants are made of others."""
 _UNKNOWN = re.compile(r"the name (?P<name>\w{2,40}), line [0-9]+, is not known")
@@ -42,19 +46,28 @@ def _constants(names: Collection[str], source: str, others: Sequence[str]) -> Ma
     """The values of constants by their names in lower case."""
     pattern = _DECLARED.format(names="|".join(map(re.escape, sorted(names))))
     declared = re.compile(pattern, re.MULTILINE | re.IGNORECASE)
-    readers = readers_for(source)
+    readers, left = readers_for(source), MAX_SOUGHT
     found: dict[str, set[str]] = {}
-    for path in others:
+    for path in sorted(others, key=lambda x: -_shared(x, source)):
         if path == source or readers_for(path) != readers:
             continue
         try:
             text, _ = source_text(path)
         except UsageProblem:
             continue
+        left -= len(text)
+        if left < 0:
+            break
         if any(name.lower() in text.lower() for name in names):
             for name, value in _declared_in(text, declared):
                 found.setdefault(name, set()).add(value)
     return {name: values.pop() for name, values in found.items() if len(values) == 1}
+
+
+def _shared(path: str, source: str) -> int:
+    """The number of folders that two sources share."""
+    pairs = zip(PurePath(path).parts, PurePath(source).parts, strict=False)
+    return sum(1 for _ in takewhile(lambda x: x[0] == x[1], pairs))
 
 
 def _declared_in(text: str, declared: re.Pattern[str]) -> Iterator[tuple[str, str]]:
