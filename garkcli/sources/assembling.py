@@ -300,6 +300,7 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         if own_weights is None and meant.signature.has_default_weights:
             own_weights = _square(roles, "A", stages)[-1]
         b = _row(roles, "b") if own_weights is None else own_weights
+        roles = _without_later_stages(roles)
         if stages and len(b) != stages:
             raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
         if meant.maker and _has_weights(roles):
@@ -326,6 +327,8 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     return replace(table, dense=(rows_of(plain(rows)),))
 
 
+NEAR_ENTRIES = 1e-12
+"""Entries that differ by less are equal."""
 BESIDE = {"c": "nodes are", "embedded": "embedded weights are", "error": "error weights are"}
 """Arrays that a table may lack."""
 
@@ -338,6 +341,24 @@ def not_read(roles: Roles) -> tuple[str, ...]:
         for role, x in unknown.items()
         if x and x.reason != "never assigned" and not x.reason.startswith("the argument")
     )
+
+
+def _without_later_stages(roles: Roles) -> Roles:
+    """Leaves out the stages of dense output: the first of them begins where the step ends, so its
+    row has the weights.
+    """
+    rows, b, c = ([*items_of(roles.get(x))] for x in ("A", "b", "c"))
+    low = max(len(items_of(roles.get(x))) for x in ("embedded", "error"))
+    if not max(1, low - 1) < len(b) < len(rows) == len(c):
+        return roles
+    end = [*items_of(rows[len(b)])][: len(b)]
+    if not all(isinstance(x, Number) for x in (*b, *end)):
+        return roles
+    differences = [abs(near(x) - near(y)) for x, y in zip(b, end, strict=False)]
+    if len(end) < len(b) or max(differences) > NEAR_ENTRIES:
+        return roles
+    leading = [Array([*items_of(row)][: len(b)]) for row in rows[: len(b)]]
+    return {**roles, "A": Array([*leading]), "c": Array(c[: len(b)])}
 
 
 def _with_both_rows(roles: Roles) -> Roles:

@@ -762,3 +762,25 @@ def test_a_matrix_of_zeros_has_no_nodes() -> None:
     (euler,) = (audit(x) for x in python.find(f"{text}    c = [0, 0]\n", "x"))
     assert euler is not None
     assert euler.has_errors
+
+
+LATER = """
+class RungeKutta4:
+    A = zeros((6, 6))
+    A[1, 0] = A[2, 1] = 1/2
+    A[3, 2] = 1
+    A[4, :4] = [1/6, 1/3, 1/3, 1/6]
+    A[5, 0] = 1/4
+    b = A[4, :4]
+    c = [0, 1/2, 1/2, 1, 1, 1/4]
+"""
+
+
+def test_stages_of_dense_output_are_left_out() -> None:
+    """The first of them begins at the end of the step; otherwise the arrays do not fit."""
+    (found,) = (audit(x) for x in python.find(LATER, "x.py"))
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.table.stages, found.has_errors) == (4, 4, False)
+    wrong = LATER.replace("b = A[4, :4]", "b = [1/6, 1/3, 1/3, 1/3]")
+    assert any(x.trouble for x in python.find(wrong, "x.py"))
