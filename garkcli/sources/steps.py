@@ -88,16 +88,15 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     Raises:
         NoStep: there is none.
     """
-    try:
-        return _steps_with_calls(body, space, like, is_function)
-    except NoStep:
-        other = with_functions(body)
-        if other is None:
-            raise
-    try:
-        return _steps_with_calls(other, space, like, is_function)
-    except NoStep as error:
-        raise NoStep(error.looks_like) from None
+    looks_like = False
+    for has_increments in (None, False, True):
+        each = body if has_increments is None else with_functions(body, has_increments)
+        try:
+            if each is not None:
+                return _steps_with_calls(each, space, like, is_function)
+        except NoStep as error:
+            looks_like |= error.looks_like
+    raise NoStep(looks_like)
 
 
 def _steps_with_calls(

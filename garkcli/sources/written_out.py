@@ -19,8 +19,13 @@ Values = Mapping[int, ir.Expr]
 """Values of assignments by the identities of these."""
 
 
-def with_functions(body: ir.Body) -> ir.Body | None:
-    """Statements with calls in place of expressions of a family; None if there is no family."""
+def with_functions(body: ir.Body, has_increments: bool) -> ir.Body | None:
+    """Statements with calls in place of expressions of a family; None if there is no family.
+
+    Args:
+        body: the statements.
+        has_increments: whether the first factor of all expressions is the step.
+    """
     values: dict[int, ir.Expr] = {}
     families: dict[tuple[str, str], list[ir.Assign]] = defaultdict(list)
     for x in ir.statements(body):
@@ -31,7 +36,8 @@ def with_functions(body: ir.Body) -> ir.Body | None:
     for (head, tail), members in families.items():
         names = [x.target for x in members]
         if 1 < len(members) == len({*names}):
-            calls = _calls(f"{head}{tail}", [x.value for x in members if x.value is not None])
+            expressions = [x.value for x in members if x.value is not None]
+            calls = _calls(f"{head}{tail}", expressions, has_increments)
             values |= {id(x): call for x, call in zip(members, calls, strict=False)}
     return _replaced(body, values) if values else None
 
@@ -50,17 +56,13 @@ def _replaced(body: Iterable[ir.Statement], values: Values) -> ir.Body:
     return tuple(made)
 
 
-def _calls(name: str, values: Sequence[ir.Expr]) -> list[ir.Expr]:
-    """Expressions as calls of one function; empty if they are none. A name that multiplies all of
-    them stays in front, unless it is in an argument: it is the step.
-    """
+def _calls(name: str, values: Sequence[ir.Expr], has_increments: bool) -> list[ir.Expr]:
+    """Expressions as calls of one function, perhaps times the step; empty if they are none."""
     inner, step = [*values], None
     match values[0]:
-        case ir.Binary("*", ir.Name() as factor, _):
+        case ir.Binary("*", ir.Name() as factor, _) if has_increments:
             if all(isinstance(x, ir.Binary) and x.left == factor for x in values):
-                rest = [x.right for x in values if isinstance(x, ir.Binary)]
-                if not any(_is_factor(factor, at) for at in _arguments(rest)):
-                    inner, step = rest, factor
+                inner, step = [x.right for x in values if isinstance(x, ir.Binary)], factor
     arguments = [*_arguments(inner)]
     differing = [x for each in arguments for value in each for x in ir.inside(value)]
     if any(isinstance(x, ir.Call) for x in (*inner, *differing)):
@@ -75,18 +77,6 @@ def _calls(name: str, values: Sequence[ir.Expr]) -> list[ir.Expr]:
 
 def _is_sum(value: ir.Expr) -> bool:
     return any(isinstance(x, ir.Binary) and x.sign.endswith(("+", "-")) for x in ir.inside(value))
-
-
-def _is_factor(name: ir.Name, values: Sequence[ir.Expr]) -> bool:
-    """Whether a name multiplies another one in some values, ``x + h/2*k1``."""
-    return any(
-        isinstance(x, ir.Binary)
-        and x.sign == "*"
-        and name in ir.inside(x)
-        and sum(isinstance(y, ir.Name) for y in ir.inside(x)) > 1
-        for value in values
-        for x in ir.inside(value)
-    )
 
 
 def _arguments(values: Sequence[ir.Expr]) -> Iterator[Sequence[ir.Expr]]:

@@ -680,6 +680,12 @@ def step(x, v, h):
     k2v = -g*sin(x + 0.5*h*k1x)
     return x + h*k2x, v + h*k2v
 """
+GROWTH = """
+def step(x, t, h):
+    k1 = r*(x + t)
+    k2 = r*((x + h/2*k1) + (t + h/2))
+    return x + h*k2
+"""
 DECAY = """
 void step(double &x, double t, double h) {
   double k1 = h * (-2.0*x + t);
@@ -694,6 +700,7 @@ void step(double &x, double t, double h) {
     [
         (python.find, PENDULUM, (), "sin(x + 0.5*h*k1x)", "cos(x + 0.5*h*k1x)"),
         (python.find, PENDULUM, (), "v + 0.5*h*k1v", "v + 0.5*h*k1x"),
+        (python.find, GROWTH, ("0", "1/2"), "k2 = r*", "k2 = r/"),
         (c.find, DECAY, ("0", "1/2"), "0.5*k1) +", "0.5*k1) -"),
     ],
 )
