@@ -113,7 +113,7 @@ def conditions(
     [('[[],[]]', 1/2, 1/6), ('[[[]]]', 0, -1/6)]
     """
     method, known_as = meant_of(method, tolerance, is_any_kind=True)
-    if isinstance(trees, (str, Tree)):
+    if isinstance(trees, (str, Tree)) or not isinstance(trees, Iterable):
         trees = [trees]
     return by_tree.conditions(known_as, (_fitting(tree, method.tableau) for tree in trees))
 

@@ -102,8 +102,9 @@ class Key(Frozen):
         path, own = above + self.name, self.page or page
         if self.is_listed:
             yield KeyMeaning(path, self.text, self.line, self.default, own, self.is_word)
+        inside = own.partition("#")[0]
         for key in self.kind.inside():
-            yield from key.entries(f"{path}.", own)
+            yield from key.entries(f"{path}.", inside)
 
 
 class ReadMapping(dict[str, Any]):

@@ -145,6 +145,8 @@ def test_trees_that_there_are_none_of() -> None:
         assert caught.value.help
     with pytest.raises(MethodError, match="a tree is expected, not int"):
         garkcli.format_tree(3)  # type: ignore[arg-type]
+    with pytest.raises(MethodError, match="a tree is expected, not int"):
+        next(garkcli.conditions("rk4", 4))  # type: ignore[arg-type]
 
 
 def test_what_names_nothing_is_refused() -> None:

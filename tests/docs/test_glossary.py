@@ -235,3 +235,10 @@ def test_words_are_told() -> None:
 def test_words_as_reports_and_books_have_them(word: str, names: list[str]) -> None:
     """With a number, an ending or a letter for the word itself; γ has two usual meanings."""
     assert [x.name for x in explain(word)][: len(names)] == names
+
+
+def test_keys_name_the_page_of_their_key() -> None:
+    """What is under design has the page of design, not that of all method files."""
+    for word, page in (("design.stage-order", "design"), ("compose.steps", "method-file")):
+        (meaning,) = explain(word)
+        assert meaning.source == f"docs/{page}.md"
