@@ -394,6 +394,16 @@ def test_signs_of_what_is_not_exact(
         assert (proof == "exists") == (sign > 0 or group == "nonzero")
 
 
+def test_short_numbers_have_the_wanted_signs() -> None:
+    """Those with a weight 0, or less, are left out on the way: each find is exact."""
+    text = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 3, positive-weights: true}"
+    methods = search_methods(loads_family(text), 3, starts=8).methods
+    assert methods
+    for method in methods:
+        assert (method.proof, method.order) == ("exact", 3)
+        assert all(x > 0 for x in loads(text, settings=dict(method.values)).b)
+
+
 def test_what_must_not_vanish_decides_exact_finds() -> None:
     """γ = 0 makes R(∞) infinite: where R(∞) = 0 is wanted no start leads to a method, as the
     equations alone have solutions, and exactly there is none.

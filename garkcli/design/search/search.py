@@ -41,7 +41,7 @@ from garkcli.design.search.rational import (
 )
 from garkcli.design.search.recognise import RecognisedNumbers, recognised
 from garkcli.design.search.residuals import Generators, Residuals
-from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
+from garkcli.design.search.snap import fixed_nearby, float_at, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.steps import Found
 from garkcli.design.want import Asked, numerators
@@ -60,6 +60,8 @@ if TYPE_CHECKING:
 
 
 Answer: TypeAlias = Literal["yes", "open", "no"]
+ROUNDING = 1e-9
+"""Floats whose size is less may be zero."""
 
 
 class Signs:
@@ -76,6 +78,16 @@ class Signs:
         self.nonzero = polynomial_functions(family.nonzero, family.ring)
         self.positive = polynomial_functions(family.positive, family.ring)
         self.not_negative = polynomial_functions(not_negative(family), family.ring)
+
+    def seem_kept(self, x: Array) -> bool:
+        """Whether they hold at a point in floats, up to rounding where zero is allowed.
+
+        Args:
+            x: shape (unknowns, 1).
+        """
+        return all(float_at(f, x) > ROUNDING for f in self.positive) and all(
+            float_at(f, x) > -ROUNDING for f in self.not_negative
+        )
 
     def decided(self, x: Array) -> Answer:
         """Whether all numbers near a point have them; ``open`` if only a function that must not be
@@ -219,12 +231,12 @@ class Search:
         """Whether parameters are in their ranges and even roots not negative, up to rounding."""
         values = dict(zip(self.family.ring.names, map(float, point), strict=True))
         for name, (least, greatest) in self.family.ranges.items():
-            if least is not None and values[name] < as_float(least) - 1e-9:
+            if least is not None and values[name] < as_float(least) - ROUNDING:
                 return False
-            if greatest is not None and values[name] > as_float(greatest) + 1e-9:
+            if greatest is not None and values[name] > as_float(greatest) + ROUNDING:
                 return False
         roots = [values[radical.name] for radical in self.family.radicals if radical.is_even]
-        return all(value >= -1e-9 for value in roots)
+        return all(value >= -ROUNDING for value in roots)
 
     @cached_property
     def program(self) -> Optimisation:
@@ -357,7 +369,8 @@ class Search:
         best: Find | None = None
         system, x = free, None
         for wanted in self._preferences:
-            tried, near = snapped(self.conditions, wanted, np.array(point))
+            keeps = self._signs.seem_kept
+            tried, near = snapped(self.conditions, wanted, np.array(point), keeps)
             made = polished(tried, [float(a) for a in near], BITS)
             if made is None:
                 continue

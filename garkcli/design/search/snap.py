@@ -7,7 +7,7 @@ value from which least squares return to the manifold.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import ceil, floor
 from typing import TYPE_CHECKING
 
@@ -62,7 +62,10 @@ def unknowns_of(ring: Parameters) -> list[RationalFunction]:
 
 
 def snapped(
-    conditions: Residuals, wanted: Sequence[RationalFunction], point: Array
+    conditions: Residuals,
+    wanted: Sequence[RationalFunction],
+    point: Array,
+    is_allowed: Callable[[Array], bool] = lambda _: True,
 ) -> tuple[Fixings, Array]:
     """A system with isolated solutions, and one of them near a point.
 
@@ -70,6 +73,7 @@ def snapped(
         conditions: of the family.
         wanted: functions that should be short, in this order.
         point: a solution in floats, shape (unknowns,).
+        is_allowed: whether a solution, shape (unknowns, 1), may be taken.
     """
     fixed: list[Fixed] = []
     x = point[:, None]
@@ -80,8 +84,8 @@ def snapped(
             break
         if not _is_independent(conditions, fixed, function, x, len(independent)):
             continue
-        for values in values_near(_value(function, x)):
-            moved = _moved(conditions, fixed, function, values, x, len(independent))
+        for values in values_near(float_at(function, x)):
+            moved = _moved(conditions, fixed, function, values, x, len(independent), is_allowed)
             if moved is not None:
                 value, x = moved
                 fixed.append(Fixed(function, value))
@@ -108,7 +112,7 @@ def fixed_nearby(
     for function in wanted:
         if rank_before == len(x):
             break
-        present = _value(function, x)
+        present = float_at(function, x)
         value = next(
             (
                 fmpq(round(present * q), q)
@@ -127,7 +131,8 @@ def fixed_nearby(
     return fixed
 
 
-def _value(function: RationalFunction, x: Array) -> float:
+def float_at(function: RationalFunction, x: Array) -> float:
+    """The value at a point, shape (unknowns, 1)."""
     import numpy as np
 
     return float(np.broadcast_to(function.at(x, as_float).value, 1)[0])
@@ -171,9 +176,10 @@ def _moved(
     values: Sequence[fmpq],
     x: Array,
     before: int,
+    is_allowed: Callable[[Array], bool],
 ) -> tuple[fmpq, Array] | None:
-    """The first of some values that a solution attains, and that solution; None if there is
-    none.
+    """The first of some values that an allowed solution attains, and that solution; None if there
+    is none.
     """
     import numpy as np
 
@@ -185,7 +191,7 @@ def _moved(
     minima = least_squares(system.at, starts, STEPS, CLOSE, are_kept=True)
     for k, value in enumerate(values):
         end = np.ascontiguousarray(minima.points[:, k : k + 1])
-        if not minima.succeeded[k] or np.max(np.abs(end)) > LARGEST:
+        if not minima.succeeded[k] or np.max(np.abs(end)) > LARGEST or not is_allowed(end):
             continue
         _, jacobians = Fixings(conditions, [*fixed, Fixed(function, value)]).at(end)
         if len(rank(jacobians[:, :, 0])) > before:
