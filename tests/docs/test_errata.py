@@ -53,6 +53,7 @@ MENDED = {
     "rungekutta-ssprk-3": "a31=1/4",
     "sbscl-rodas-4": "d2=-0.1043",
     "simframe-cash-karp-5": "c4=3/5",
+    "speake-fehlberg-5": "c6=1/2",
     "simframe-dormand-prince-5": "a65=-5103/18656 b5=-2187/6784",
     "sir-54": "d4=1.788803890902483",
     "ssp-sdirk-2": "c1=1/4 c2=3/4",
