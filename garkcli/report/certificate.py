@@ -317,7 +317,7 @@ def form(proof: MethodProof | ExistenceProof) -> Section[Any]:
 
 
 REPORT: Report[MethodProof | ExistenceProof] = Report(
-    "gark/certificate/1", "certificate of gark certificate", lambda: [EXACT, WITHIN], form, key=""
+    "gark/certificate/1", "certificate of gark export", lambda: [EXACT, WITHIN], form, key=""
 )
 
 

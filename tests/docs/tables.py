@@ -76,7 +76,7 @@ def claims_tables() -> str:
         text = _phrase(claim.text, ":") + (f"; for {claim.meaning}" if claim.meaning else "")
         rows.setdefault(claim.values, []).append((f"`{claim.key}`", cell(text)))
     orders = next(iter(rows.values()))
-    orders.append((", ".join(embedded), "The same with the embedded weights"))
+    orders.append((", ".join(embedded), "The named order with the embedded weights"))
     heads = ("claim", "what it means")
     parts = [f"Values: {values}.\n\n{table(heads, found)}" for values, found in rows.items()]
     return "\n".join(parts)
