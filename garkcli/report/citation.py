@@ -254,7 +254,7 @@ LINE: Section[Cited] = Section(
 )
 REPORT: Report[Sequence[Cited]] = Report.only(
     "gark/cite/1",
-    "report of gark show --reference",
+    "what to cite, of gark show --reference",
     Section(
         Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
         itself("methods", shown(LINE, 0)),
