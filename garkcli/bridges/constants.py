@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from itertools import takewhile
 from pathlib import PurePath
 
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.errors import UsageProblem
-from garkcli.sources.found import FoundTable
+from garkcli.sources.found import FoundTable, Reader
 
 MAX_SOUGHT = 5_000_000
 """Most characters of other sources in which constants of one source are sought, near ones first."""
@@ -18,11 +18,13 @@ MAX_ROUNDS = 6
 """Most times a source is read again: constants are made of others."""
 _UNKNOWN = re.compile(r"the name (?P<name>\w{2,40}), line [0-9]+, is not known")
 _DECLARED = (
-    r"^(?P<before>[^\n=]{{0,200}}?)\b(?P<name>{names})\b(?::[ \t]*\w+)?[ \t]*[= \t][ \t]*"
+    r"\b(?P<name>{names})\b(?::[ \t]*\w+)?[ \t]*[= \t][ \t]*"
     r"(?P<value>[-+*/().\w \t]{{1,80}}?)[ \t]*(?:$|[;,!#]|//|/\*)"
 )
 """A name with its value on one line."""
 _CONSTANT = re.compile(r"\b(?:parameter|const|constexpr|define|final)\b|^$", re.IGNORECASE)
+_NO_CONSTANT = re.compile(r"=|//|/\*|!|%|^[ \t]*\*|#(?![ \t]*define\b)")
+"""What is before a name in comments, or in the value of another one."""
 _TAKING = re.compile(r"[ \t]*(?:#[ \t]*include|use|using|import|from)\b", re.IGNORECASE)
 
 
@@ -31,22 +33,30 @@ def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list
     name in other sources of its language have.
     """
     readers = readers_for(source)
+    fold = _fold(readers)
     tables = find_tables(text, source, readers)
     for _ in range(MAX_ROUNDS):
-        missing = {x["name"] for table in tables if (x := _UNKNOWN.search(table.trouble))}
+        missing = {fold(x["name"]) for table in tables if (x := _UNKNOWN.search(table.trouble))}
         constants = _constants(missing, source, others) if missing else {}
         if not constants:
             break
-        text = "".join(_with_values(line, constants) for line in text.splitlines(keepends=True))
+        lines = text.splitlines(keepends=True)
+        text = "".join(_with_values(line, constants, fold) for line in lines)
         tables = find_tables(text, source, readers)
     return tables
 
 
+def _fold(readers: Sequence[Reader]) -> Callable[[str], str]:
+    """How names are compared: in Fortran without case."""
+    return str.lower if [x.name for x in readers] == ["fortran"] else str
+
+
 def _constants(names: Collection[str], source: str, others: Sequence[str]) -> Mapping[str, str]:
-    """The values of constants by their names in lower case."""
-    pattern = _DECLARED.format(names="|".join(map(re.escape, sorted(names))))
-    declared = re.compile(pattern, re.MULTILINE | re.IGNORECASE)
+    """The values of constants by their names."""
     readers, left = readers_for(source), MAX_SOUGHT
+    fold = _fold(readers)
+    pattern = _DECLARED.format(names="|".join(map(re.escape, sorted(names))))
+    declared = re.compile(pattern, re.MULTILINE | (re.IGNORECASE if fold is str.lower else 0))
     found: dict[str, set[str]] = {}
     for path in sorted(others, key=lambda x: -_shared(x, source)):
         if path == source or readers_for(path) != readers:
@@ -58,9 +68,8 @@ def _constants(names: Collection[str], source: str, others: Sequence[str]) -> Ma
         left -= len(text)
         if left < 0:
             break
-        if any(name.lower() in text.lower() for name in names):
-            for name, value in _declared_in(text, declared):
-                found.setdefault(name, set()).add(value)
+        for name, value in _declared_in(text, declared):
+            found.setdefault(fold(name), set()).add(value)
     return {name: values.pop() for name, values in found.items() if len(values) == 1}
 
 
@@ -72,19 +81,20 @@ def _shared(path: str, source: str) -> int:
 
 def _declared_in(text: str, declared: re.Pattern[str]) -> Iterator[tuple[str, str]]:
     for match in declared.finditer(text):
+        before = text[text.rfind("\n", 0, match.start()) + 1 : match.start()]
         value = match["value"].strip()
         is_number = re.search("[0-9]", value) and value.count("(") == value.count(")")
-        if is_number and _CONSTANT.search(match["before"]):
-            yield match["name"].lower(), value
+        if is_number and _CONSTANT.search(before) and not _NO_CONSTANT.search(before):
+            yield match["name"], value
 
 
-def _with_values(line: str, constants: Mapping[str, str]) -> str:
+def _with_values(line: str, constants: Mapping[str, str], fold: Callable[[str], str]) -> str:
     """A line with the values of constants, unless it says where they are from."""
     if _TAKING.match(line):
         return line
 
     def value(match: re.Match[str]) -> str:
-        known = constants.get(match[0].lower())
+        known = constants.get(fold(match[0]))
         return match[0] if known is None else f"({known})"
 
     return re.sub(r"\b[^\W\d]\w*", value, line)

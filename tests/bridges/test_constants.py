@@ -39,3 +39,31 @@ def test_constants_of_another_source(suffix: str, tmp_path: Path) -> None:
     assert [x.A[0][0][1][0].replace(" ", "") for x in found] == ["2/3"]
     both = tables_with_constants(text, source, [str(first), str(second)])
     assert not any(x.b for x in both)
+
+
+@pytest.mark.parametrize(
+    ("suffix", "constants"),
+    [
+        ("h", "#define Two_Thr (2.0 / 3.0)\n"),
+        ("h", "// const double TWO_THR = 2.0 / 3.0;\n"),
+        ("h", "/* was\n * const double TWO_THR = 2.0 / 3.0; */\n"),
+        ("py", "two_thr = 2 / 3\n"),
+        ("py", "# const TWO_THR = 2 / 3\n"),
+        ("f90", "! real(rk), parameter :: two_thr = 2._rk/3._rk\n"),
+    ],
+)
+def test_other_names_and_comments_are_no_constants(
+    suffix: str, constants: str, tmp_path: Path
+) -> None:
+    """Case tells names apart but in Fortran; what is in a comment is not used."""
+    other = tmp_path / f"numbers.{suffix}"
+    other.write_text(constants, encoding="utf-8")
+    found = tables_with_constants(TABLES[suffix], f"tables.{suffix}", [str(other)])
+    assert not any(x.b for x in found)
+
+
+def test_names_of_fortran_have_no_case(tmp_path: Path) -> None:
+    other = tmp_path / "numbers.f90"
+    other.write_text("real(rk), PARAMETER :: Two_Thr = 2._rk/3._rk\n", encoding="utf-8")
+    found = tables_with_constants(TABLES["f90"], "tables.f90", [str(other)])
+    assert any(x.b for x in found)
