@@ -58,6 +58,9 @@ def _replaced(body: Iterable[ir.Statement], values: Values) -> ir.Body:
 
 def _calls(name: str, values: Sequence[ir.Expr], has_increments: bool) -> list[ir.Expr]:
     """Expressions as calls of one function, perhaps times the step; empty if they are none."""
+    if any(isinstance(x, ir.Opaque) for value in values for x in ir.inside(value)):
+        # parts that are not read may differ
+        return []
     inner, step = [*values], None
     match values[0]:
         case ir.Binary("*", ir.Name() as factor, _) if has_increments:

@@ -702,6 +702,7 @@ void step(double &x, double t, double h) {
         (python.find, PENDULUM, (), "v + 0.5*h*k1v", "v + 0.5*h*k1x"),
         (python.find, GROWTH, ("0", "1/2"), "k2 = r*", "k2 = r/"),
         (c.find, DECAY, ("0", "1/2"), "0.5*k1) +", "0.5*k1) -"),
+        (c.find, DECAY, ("0", "1/2"), "-2.0*", "sizeof(x)*"),
     ],
 )
 def test_vector_fields_that_are_written_out(
