@@ -344,8 +344,8 @@ def not_read(roles: Roles) -> tuple[str, ...]:
 
 
 def _without_later_stages(roles: Roles) -> Roles:
-    """Leaves out the stages of dense output: the first of them begins where the step ends, so its
-    row has the weights.
+    """Leaves out the stages of dense output, which those of the step do not use: the first of them
+    begins where the step ends, so its row has the weights.
     """
     rows, b, c = ([*items_of(roles.get(x))] for x in ("A", "b", "c"))
     low = max(len(items_of(roles.get(x))) for x in ("embedded", "error"))
@@ -357,7 +357,10 @@ def _without_later_stages(roles: Roles) -> Roles:
     differences = [abs(near(x) - near(y)) for x, y in zip(b, end, strict=False)]
     if len(end) < len(b) or max(differences) > NEAR_ENTRIES:
         return roles
-    leading = [Array([*items_of(row)][: len(b)]) for row in rows[: len(b)]]
+    own = [[*items_of(row)] for row in rows[: len(b)]]
+    if not all(isinstance(x, Null) or is_nought(x) for row in own for x in row[len(b) :]):
+        return roles
+    leading = [Array(row[: len(b)]) for row in own]
     return {**roles, "A": Array([*leading]), "c": Array(c[: len(b)])}
 
 

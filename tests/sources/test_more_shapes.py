@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from time import monotonic
 from types import ModuleType
 
 import pytest
@@ -753,6 +754,15 @@ def test_words_of_octave() -> None:
     assert (found.order.order, found.table.b) == (3, (("2/9", "1/3", "4/9"),))
 
 
+def test_negations_in_a_line_of_octave() -> None:
+    """Any number of them take the time of the line; those in texts and comments stay."""
+    text = f"x = {' + '.join(['!a'] * 6_000)}  # !b\nendif\ny = 'c!d' + !e\n"
+    began = monotonic()
+    made = matlab.as_matlab(text)
+    assert monotonic() - began < 2
+    assert made == text.replace("!a", "~a").replace("endif", "end  ").replace("#", "%")
+
+
 def test_a_matrix_of_zeros_has_no_nodes() -> None:
     """Slopes at other times make no method, whatever order is declared; zeros alone are Euler's."""
     text = "class RungeKutta:\n    order = 2\n    A = [[0, 0], [0, 0]]\n    b = [1/2, 1/2]\n"
@@ -782,5 +792,8 @@ def test_stages_of_dense_output_are_left_out() -> None:
     assert found is not None
     assert found.order is not None
     assert (found.order.order, found.table.stages, found.has_errors) == (4, 4, False)
-    wrong = LATER.replace("b = A[4, :4]", "b = [1/6, 1/3, 1/3, 1/3]")
-    assert any(x.trouble for x in python.find(wrong, "x.py"))
+    for old, new in (
+        ("b = A[4, :4]", "b = [1/6, 1/3, 1/3, 1/3]"),
+        ("A[5, 0] = 1/4", "A[5, 0] = A[1, 5] = 1/4"),
+    ):
+        assert any(x.trouble for x in python.find(LATER.replace(old, new), "x.py"))

@@ -15,23 +15,23 @@ if TYPE_CHECKING:
 NAME = "matlab"
 _SQUARE = frozenset({"zeros", "ones"})
 """Functions that make a square matrix from a single number."""
-_KEPT = re.compile(r"^([ \t]*)(?:persistent|global)[ \t]+(?=\w+[ \t]*=)", re.MULTILINE)
+_KEPT = re.compile(r"^[ \t]*(?:persistent|global)[ \t]+(?=\w+[ \t]*=)", re.MULTILINE)
 """A value of a name that stays, ``persistent a = 1``."""
 _OCTAVE = re.compile(r"^[ \t]*(?:#|end_?(?:if|for|function|while|switch)\b)", re.MULTILINE)
 _COMMENT = re.compile(r"^([^\n\"']*?(?<![^\s;,)\]]))#", re.MULTILINE)
-_NOT = re.compile(r"^([^\n\"'%]*?)!(?=[ \t]*[(=\w])", re.MULTILINE)
+_CODE = re.compile(r"^[^\n\"'%]*", re.MULTILINE)
+"""A line before texts and comments."""
+_NOT = re.compile(r"!(?=[ \t]*[(=\w])")
 _END = re.compile(r"\bend(_?(?:if|for|function|while|switch))\b")
 
 
-def _of_matlab(text: str) -> str:
+def as_matlab(text: str) -> str:
     """A source without the words that only Octave has, each character at its place."""
     text = _KEPT.sub(lambda x: " " * len(x[0]), text)
     if not _OCTAVE.search(text):
         return text
     text = _END.sub(lambda x: "end" + " " * len(x[1]), _COMMENT.sub(r"\1%", text))
-    while (changed := _NOT.sub(r"\1~", text)) != text:
-        text = changed
-    return text
+    return _CODE.sub(lambda x: _NOT.sub("~", x[0]), text)
 
 
 class MatlabLowering(Lowering):
@@ -57,7 +57,7 @@ class MatlabLowering(Lowering):
     )
 
     def __init__(self, text: str, grammar: str | None = None) -> None:
-        super().__init__(_of_matlab(text), grammar)
+        super().__init__(as_matlab(text), grammar)
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
