@@ -878,6 +878,19 @@ def test_a_later_part_may_be_better(product: str) -> None:
     assert minimum.extent == "all"
 
 
+def test_zero_in_two_parts() -> None:
+    """(k − 1)² + (g + h − 4)² is 0 once where g = 1, and once where h = 2: both are shown."""
+    text = of_squares(
+        "parameters: {g: free, h: free, k: free}",
+        '[["1 + (g - 1)*(h - 2)"], [1]]',
+        *("k - 1", "g + h - 4", "0", "0"),
+    )
+    minimum = least(text, "error", 1)
+    found = [floats(minimum, x) for x in minimum.minimisers]
+    assert sorted((x["g"], x["h"], x["k"]) for x in found) == [(1, 3, 1), (2, 2, 1)]
+    assert (value(minimum), minimum.extent) == ("0", "all")
+
+
 def test_emitted_claims(tmp_path: Path) -> None:
     """A level that files can claim is claimed, and ``gark check`` proves it."""
     (tmp_path / "sdirk.yaml").write_text("unknown: {stages: 2, shape: sdirk}\n")

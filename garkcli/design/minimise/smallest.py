@@ -243,6 +243,8 @@ class Smallest(Minimisation):
         if not values or not part.dimension:
             return False
         best = cast("RealRoot", self.best(values))
+        if best == ORIGIN:
+            return False  # other methods may have the value 0, too
         left = seconds_left()
         with suppress(NotDecided), within(None if left is None else GLANCE * left):
             return self._is_above(part, self._bound(best) * (1 + 3 * SLACK))
