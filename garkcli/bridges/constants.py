@@ -24,7 +24,7 @@ _DECLARED = (
 """A name with its value on one line."""
 _CONSTANT = re.compile(r"\b(?:parameter|const|constexpr|define|final)\b|^$", re.IGNORECASE)
 _NO_CONSTANT = re.compile(r"=|//|/\*|!|%|^[ \t]*\*|#(?![ \t]*define\b)")
-"""What is before a name in comments, or in the value of another one."""
+"""Signs before a name that is in a comment, or in the value of another one."""
 _TAKING = re.compile(r"[ \t]*(?:#[ \t]*include|use|using|import|from)\b", re.IGNORECASE)
 
 
@@ -47,7 +47,7 @@ def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list
 
 
 def _fold(readers: Sequence[Reader]) -> Callable[[str], str]:
-    """How names are compared: in Fortran without case."""
+    """Makes names equal that the language of the readers takes for one: Fortran has no case."""
     return str.lower if [x.name for x in readers] == ["fortran"] else str
 
 

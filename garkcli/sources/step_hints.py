@@ -37,11 +37,13 @@ class _Made(Frozen):
         if self is _EMPTY or other is _EMPTY:
             return self | other
         every = self.slopes | self.multiples | other.slopes | other.multiples
-        return _Made(frozenset(), every) if every else _NUMBER
+        return _Made(frozenset(), every) if every else _SYMBOL
 
 
 _EMPTY = _Made()
-_NUMBER = _Made()
+"""A literal: no factor that may be the step."""
+_SYMBOL = _Made()
+"""A product of names without slopes, which may be the step; compared by identity."""
 
 
 class Hints:
