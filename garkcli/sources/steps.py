@@ -328,6 +328,10 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
             if not staying and not _has_sums(body[i + 1 :]):
                 # a step that is accepted is returned
                 accepted = [x for x in inside if _has_sums(x[-1:])]
+                others = [x for x in inside if x and not _has_sums(x[-1:])]
+                if any(_has_multiples(x[-1:], body[:i]) for x in others):
+                    # so is another one
+                    accepted = inside
                 staying, is_total = accepted or staying, is_total or bool(accepted)
             arms = [way for arm in staying for way in _ways(arm)]
             if not is_total:
@@ -336,6 +340,15 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
             arms = [[statement]]
         found = [[*way, *arm] for way in found for arm in arms]
     return found
+
+
+def _has_multiples(body: ir.Body, before: ir.Body) -> bool:
+    """Whether a value is a multiple of another one that a function gave before."""
+    assigned = [x for x in ir.statements(before) if isinstance(x, ir.Assign)]
+    called = [x for x in assigned if any(isinstance(y, ir.Call) for y in x.parts)]
+    names = {name for x in called for name in names_of(x.target)}
+    products = (x for x in ir.parts_of(body) if isinstance(x, ir.Binary))
+    return any(isinstance(y, ir.Name) and y.name in names for x in products for y in ir.inside(x))
 
 
 def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:

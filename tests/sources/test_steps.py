@@ -596,7 +596,11 @@ def step(f, t, y, h, k0=None):
 """
     (table,) = find(text, "x")
     assert (table.b, table.c) == ((("1/2", "1/2"),), (("0", "1"),))
+    (again,) = find(text.replace("return False", "return None, h/2"), "x")
+    assert again.b == table.b
     assert not any(x.b for x in find(text.replace("h/2*(k + l)", "h/2*(k + 2*l)"), "x"))
+    (either,) = find(text.replace("return False", "return h*l"), "x")
+    assert (either.b, either.trouble) == ((), "a step that is not followed")
 
 
 def test_values_that_depend_on_a_condition() -> None:
