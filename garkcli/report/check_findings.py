@@ -18,6 +18,7 @@ from garkcli.report.remarks import annotation, commands_off, items, log_of, rema
 from garkcli.tell.dialect import Plain
 
 ABOUT_CLAIMS = ("claim", "undecided", "no-claim")
+"""Codes of findings on claims."""
 
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:

@@ -55,8 +55,8 @@ FAILURE: Section[FailedRun] = Section(
 
 
 def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """Remarks with their levels and codes, cures below. A usual report has hints alone, which say
-    what to change.
+    """Remarks with their levels and codes, cures below; hints of a usual report have neither code
+    nor cure, as they say what to change.
     """
     found: list[tuple[str, str]] = []
     for x in remarks:

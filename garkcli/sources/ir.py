@@ -110,7 +110,7 @@ class Lambda(Frozen):
 
 
 class Either(Frozen):
-    """One of two values, ``x if … else y``; as the value of an assignment a branch."""
+    """One of two values, ``x if … else y``."""
 
     values: tuple[Expr, Expr]
 

@@ -26,6 +26,7 @@ INCLUDED = ".inc"
 FEWEST_NUMBERS = 5
 SHORT = 300
 A_PART = 150
+"""Length below which a function may be part of a step, whatever is in it."""
 HEAD = 100
 """Characters at the beginning of a function that may name it."""
 _WORDS = re.compile(
@@ -444,7 +445,7 @@ def is_in_c(text: str) -> bool:
 
 
 def _branched(statement: ir.Statement) -> ir.Statement:
-    """A statement; an assignment of what a call gives, or of what is known already, is a branch."""
+    """A statement; if it assigns either the value of a call or another value, a branch of both."""
     match statement:
         case ir.Assign(value=ir.Either(values), line=line):
             if sum(isinstance(x, ir.Call) for x in values) == 1:

@@ -67,8 +67,8 @@ def terms_of(value: Value | None) -> Terms | None:
 
 
 def without_steps(slopes: Sequence[StageSlope]) -> list[StageSlope]:
-    """The slopes that are not the step, as a function of the values gives it: such ones are factors
-    of slopes of a function that is given its own ones.
+    """The slopes without values of functions that compute the step, ``h = courant(y, t)``: these
+    are factors of slopes of f, which is given slopes of its own.
     """
     of = {x.name: x.callee for x in slopes}
     terms = [(x, at) for x in slopes for form in x.args for at in form or ()]

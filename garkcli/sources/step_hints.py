@@ -55,8 +55,9 @@ class Hints:
         has_status: whether functions may change their arguments and return a status.
 
     Attributes:
-        of_step: whether they may be a step: a sum has a multiple of f and a name that f is
-            given, or a function with multiples of f; one of one argument is called several times.
+        of_step: whether they may be a step: a sum has a name that f is given and a multiple of a
+            slope of f, or both are given to a function of the source; f has several arguments, or
+            is called several times.
         of_stages: whether functions are given multiples of each other's slopes, or one of its own.
     """
 

@@ -9,6 +9,11 @@ def callee_name(callee: ir.Expr) -> str:
     return callee.name.lower() if isinstance(callee, ir.Name | ir.Field) else ""
 
 
+def is_sum(expr: object) -> bool:
+    """Whether it is a sum or a difference."""
+    return isinstance(expr, ir.Binary) and expr.sign in {"+", "-", ".+", ".-"}
+
+
 def tells(name: str) -> bool:
     """Whether a function stores or prints its arguments without changing them."""
     return name.lower() in TELLING or name.startswith(("set_", "setState", "setTime"))

@@ -38,6 +38,7 @@ from garkcli.sources.step_words import (
     SUMS,
     TELLING,
     callee_name,
+    is_sum,
     tells,
 )
 from garkcli.sources.values import (
@@ -267,7 +268,7 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
 
 
 def _has_sums_in_calls(body: ir.Body, like: Evaluator) -> bool:
-    return any(_is_sum(y) for x in _calls(body, like) for of in x.args for y in ir.inside(of))
+    return any(is_sum(y) for x in _calls(body, like) for of in x.args for y in ir.inside(of))
 
 
 def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
@@ -939,7 +940,7 @@ def _evaluates(function: ir.Scope) -> bool:
 
 
 def _has_sums(body: ir.Body) -> bool:
-    return any(map(_is_sum, ir.parts_of(body)))
+    return any(map(is_sum, ir.parts_of(body)))
 
 
 def _has_branches(body: ir.Body) -> bool:
@@ -981,7 +982,7 @@ def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
     changed: list[list[bool]] = []
     for x in ir.statements(way):
         match x:
-            case ir.Assign(target) if any(map(_is_sum, x.parts)):
+            case ir.Assign(target) if any(map(is_sum, x.parts)):
                 sums |= {*names_of(target)}
             case ir.Do(ir.Call(of, args)) if of == callee:
                 names = [{y for y in ir.inside(z) if isinstance(y, ir.Name)} for z in args]
@@ -995,10 +996,6 @@ def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
         return -1
     places = [i for i, of in enumerate(zip(*changed, strict=True)) if all(of)]
     return places[-1] if places else -1
-
-
-def _is_sum(expr: object) -> bool:
-    return isinstance(expr, ir.Binary) and expr.sign in {"+", "-", ".+", ".-"}
 
 
 def _is_over_components(name: str, body: ir.Body) -> bool:

@@ -9,9 +9,11 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 from garkcli.frozen import Frozen, fields, replace
 from garkcli.sources import ir
+from garkcli.sources.step_words import is_sum
 
 _MEMBER = re.compile(r"(?P<head>[^\W\d]{1,40}?)_?(?P<number>[0-9]{1,2})(?P<tail>[^\W\d]{0,40})")
 MOST_ARGUMENTS = 12
@@ -58,7 +60,8 @@ def _replaced(body: Iterable[ir.Statement], values: Values) -> ir.Body:
 
 def _calls(name: str, values: Sequence[ir.Expr], has_increments: bool) -> list[ir.Expr]:
     """Expressions as calls of one function, perhaps times the step; empty if they are none."""
-    if any(isinstance(x, ir.Opaque) for value in values for x in ir.inside(value)):
+    every = [x for value in values for x in ir.inside(value)]
+    if any(isinstance(x, ir.Opaque) for x in every):
         # parts that are not read may differ
         return []
     inner, step = [*values], None
@@ -71,15 +74,11 @@ def _calls(name: str, values: Sequence[ir.Expr], has_increments: bool) -> list[i
     if any(isinstance(x, ir.Call) for x in (*inner, *differing)):
         # other functions are there
         return []
-    if not 0 < len(arguments) <= MOST_ARGUMENTS or not any(map(_is_sum, values)):
+    if not 0 < len(arguments) <= MOST_ARGUMENTS or not any(map(is_sum, every)):
         return []
     callee = ir.Name(f"f of {name}")
     calls = [ir.Call(callee, tuple(x)) for x in zip(*arguments, strict=True)]
     return [x if step is None else ir.Binary("*", step, x) for x in calls]
-
-
-def _is_sum(value: ir.Expr) -> bool:
-    return any(isinstance(x, ir.Binary) and x.sign.endswith(("+", "-")) for x in ir.inside(value))
 
 
 def _arguments(values: Sequence[ir.Expr]) -> Iterator[Sequence[ir.Expr]]:
@@ -98,16 +97,13 @@ def _arguments(values: Sequence[ir.Expr]) -> Iterator[Sequence[ir.Expr]]:
 
 def _parts(expr: ir.Expr) -> list[ir.Expr]:
     """The expressions in another one; a function is no part of its call."""
-    inside: list[ir.Expr] = []
+    inside: list[Any] = []
     for name in fields(expr):
         part = getattr(expr, name)
         if name != "callee":
-            inside += [x for x in (part if isinstance(part, tuple) else [part]) if _is_expr(x)]
+            items = part if isinstance(part, tuple) else [part]
+            inside += [x for x in items if isinstance(x, Frozen)]
     return inside
-
-
-def _is_expr(x: object) -> bool:
-    return isinstance(x, Frozen)
 
 
 def _head(expr: ir.Expr) -> object:
