@@ -193,7 +193,7 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
         return Reason("an entry looks misprinted: {}", repair_text(remark.repairs[0], names))
     if blame is not None and blame.of == claim and blame.repairs:
         first = repair_text(blame.repairs[0], names)
-        return Reason("the claimed order would hold with {}", first)
+        return Reason(f"{_restored(blame)} would hold with {{}}", first)
     wrong = [x for x in analysis.wrong_weights if x.is_embedded is (claim == "embedded-order")]
     return sum_text(wrong[0], names) if wrong else NO_REASON
 
@@ -258,14 +258,17 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
     texts = [] if is_known else _conditions(blame, own)
     if blame.repairs:
         also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
-        order = "the claimed order"
-        if blame.restored is not None:
-            order = f"{blame.of.replace('-', ' ')} {blame.restored}"
-        if blame.within is not None:
-            order = f"within {decimal(blame.within)} {order}"
         mended = _repairs(blame.repairs, own)
-        texts.append(Reason(f"{order} would hold with {{}}{also}", mended))
+        texts.append(Reason(f"{_restored(blame)} would hold with {{}}{also}", mended))
     return joined("; ", texts) if texts else NO_REASON
+
+
+def _restored(blame: Blame) -> str:
+    """The order with a repair: the claimed one, or the one that is reached."""
+    order = "the claimed order"
+    if blame.restored is not None:
+        order = f"{blame.of.replace('-', ' ')} {blame.restored}"
+    return order if blame.within is None else f"within {decimal(blame.within)} {order}"
 
 
 def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:

@@ -6,7 +6,7 @@ import pytest
 from flint import fmpq
 
 from garkcli.check.check_file import check_method
-from garkcli.check.findings import hints
+from garkcli.check.findings import claim_hint, hints
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_float
 from garkcli.frozen import replace
@@ -68,6 +68,15 @@ def test_a_wrong_weight_is_named() -> None:
     said = [x.message for x in hints(checked(RK4.format(a32="1/2", b4="1/3")))]
     entry = "order 4 would hold with b[4] = 1/6 instead of 1/3"
     assert said == ["the weights have the sum 7/6", entry]
+
+
+def test_a_repair_that_reaches_less_than_the_claim() -> None:
+    """Decimals that are rounded have order 2 with another weight; nothing says order 4 of it."""
+    text = RK4.format(a32="1/2", b4="0.16").replace("1/6", "0.16666667")
+    text = text.replace("1/3", "0.33333333") + "expect: {order: 4}\n"
+    outcome = checked(text)
+    entry = "order 2 would hold with b[4] = 0.16666667 instead of 4/25"
+    assert [str(claim_hint(outcome, "order")), [*hints(outcome)][-1].message] == [entry, entry]
 
 
 def test_an_embedded_weight_is_named() -> None:
