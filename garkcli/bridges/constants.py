@@ -42,7 +42,12 @@ def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list
             break
         lines = text.splitlines(keepends=True)
         text = "".join(_with_values(line, constants, fold) for line in lines)
-        tables = find_tables(text, source, readers)
+        # a function may have a value of its own for a name
+        read = [x for x in tables if not x.trouble]
+        known = {(x.line, x.name) for x in read}
+        found = find_tables(text, source, readers)
+        more = [x for x in found if (x.line, x.name) not in known]
+        tables = sorted([*read, *more], key=lambda x: x.line)
     return tables
 
 

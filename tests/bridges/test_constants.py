@@ -67,3 +67,16 @@ def test_names_of_fortran_have_no_case(tmp_path: Path) -> None:
     other.write_text("real(rk), PARAMETER :: Two_Thr = 2._rk/3._rk\n", encoding="utf-8")
     found = tables_with_constants(TABLES["f90"], "tables.f90", [str(other)])
     assert any(x.b for x in found)
+
+
+def test_a_table_with_a_constant_of_its_own_keeps_it(tmp_path: Path) -> None:
+    """One function has its own value; the table beside it takes that of another source."""
+    other = tmp_path / "numbers.f90"
+    other.write_text("real(rk), parameter :: gama = 0.3_rk\n", encoding="utf-8")
+    table = "  a(1,1) = gama\n  a(2,1) = 1 - 2*gama\n  a(2,2) = gama\n  b = [0.5_rk, 0.5_rk]\n"
+    text = "".join(
+        f"subroutine {name}(a, b)\n  real(rk) :: a(2,2), b(2){own}\n  a = 0._rk\n{table}end subroutine\n"
+        for name, own in (("own", ", gama\n  gama = 0.25_rk"), ("taken", ""))
+    )
+    found = tables_with_constants(text, "tables.f90", [str(other)])
+    assert [x.A[0][0][0][0] for x in found] == ["1/4", "3/10"]
