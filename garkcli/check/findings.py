@@ -279,6 +279,8 @@ def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
     fail = f"{blame.failing} of the {blame.total} conditions of order {blame.order} {verb}"
     if blame.total == 1:
         fail = f"the one condition of order {blame.order} fails"
+    elif blame.failing == blame.total:
+        fail = f"all {blame.total} conditions of order {blame.order} fail"
     if blame.of != "order":
         fail = f"{blame.of}: {fail}"
     is_one = blame.failing == 1

@@ -79,6 +79,15 @@ def test_a_repair_that_reaches_less_than_the_claim() -> None:
     assert [str(claim_hint(outcome, "order")), [*hints(outcome)][-1].message] == [entry, entry]
 
 
+def test_all_conditions_that_fail_are_counted() -> None:
+    """Equal weights at 0 and 1 have order 2, and with another matrix no condition of order 3."""
+    text = "ark:\n  A: [[[0, 0], [1, 0]], [[1/2, 0], [0, 1/2]]]\n  b: [[1/2, 1/2], [1/2, 1/2]]\n"
+    outcome = checked(text + "expect: {order: 3}\n")
+    assert outcome.blame is not None
+    assert outcome.blame.failing == outcome.blame.total
+    assert f"hint all {outcome.blame.total} conditions of order 3 fail" in told(outcome)
+
+
 def test_an_embedded_weight_is_named() -> None:
     """The embedded weights of Bogacki and Shampine with 1/8 for 1/4: their sum and the entry."""
     text = (
