@@ -295,16 +295,22 @@ def _noted(
 
 
 def _weighed(finding: Remark, subject: TableSubject) -> Remark:
-    """An error with its proper level: a doubt if the table was assembled from single numbers, or
-    recognised and no single repair mends it; a note if careless rounding explains it.
+    """An error with its proper level: a doubt if the table was assembled from single numbers or
+    with constants of other sources, or recognised and no single repair mends it; a note if careless
+    rounding explains it.
     """
     if finding.level != "error":
         return finding
     if _is_explained(finding.code, subject):
         code = "nodes" if finding.code == "nodes" else "open"
         return Remark(f"{finding.message}: {EXPLAINED}", code=code, level="note")
-    if subject.table.is_assembled:
-        message = f"{finding.message}; in doubt, as the table is put together from single numbers"
+    doubts = {
+        "the table is put together from single numbers": subject.table.is_assembled,
+        "constants in it are of other sources": subject.table.borrows,
+    }
+    doubt = next((why for why, is_so in doubts.items() if is_so), "")
+    if doubt:
+        message = f"{finding.message}; in doubt, as {doubt}"
         return replace(finding, message=message, level="warning")
     if subject.table.is_recognised and not _is_mended(finding, subject):
         return replace(finding, level="warning")

@@ -10,6 +10,7 @@ from pathlib import PurePath
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.errors import UsageProblem
+from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Reader
 
 MAX_SOUGHT = 5_000_000
@@ -46,7 +47,7 @@ def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list
         read = [x for x in tables if not x.trouble]
         known = {(x.line, x.name) for x in read}
         found = find_tables(text, source, readers)
-        more = [x for x in found if (x.line, x.name) not in known]
+        more = [replace(x, borrows=True) for x in found if (x.line, x.name) not in known]
         tables = sorted([*read, *more], key=lambda x: x.line)
     return tables
 

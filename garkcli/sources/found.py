@@ -106,6 +106,7 @@ class FoundTable(Frozen):
         form_stages: its number of stages.
         base: the name of the table that it is made of, in another source.
         is_assembled: whether it was assembled from single numbers by their names.
+        borrows: whether names in it have values that other sources of the tree give them.
         units: error bounds of coefficients computed from printed ones.
         how: the storage of its arrays in words, if recognised from the numbers.
         idle: arrays beside it with names of nodes or weights, but without a role.
@@ -150,6 +151,7 @@ class FoundTable(Frozen):
     form_stages: int = 0
     base: str = ""
     is_assembled: bool = False
+    borrows: bool = False
     units: Units = ()
     how: str = ""
     idle: tuple[str, ...] = ()

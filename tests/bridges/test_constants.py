@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from garkcli.bridges.constants import tables_with_constants
+from tests.cli.harness import gark
 
 CONSTANTS = {
     "f90": "module numbers\n  real(rk), parameter :: two_thr = two/3._rk, two = 2._rk\n"
@@ -80,3 +81,18 @@ def test_a_table_with_a_constant_of_its_own_keeps_it(tmp_path: Path) -> None:
     )
     found = tables_with_constants(text, "tables.f90", [str(other)])
     assert [x.A[0][0][0][0] for x in found] == ["1/4", "3/10"]
+
+
+def test_an_error_beside_a_constant_of_another_source_is_in_doubt(tmp_path: Path) -> None:
+    """The constant may be of something else: 7/5 is the heat capacity ratio of air."""
+    (tmp_path / "gas.h").write_text("const double gama = 7.0 / 5.0;\n", encoding="utf-8")
+    table = "const double A[2][2] = {{0, 0}, {gama, 0}};\nconst double b[2] = {0.25, 0.75};\n"
+    table += "const double c[2] = {0, 2.0 / 3.0};\nconst int order = 2;\n"
+    (tmp_path / "ralston.h").write_text(table, encoding="utf-8")
+    wrong = gark("audit", str(tmp_path))
+    assert (wrong.code, "in doubt, as constants in it are of other sources" in wrong.out) == (
+        0,
+        True,
+    )
+    (tmp_path / "ralston.h").write_text(table.replace("gama", "1.4"), encoding="utf-8")
+    assert gark("audit", str(tmp_path)).code == 1
