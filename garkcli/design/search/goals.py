@@ -463,7 +463,9 @@ class _Step:
 
         W, B, E = (m.at(x)[0] for m in (self.W, self.B, self.E))
         z = z[:, None, None]
-        M: Array = np.eye(len(B)) + z * (B @ np.linalg.solve(np.eye(len(W)) - z * W, E))
+        # before NumPy 2 a matrix beside a stack of them is a stack of vectors
+        stages = np.linalg.solve(np.eye(len(W)) - z * W, E[None])
+        M: Array = np.eye(len(B)) + z * (B @ stages)
         return M
 
 
