@@ -166,12 +166,10 @@ class ClaimedOrders(Frozen):
     @abstractmethod
     def of(cls, method: AnyTableau, limit: int, spans: StageSpans | None = None) -> Self:
         """Returns the orders up to ``limit``; ``spans`` are stage vectors that are known."""
-        raise NotImplementedError
 
     @abstractmethod
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """Returns the order that a claim is about and its tableau; None if there is none."""
-        raise NotImplementedError
 
 
 O = TypeVar("O", bound=ClaimedOrders)
