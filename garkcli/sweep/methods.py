@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from garkcli.deadline import checked
-from garkcli.errors import ExpressionError, UnknownFamily
+from garkcli.errors import ExpressionError, MethodFileError, UnknownFamily
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
@@ -252,7 +252,14 @@ class MethodsReader:
             if name is None:
                 continue
             path = str(folder / name)
-            text, source = read_argument(name, path)
+            try:
+                text, source = read_argument(name, path)
+            except MethodFileError as error:
+                if any(x.line for x in error.faults):
+                    raise
+                for x in error.faults:
+                    self.source.fault(item, x.message, x.help, code=x.code)
+                continue
             if source != path:
                 name = source  # of the catalogue, however it was typed
             reader, _ = described(text, source, NO_SETTINGS)

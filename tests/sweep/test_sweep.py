@@ -389,6 +389,21 @@ def test_the_front(values: list[tuple[int, float | None, int]]) -> None:
     assert missing == sorted(missing)
 
 
+def test_names_of_no_method_have_their_place(tmp_path: Path) -> None:
+    """All of them, beside other faults: a key that looks like ``files``, columns that are missing."""
+    spec = tmp_path / "spec.yaml"
+    spec.write_text("families: [gauss, gaus-2, rk4]\n", "utf-8")
+    run = gark("sweep", str(spec))
+    places = re.findall(r"spec\.yaml:(\d+:\d+): error\[([\w-]+)\]", run.err)
+    assert run.code == 2
+    assert places == [
+        ("1:1", "unknown-key"),
+        ("1:1", "missing-key"),
+        ("1:12", "missing-key"),
+        ("1:19", "no-such-file"),
+    ]
+
+
 def test_files(tmp_path: Path) -> None:
     """Method files with parameters, free or with a value of their own; rounded ones are refused."""
     sdirk = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
@@ -464,20 +479,21 @@ def test_faults(text: str, tmp_path: Path) -> None:
 
 
 def test_a_grid_without_values_beside_a_search(tmp_path: Path) -> None:
-    """One fault, whatever the files make of it; a name that no file can have is told too."""
+    """It is one fault, whatever the files make of it; a name that no file can have is another."""
     family = "parameters: {s: free, t: free}\nA: [[s]]\nb: [t]\n"
     (tmp_path / "family.yaml").write_text(family, "utf-8")
     path = tmp_path / "spec.yaml"
     rest = "parameters: {s: free, t: []}\nsearch: {seeds: 1}\ncolumns: [order]\n"
-    for name, message in (
-        ("family.yaml", "t is empty"),
-        (r'"a\0b.yaml"', "no file has such a name"),
+    empty = "t is empty"
+    for name, messages in (
+        ("family.yaml", [empty]),
+        (r'"a\0b.yaml"', ["no file has such a name", empty]),
     ):
         path.write_text(f"files: {name}\n{rest}", "utf-8")
         with pytest.raises(MethodFileError) as caught:
             load_plan(str(path))
-        [fault] = caught.value.faults
-        assert message in fault.message
+        found = [x.message for x in caught.value.faults]
+        assert [y in x for x, y in zip(found, messages, strict=True)] == [True] * len(messages)
 
 
 @pytest.mark.parametrize("size", ["1e400", "1e-400"])
