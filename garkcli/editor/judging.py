@@ -12,7 +12,7 @@ from garkcli.check.findings import entry_node, findings
 from garkcli.check.outcome import Outcome
 from garkcli.deadline import within
 from garkcli.errors import HasFreeParameters, MethodFileError, NotDecided, Remark
-from garkcli.exact.display import to_text
+from garkcli.exact.display import shortest
 from garkcli.frozen import Frozen
 from garkcli.glossary.key import METHOD_FILE
 from garkcli.grammar.nodes import ScalarNode, position
@@ -142,8 +142,8 @@ def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
     for repair in blame.repairs:
         place = _place(outcome.text, repair)
         if place is not None:
-            new = to_text(repair.new)
-            yield Fix(f"Write {new} in place of {to_text(repair.old)}", place, new)
+            new, old = shortest(repair.new), lines[place.line][place.start : place.end]
+            yield Fix(f"Write {new} in place of {old}", place, new)
 
 
 def _places_of(key: str, outcome: Outcome) -> list[tuple[int, int]]:

@@ -134,3 +134,10 @@ def test_the_command_prints_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     missing = gark("lsp")
     assert missing.code == 2
     assert 'pip install "garkcli[lsp]"' in missing.err
+
+
+def test_a_fix_of_decimals_is_a_decimal() -> None:
+    """As the message has it; what it replaces is told as the file has it."""
+    text = "A: [[0, 0], [1, 0]]\nb: [0.2928932, 5.0e-1]\nexpect: {order: 1}\n"
+    fixes = [x for view in judged(text, "x.yaml").remarks for x in view.fixes]
+    assert ("Write 0.7071068 in place of 5.0e-1", "0.7071068") in [(x.title, x.text) for x in fixes]
