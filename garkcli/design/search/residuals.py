@@ -15,7 +15,8 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.search import rational
-from garkcli.exact.parametric import Parameters
+from garkcli.design.search.flows import flows_of
+from garkcli.exact.parametric import Parameters, fraction
 from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -95,9 +96,11 @@ class Residuals:
 
 
 class Generators(rational.System):
-    """Distinct nonzero polynomials that generate all order conditions of a family.
+    """Distinct nonzero polynomials whose common zeros are those of all order conditions of a
+    family.
 
-    They are fewer than the trees; a proof for all of them is a proof for all conditions.
+    They are fewer than the trees, least for compositions of flows; a proof for all of them is a
+    proof for all conditions.
 
     Args:
         tableau: as for ``Residuals``.
@@ -113,9 +116,13 @@ class Generators(rational.System):
         self, tableau: Tableau, ring: Parameters, order: int, more: Sequence[fmpq_mpoly] = ()
     ) -> None:
         conditions = FamilyConditions(tableau, ring)
+        flows = flows_of(tableau, order)
         polynomials = list(more)
-        for k in range(1, order + 1):
-            polynomials += [x.polynomial for x in conditions.of_order(k)]
+        if flows is None:
+            for k in range(1, order + 1):
+                polynomials += [x.polynomial for x in conditions.of_order(k)]
+        else:
+            polynomials += [fraction(x, ring)[0] for x in flows.conditions(order)]
         known: list[fmpq_mpoly] = []
         for polynomial in polynomials:
             if not polynomial:
