@@ -27,12 +27,16 @@ def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
     """A and b of an explicit method of one colour.
 
     Raises:
-        CannotConvert: the method is not explicit, or has several colours.
+        CannotConvert: the method is not explicit, has several colours, or a vector field that does
+            not depend on the solution.
     """
     if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
         raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
     b = tableau.colours[0].b
-    A = tableau.blocks.get((0, 0), tuple((ZERO,) * len(b) for _ in b))
+    A = tableau.blocks.get((0, 0))
+    if A is None:
+        message = f"{form} is a form for vector fields of y, and this method has none"
+        raise CannotConvert(message, "--to spelled-out has every method")
     if any(x for i, row in enumerate(A) for x in row[i:]):
         message = f"{form} is a form of explicit methods, and this one is implicit"
         raise CannotConvert(message, "--to spelled-out has every method")

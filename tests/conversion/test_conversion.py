@@ -102,6 +102,14 @@ def test_a_form_is_the_same_method(data: st.DataObject) -> None:
     assert_same_method(method, made)
 
 
+@pytest.mark.parametrize("to", ["2N", "3R", "shu-osher"])
+def test_a_field_without_arguments_has_no_low_storage(to: str) -> None:
+    """A form with a zero matrix would be for y' = f(y), with further trees."""
+    method = loads("tableau: {A: [[null]], b: [[1]], c: [[0]]}\n")
+    with pytest.raises(CannotConvert, match="form for vector fields of y"):
+        convert(method, to)
+
+
 COMPLETE = """
 tableau:
   A: [[[[1/2]], [[1/3, 1/5]]], [[[1/7], [1]], [[0, 2], [1/4, 0]]]]
