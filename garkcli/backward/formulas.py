@@ -14,7 +14,7 @@ from garkcli.exact.field import Algebraic, Number
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.kind import LINEAR
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import elementary_weight
+from garkcli.order.admissible import elementary_weight
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import Hamiltonian

@@ -29,7 +29,7 @@ from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.frozen import Frozen, Mutable, field
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.admissible import coupling_graph
 from garkcli.tableau.tableau import Tableau
 
 MAX_TREES = 40_000

@@ -198,8 +198,8 @@ def misprints(
     if not is_searched or not (claimed or order.order <= HIGHEST_LOW):
         return ()
     # imported here: few methods miss an order
+    from garkcli.order.admissible import count_conditions
     from garkcli.order.blame import FEW_CONDITIONS_UNASKED, MAX_CONDITIONS
-    from garkcli.order.conditions import count_conditions
     from garkcli.order.rounded import RoundedTableau
     from garkcli.order.suspects import suspected_numbers
 

@@ -17,8 +17,8 @@ from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
+from garkcli.order.admissible import elementary_weight
 from garkcli.order.certificate import Witness
-from garkcli.order.conditions import elementary_weight
 from garkcli.tableau.tableau import Tableau
 
 SECONDS = 10.0

@@ -11,7 +11,8 @@ from garkcli.exact.display import to_ball
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.count import Admissible, counts_of
 from garkcli.ntrees.listing import trees_of
-from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
+from garkcli.order.admissible import coupling_graph, twin_roots
+from garkcli.order.conditions import Condition, conditions
 from garkcli.order.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
 

@@ -23,8 +23,8 @@ from garkcli.exact.parametric import Mixed, Parametric, fraction
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import sign, sign_at
 from garkcli.frozen import replace
+from garkcli.order.defects import Defects
 from garkcli.order.pair_order import added
-from garkcli.order.simplifying import Defects
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import PointSpace

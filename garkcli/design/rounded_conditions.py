@@ -14,8 +14,8 @@ from garkcli.design.rounded_system import RoundedSystem
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import fraction
 from garkcli.ntrees.tree import Tree
+from garkcli.order.admissible import elementary_weight
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.conditions import elementary_weight
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau

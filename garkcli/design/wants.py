@@ -20,7 +20,7 @@ from garkcli.exact.field import ONE
 from garkcli.exact.matrix import apply, characteristic_coefficients, dot
 from garkcli.exact.parametric import fraction
 from garkcli.frozen import replace
-from garkcli.order.simplifying import Defects
+from garkcli.order.defects import Defects
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family, RequiredStability

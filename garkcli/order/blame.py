@@ -16,7 +16,8 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
+from garkcli.order.admissible import count_conditions
+from garkcli.order.conditions import Condition, all_conditions, conditions
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import AnyTableau, derived, printed, tolerance_of
 from garkcli.order.repair import GAIN, HIGHEST_LOW, Repair, RepairedEntry

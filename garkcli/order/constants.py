@@ -18,7 +18,8 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import all_conditions, count_conditions, coupling_graph
+from garkcli.order.admissible import count_conditions, coupling_graph
+from garkcli.order.conditions import all_conditions
 from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.tableau import Tableau
 

@@ -19,9 +19,9 @@ from garkcli import numpy_on_use as np
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import counts_upto
+from garkcli.order.admissible import admissible_trees, coupling_graph, elementary_weight
 from garkcli.order.bounded import bounded_least_squares, exactly, excludes, scaled
 from garkcli.order.certificate import required_of
-from garkcli.order.conditions import admissible_trees, coupling_graph, elementary_weight
 from garkcli.order.rows import FormDefects, joined, of_tree, part
 from garkcli.tableau.box import Box, FormTableau
 

@@ -21,8 +21,8 @@ from flint import ctx, fmpq
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen
+from garkcli.order.admissible import count_conditions, elementary_weight
 from garkcli.order.certificate import StageSpans, Witness, required_of, witness_of
-from garkcli.order.conditions import count_conditions, elementary_weight
 from garkcli.order.constants import ErrorConstants, estimate_constants
 from garkcli.order.meant import AnyTableau, printed
 from garkcli.order.tolerance import within

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Literal
 
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.simplifying import Defects, defects_of
+from garkcli.order.defects import Defects
+from garkcli.order.simplifying import defects_of
 
 if TYPE_CHECKING:
     from garkcli.order.meant import AnyTableau

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import islice
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
@@ -16,18 +16,15 @@ from garkcli.exact.affine import Forms
 from garkcli.exact.display import to_float
 from garkcli.exact.enclosing import midpoint
 from garkcli.ntrees.tree import Tree
+from garkcli.order.admissible import are_few, is_admissible, twin_roots
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.bounded import exactly
-from garkcli.order.conditions import are_few, is_admissible, twin_roots
-from garkcli.order.rows import Chosen, FormDefects, joined, may_vanish, of_tree
+from garkcli.order.rows import FormDefects, System, joined, may_vanish, of_tree
 from garkcli.order.tree_residuals import TreeResiduals
-from garkcli.tableau.box import FormTableau
-from garkcli.tableau.embedded import Further, from_colours
+from garkcli.tableau.box import Box, FormTableau
+from garkcli.tableau.embedded import NOTHING, Further, Weights, from_colours, with_weights
 from garkcli.tableau.enclosure import enclose_tableau
 from garkcli.tableau.tableau import Tableau
-
-if TYPE_CHECKING:
-    from garkcli.order.recovering import Recovery
 
 MOST_TREES = 50_000
 """Most trees of an order that are evaluated one by one."""
@@ -38,8 +35,6 @@ COARSENING = 16.0
 
 Derive: TypeAlias = Callable[[Tableau], Tableau]
 """Transforms the tableau of the box: to its own colours, the conjugate, the pair, …"""
-System: TypeAlias = "Mapping[str, Chosen]"
-"""Rows by the name of their tableau."""
 
 
 @contextmanager
@@ -57,7 +52,7 @@ class BoxPlace:
     second order only, as where varieties cross.
     """
 
-    def __init__(self, search: Recovery, shifts: Sequence[fmpq]) -> None:
+    def __init__(self, search: SearchedBox, shifts: Sequence[fmpq]) -> None:
         self.search = search
         self.shifts = tuple(shifts)
         self.slack = 0.0
@@ -236,3 +231,65 @@ class BoxPlace:
         return bool(
             size < self.search.small or size < self.slack * max(float(forms.reach[i]), least)
         )
+
+
+class SearchedBox:
+    """A box with the tableaus made of it, and the precision of work in it.
+
+    ``box`` has colours for the further weights, ``further`` these as printed.
+    """
+
+    def __init__(self, box: Box, further: Further = NOTHING) -> None:
+        self.box = box
+        self.printed_further = further
+        self.targets: dict[str, Derive] = {"method": partial(_own, further)}
+        finest = max((-_binary_exponent(t) for t in box.radii), default=0)
+        # what is of second order in the radii is no zero
+        self.zero_bits = max(120, 2 * finest + 80)
+        self.bits = self.zero_bits + 100
+        coarsest = min((-_binary_exponent(t) for t in box.radii), default=0)
+        self.goal = arb(2) ** -(self.zero_bits - max(coarsest, 0) + 40)
+        self.grain = fmpq(1, 1 << self.zero_bits)
+        self.small = arb(self.grain)
+        self.radius = max((to_float(t) for t in box.radii), default=0.0)
+        self.origin = BoxPlace(self, (fmpq(0),) * len(box.numbers))
+        self.powers: dict[str, int] = {}
+
+    def share(self, name: str, order: int) -> int:
+        """The required γ(u)-fold elementary weights of an order: 1, or 0 if the weights belong to
+        another power of θ in dense output.
+        """
+        return int(self.powers.get(name, order) == order)
+
+    def add_further(self) -> None:
+        """Adds the tableaus with embedded weights, and with those of each power of θ, as b."""
+        if self.printed_further.embedded is not None:
+            self.with_weights("embedded", _embedded)
+        for power in range(1, len(self.printed_further.powers) + 1):
+            name = f"power {power}"
+            self.powers[name] = power
+            self.with_weights(name, partial(_power, power))
+
+    def with_weights(self, name: str, weights: Callable[[Further], Weights]) -> None:
+        """Adds the tableau with some of its further weights as b."""
+        self.targets.setdefault(name, partial(self._with, weights))
+
+    def _with(self, weights: Callable[[Further], Weights], whole: Tableau) -> Tableau:
+        own, further = from_colours(whole, self.printed_further)
+        return with_weights(own, weights(further))
+
+
+def _own(further: Further, whole: Tableau) -> Tableau:
+    return from_colours(whole, further)[0]
+
+
+def _embedded(further: Further) -> Weights:
+    return further.embedded or ()
+
+
+def _power(power: int, further: Further) -> Weights:
+    return further.powers[power - 1]
+
+
+def _binary_exponent(x: fmpq) -> int:
+    return int(x.p.bit_length()) - int(x.q.bit_length()) + 1

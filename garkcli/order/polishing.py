@@ -22,8 +22,8 @@ from garkcli.order.place import BoxPlace
 from garkcli.order.rows import of_tree
 
 if TYPE_CHECKING:
-    from garkcli.order.place import System
     from garkcli.order.recovering import Recovery
+    from garkcli.order.rows import System
 
 SPARE_DIGITS = 12
 """Guard digits."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from garkcli.ntrees.tree import Tree
-    from garkcli.order.place import System
+    from garkcli.order.rows import System
     from garkcli.tableau.box import Box
 
 FILE = Path(__file__).with_name("recovered.json")

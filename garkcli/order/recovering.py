@@ -9,9 +9,9 @@ conditions. If there is none, a combination of the rows that is nonzero in the w
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import copy
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 from flint import arb, fmpq
@@ -19,7 +19,6 @@ from flint import arb, fmpq
 from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
 from garkcli.exact.affine import Affine
-from garkcli.exact.display import to_float
 from garkcli.exact.enclosing import midpoint
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
@@ -34,13 +33,12 @@ from garkcli.order.bounded import (
     scaled,
 )
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.place import BoxPlace, Derive, System, arithmetic
+from garkcli.order.place import BoxPlace, SearchedBox, arithmetic
 from garkcli.order.recovered import as_data, key_of, recovered_of
-from garkcli.order.rows import Chosen, Label, may_vanish, of_tree
+from garkcli.order.rows import Chosen, Label, System, may_vanish, of_tree
 from garkcli.order.shape import NATURAL, candidates, less, weak_rows
 from garkcli.tableau.box import Box
-from garkcli.tableau.embedded import NOTHING, Further, Weights, from_colours, with_weights
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.embedded import NOTHING, Further
 
 COARSE = 1e-6
 """Slopes are renewed while radii and residuals are larger."""
@@ -69,26 +67,11 @@ class RecoveryFailure(Frozen, eq=False):
         return [label.tree for _, label in self.labels if label.tree is not None]
 
 
-class Recovery:
-    """The search for one method of a box.
-
-    ``box`` has colours for the further weights, ``further`` these as printed.
-    """
+class Recovery(SearchedBox):
+    """The search for one method of a box."""
 
     def __init__(self, box: Box, further: Further = NOTHING) -> None:
-        self.box = box
-        self.printed_further = further
-        self.targets: dict[str, Derive] = {"method": partial(_own, further)}
-        finest = max((-_binary_exponent(t) for t in box.radii), default=0)
-        # what is of second order in the radii is no zero
-        self.zero_bits = max(120, 2 * finest + 80)
-        self.bits = self.zero_bits + 100
-        coarsest = min((-_binary_exponent(t) for t in box.radii), default=0)
-        self.goal = arb(2) ** -(self.zero_bits - max(coarsest, 0) + 40)
-        self.grain = fmpq(1, 1 << self.zero_bits)
-        self.small = arb(self.grain)
-        self.radius = max((to_float(t) for t in box.radii), default=0.0)
-        self.origin = BoxPlace(self, (fmpq(0),) * len(box.numbers))
+        super().__init__(box, further)
         self.place = self.origin
         self._dense: tuple[int, RecoveryFailure | None] = 0, None
         self.shape: System = {}
@@ -96,7 +79,6 @@ class Recovery:
         self._orders: dict[str, tuple[int, RecoveryFailure | None, list[Tree], int]] = {}
         self._places: dict[str, BoxPlace] = {}
         self._reached: dict[str, int] = {}
-        self._powers: dict[str, int] = {}
         self._runs = 0
         self._has_shape = self._is_settled = False
 
@@ -110,7 +92,7 @@ class Recovery:
                 self._recover_shape_and_orders()
             self.order_of("method", DEFAULT_LIMIT)
             self._recover_weak()
-            self._add_further()
+            self.add_further()
             if self.printed_further.embedded is not None:
                 self.order_of("embedded", DEFAULT_LIMIT)
             if self.printed_further.dense is not None:
@@ -151,7 +133,7 @@ class Recovery:
     def aside(self) -> Recovery:
         """A copy of the search that moves a method of its own."""
         other = copy(self)
-        for name in ("_orders", "_places", "_reached", "_powers"):
+        for name in ("_orders", "_places", "_reached", "powers"):
             setattr(other, name, dict(getattr(self, name)))
         other._runs = 0
         return other
@@ -162,7 +144,7 @@ class Recovery:
         """
         other = Recovery(self.box, self.printed_further)
         other.targets = dict(self.targets)
-        other._add_further()
+        other.add_further()
         other._has_shape = other._is_settled = True
         return other
 
@@ -174,21 +156,15 @@ class Recovery:
         other.place = place
         return other._missed(self._reached)
 
-    def share(self, name: str, order: int) -> int:
-        """The required γ(u)-fold elementary weights of an order: 1, or 0 if the weights belong to
-        another power of θ in dense output.
-        """
-        return int(self._powers.get(name, order) == order)
-
     def recover_dense(self, limit: int) -> tuple[int, RecoveryFailure | None]:
         """Moves to a method whose dense output has the largest order; returns why it has no larger
         one.
         """
         dense = self.printed_further.dense
         assert dense is not None
-        self._add_further()
+        self.add_further()
         for order in range(1, min(limit, dense.degree) + 1):
-            failure = self._try(dict.fromkeys(self._powers, order))
+            failure = self._try(dict.fromkeys(self.powers, order))
             if failure is not None:
                 return order - 1, failure
         return min(limit, dense.degree), None
@@ -200,23 +176,6 @@ class Recovery:
         if order > len(self.printed_further.powers):
             return True  # there is no coefficient of such a power
         return order == reached + 1 and failure is not None and failure.is_proved
-
-    def _add_further(self) -> None:
-        """Adds the tableaus with embedded weights, and with those of each power of θ, as b."""
-        if self.printed_further.embedded is not None:
-            self.with_weights("embedded", _embedded)
-        for power in range(1, len(self.printed_further.powers) + 1):
-            name = f"power {power}"
-            self._powers[name] = power
-            self.with_weights(name, partial(_power, power))
-
-    def with_weights(self, name: str, weights: Callable[[Further], Weights]) -> None:
-        """Adds the tableau with some of its further weights as b."""
-        self.targets.setdefault(name, partial(self._with, weights))
-
-    def _with(self, weights: Callable[[Further], Weights], whole: Tableau) -> Tableau:
-        own, further = from_colours(whole, self.printed_further)
-        return with_weights(own, weights(further))
 
     def note(self, name: str, order: int, missed: Tree) -> bool:
         """Records the order of a tableau whose printed digits meet all conditions up to it, and a
@@ -269,7 +228,7 @@ class Recovery:
         found = recovered_of(self.box, self.origin.exact("method").known)
         if found is None:
             return False
-        self._add_further()
+        self.add_further()
         place = BoxPlace(self, found.shifts)
         sizes = [abs(x) for x in place.values(found.shape)]
         if not place.is_inside or not all(x < self.small for x in sizes):
@@ -552,25 +511,9 @@ class Recovery:
         return found
 
 
-def _own(further: Further, whole: Tableau) -> Tableau:
-    return from_colours(whole, further)[0]
-
-
-def _embedded(further: Further) -> Weights:
-    return further.embedded or ()
-
-
-def _power(power: int, further: Further) -> Weights:
-    return further.powers[power - 1]
-
-
 def _both(one: System, other: System) -> System:
     return {name: {**one.get(name, {}), **other.get(name, {})} for name in {**one, **other}}
 
 
 def _rounded(x: fmpq, bits: int) -> fmpq:
     return fmpq((x * fmpq(1 << bits)).floor(), 1 << bits)
-
-
-def _binary_exponent(x: fmpq) -> int:
-    return int(x.p.bit_length()) - int(x.q.bit_length()) + 1

@@ -18,12 +18,12 @@ from garkcli.exact.enclosing import bits_for, midpoint
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, FrozenBut, replace
 from garkcli.ntrees.tree import Tree
+from garkcli.order.admissible import are_few, count_conditions, elementary_weight
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order, required_of
-from garkcli.order.conditions import are_few, count_conditions, elementary_weight
+from garkcli.order.defects import BoxDefects, Defects
 from garkcli.order.place import Derive
 from garkcli.order.recovering import Recovery, RecoveryFailure
-from garkcli.order.simplifying import BoxDefects, Defects
 from garkcli.order.tolerance import NOT_FOUND
 from garkcli.order.tree_residuals import TreeResiduals
 from garkcli.tableau.box import Box, plain_box

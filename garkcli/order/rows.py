@@ -4,7 +4,7 @@ vanish.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
 from flint import arb, fmpq
@@ -45,6 +45,8 @@ def of_tree(tree: Tree, share: int = 1) -> Label:
 
 Chosen: TypeAlias = "dict[Label, list[int]]"
 """The rows that are chosen of each label, by index."""
+System: TypeAlias = "Mapping[str, Chosen]"
+"""Rows by the name of their tableau."""
 
 
 class FormDefects:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.frozen import Frozen
-from garkcli.order.simplifying import Defects
+from garkcli.order.defects import Defects
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge
 

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from garkcli.exact.field import Number
     from garkcli.exact.matrix import Matrix, Vector
     from garkcli.ntrees.tree import Tree
-    from garkcli.order.place import System
+    from garkcli.order.rows import System
 
 T = TypeVar("T")
 MOST_NUMBERS = 300

@@ -13,7 +13,7 @@ from garkcli.exact.enclosing import times
 from garkcli.frozen import Frozen
 from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.ntrees.table import TreeTable
-from garkcli.order.conditions import coupling_graph, twin_roots
+from garkcli.order.admissible import coupling_graph, twin_roots
 from garkcli.tableau.enclosure import Enclosure, Row
 from garkcli.tableau.tableau import Tableau
 

@@ -12,8 +12,9 @@ from functools import cache
 
 from garkcli.deadline import check_time
 from garkcli.exact.matrix import Vector, dot
+from garkcli.order.defects import Defects
 from garkcli.order.meant import AnyTableau
-from garkcli.order.simplifying import Defects, defects_of
+from garkcli.order.simplifying import defects_of
 
 
 def weak_stage_order(method: AnyTableau | Defects, colours: Sequence[int], limit: int) -> int:

@@ -13,7 +13,8 @@ from garkcli.doing import doing
 from garkcli.errors import NotDecided
 from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
-from garkcli.order.simplifying import Defects, RoundedDefects, Simplifying
+from garkcli.order.defects import Defects, RoundedDefects
+from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.reduction import at_points, reduced
 from garkcli.properties.registry import find

@@ -265,7 +265,7 @@ class SymplecticSubject(Frozen):
         """The trees that have a condition."""
         if self.method is None:
             return self.structure.admissible
-        from garkcli.order.conditions import coupling_graph
+        from garkcli.order.admissible import coupling_graph
 
         tableau = printed(self.method)
         return coupling_graph(tableau)
@@ -278,7 +278,7 @@ class SymplecticSubject(Frozen):
         classes = independent_classes(self.structure, order)
         if self.method is None:
             return classes
-        from garkcli.order.conditions import is_admissible
+        from garkcli.order.admissible import is_admissible
 
         tableau = printed(self.method)
         return (c for c in classes if is_admissible(tableau, c.representative))

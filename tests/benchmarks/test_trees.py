@@ -7,7 +7,7 @@ import numpy as np
 from garkcli import load, pair
 from garkcli.ntrees.stage_vectors import elementary_weights
 from garkcli.ntrees.table import TreeTable
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.admissible import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
 from tests.benchmarks.measuring import ROOT, assert_ratio, peak_megabytes, seconds
 

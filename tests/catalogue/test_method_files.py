@@ -11,7 +11,7 @@ import pytest
 from garkcli.methodfile.load import loads
 from garkcli.ntrees.stage_vectors import elementary_weights
 from garkcli.ntrees.table import TreeTable
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.admissible import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file

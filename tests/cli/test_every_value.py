@@ -14,7 +14,8 @@ from garkcli.design.member import member
 from garkcli.design.stability_functions import family_functions
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
-from garkcli.order.conditions import all_conditions, elementary_weight
+from garkcli.order.admissible import elementary_weight
+from garkcli.order.conditions import all_conditions
 from garkcli.report.schemas import report_schema
 from garkcli.stability.linear import e_polynomial, stability_function
 from garkcli.tableau.forms import pair

@@ -25,7 +25,7 @@ from garkcli.errors import LimitExceeded
 from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_tableau_file
-from garkcli.order.conditions import elementary_weight
+from garkcli.order.admissible import elementary_weight
 from garkcli.properties.reduction import reduced
 from garkcli.report.diff import REPORT, ComparedPair
 from garkcli.report.schemas import report_schema

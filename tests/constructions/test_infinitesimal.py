@@ -25,8 +25,9 @@ from garkcli.constructions.infinitesimal import (
     restarted,
 )
 from garkcli.frozen import replace
+from garkcli.order.admissible import elementary_weight
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import all_conditions, elementary_weight
+from garkcli.order.conditions import all_conditions
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import multirate_series as series
 from tests.oracles.brute import brute_order

@@ -28,15 +28,10 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.writer import write_method
 from garkcli.ntrees.notation import format_tree, parse_tree
 from garkcli.order import constants
+from garkcli.order.admissible import count_conditions, elementary_weight, is_admissible
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import (
-    all_conditions,
-    conditions,
-    count_conditions,
-    elementary_weight,
-    is_admissible,
-)
+from garkcli.order.conditions import all_conditions, conditions
 from garkcli.order.deciding import order_of
 from garkcli.order.dense import dense_order
 from garkcli.order.functionals import KnownOrders, estimator

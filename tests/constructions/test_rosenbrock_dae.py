@@ -16,9 +16,9 @@ from garkcli.constructions.rosenbrock import Rosenbrock, rosenbrock, seen
 from garkcli.errors import TreeError
 from garkcli.exact.matrix import SingularMatrixError, identity
 from garkcli.frozen import replace
+from garkcli.order.admissible import coupling_graph
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import Order, find_order
-from garkcli.order.conditions import coupling_graph
 from garkcli.order.deciding import order_of
 from garkcli.order.meant import as_meant
 from garkcli.tableau.enclosure import enclose_tableau

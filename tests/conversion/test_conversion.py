@@ -21,7 +21,7 @@ from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import can_spell_out, write_tableau_file
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import admissible_trees, elementary_weight, is_admissible
+from garkcli.order.admissible import admissible_trees, elementary_weight, is_admissible
 from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau

@@ -31,7 +31,7 @@ from garkcli.exact.parametric import Parameters
 from garkcli.frozen import replace
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import elementary_weight
+from garkcli.order.admissible import elementary_weight
 from garkcli.report.design import REPORT, DesignReport
 from tests.cli.harness import gark
 from tests.whole import IS_WHOLE, at_most, in_whole

@@ -29,7 +29,7 @@ from garkcli.errors import NotDecided
 from garkcli.exact.field import Algebraic
 from garkcli.frozen import replace
 from garkcli.methodfile.family import FamilyFile
-from garkcli.order.conditions import elementary_weight
+from garkcli.order.admissible import elementary_weight
 from garkcli.report.schemas import report_schema
 from garkcli.tableau.embedded import with_weights
 from tests.cli.harness import gark

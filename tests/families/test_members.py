@@ -16,8 +16,8 @@ from garkcli.families.registry import FAMILIES, diagonal_method
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.ntrees.tree import Tree
+from garkcli.order.admissible import elementary_weight
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import elementary_weight
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.files.load import loads_problem
 from garkcli.properties.symmetry import symmetry

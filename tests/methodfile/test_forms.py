@@ -9,7 +9,7 @@ from garkcli.exact.field import Number
 from garkcli.families.registry import BY_STAGES, diagonal_method
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.naming import find_files
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.admissible import coupling_graph
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import (
     additive,

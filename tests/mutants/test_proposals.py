@@ -25,7 +25,8 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import replace
 from garkcli.ntrees.table import TreeTable
-from garkcli.order.conditions import conditions, coupling_graph
+from garkcli.order.admissible import coupling_graph
+from garkcli.order.conditions import conditions
 from garkcli.order.meant import as_meant
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.tableau.pointwise import numeric_entries

@@ -29,7 +29,8 @@ from garkcli.ntrees.symplectic import (
 )
 from garkcli.ntrees.table import TreeTable
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import Condition, conditions, coupling_graph, elementary_weight
+from garkcli.order.admissible import coupling_graph, elementary_weight
+from garkcli.order.conditions import Condition, conditions
 from garkcli.order.simplifying import is_symplectic
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear

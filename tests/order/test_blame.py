@@ -16,8 +16,8 @@ from garkcli.exact.field import Number
 from garkcli.frozen import replace
 from garkcli.ntrees.table import TreeTable
 from garkcli.ntrees.tree import Tree
+from garkcli.order.admissible import coupling_graph
 from garkcli.order.blame import MissedOrder, blame_of, count_entries, slip_of
-from garkcli.order.conditions import coupling_graph
 from garkcli.order.repair import Repair, RepairedEntry
 from garkcli.order.tolerance import within
 from tests.whole import at_most, in_whole

@@ -10,7 +10,8 @@ from flint import fmpq
 from garkcli import Tableau, Tree, conditions, find_order, load, loads, trees
 from garkcli.families.registry import diagonal_method
 from garkcli.order import constants
-from garkcli.order.conditions import all_conditions, is_admissible
+from garkcli.order.admissible import is_admissible
+from garkcli.order.conditions import all_conditions
 from garkcli.order.constants import error_constants
 from garkcli.tableau.forms import gark, pair
 from tests.oracles.brute import Plain, Trees

@@ -23,8 +23,8 @@ from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
+from garkcli.order.admissible import elementary_weight
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import elementary_weight
 from garkcli.order.dense import DenseOrder, dense_order, ends_at_step, slopes
 from garkcli.order.meant import meant
 from garkcli.tableau.embedded import DenseOutput, Further, with_weights

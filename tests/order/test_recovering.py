@@ -23,9 +23,10 @@ from garkcli import loads
 from garkcli.check.analysis import analyse
 from garkcli.exact.affine import Forms
 from garkcli.ntrees.table import TreeTable
+from garkcli.order.admissible import coupling_graph
 from garkcli.order.bounded import bounded_least_squares, excludes, nearest
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import conditions, coupling_graph
+from garkcli.order.conditions import conditions
 from garkcli.order.meant import as_meant
 from garkcli.order.place import MOST_ROWS, BoxPlace
 from garkcli.order.recovering import Recovery

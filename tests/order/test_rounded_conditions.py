@@ -15,14 +15,9 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
+from garkcli.order.defects import Defects, RoundedDefects
 from garkcli.order.rounded import RoundedTableau
-from garkcli.order.simplifying import (
-    Defects,
-    RoundedDefects,
-    consistent_blocks,
-    is_symplectic,
-    simplifying,
-)
+from garkcli.order.simplifying import consistent_blocks, is_symplectic, simplifying
 from garkcli.order.tolerance import within
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.forms import gark, pair

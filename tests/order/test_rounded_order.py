@@ -18,9 +18,10 @@ from garkcli.errors import ZeroWeight
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.ntrees.table import TreeTable
+from garkcli.order.admissible import coupling_graph
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
-from garkcli.order.conditions import conditions, coupling_graph
+from garkcli.order.conditions import conditions
 from garkcli.order.meant import as_meant
 from garkcli.order.rounded import RoundedOrder, RoundedTableau, find_order_within
 from garkcli.order.tree_residuals import TreeResiduals

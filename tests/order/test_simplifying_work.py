@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
-from garkcli.order.simplifying import Defects, consistent_blocks, simplifying
+from garkcli.order.defects import Defects
+from garkcli.order.simplifying import consistent_blocks, simplifying
 from garkcli.tableau.forms import additive
 from garkcli.tableau.polynomial_space import MAX_MOMENTS, PolynomialSpace
 from garkcli.tableau.tableau import Tableau

@@ -19,7 +19,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import load
 from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.admissible import coupling_graph
 from garkcli.problems.builtin import GENERIC, hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian, vector_field
 from garkcli.problems.straightline import function

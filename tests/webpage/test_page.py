@@ -24,7 +24,7 @@ from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError, printable
 from garkcli.frozen import replace
 from garkcli.glossary.faults import cure_of
-from garkcli.order.conditions import count_conditions
+from garkcli.order.admissible import count_conditions
 from garkcli.page.safety import written_out
 from garkcli.properties.registry import KEYS
 from garkcli.report.checked import REPORT

@@ -18,7 +18,7 @@ from garkcli.design.search import rational
 from garkcli.design.search.flows import flows_of
 from garkcli.exact.parametric import Parameters, fraction
 from garkcli.ntrees.stage_vectors import StageVectors
-from garkcli.order.conditions import coupling_graph
+from garkcli.order.admissible import coupling_graph
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 

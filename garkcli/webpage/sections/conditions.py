@@ -9,7 +9,8 @@ from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.ntrees.notation import format_tree
-from garkcli.order.conditions import Condition, all_conditions, count_conditions
+from garkcli.order.admissible import count_conditions
+from garkcli.order.conditions import Condition, all_conditions
 from garkcli.order.meant import meant
 from garkcli.report.conditions import ConditionRow, is_parametric, legend_of, row_of
 from garkcli.tableau.garkmethod import derivation_of
