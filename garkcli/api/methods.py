@@ -21,10 +21,10 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import as_meant, meant, remember_base, tolerance_of
 from garkcli.order.simplifying import Simplifying
-from garkcli.properties.property import Verdict
 from garkcli.properties.reduction import smallest
 from garkcli.properties.registry import KEYS
 from garkcli.properties.subject import Subject
+from garkcli.properties.verdict import Verdict
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import Derivation, GarkMethod, derived_name

@@ -29,8 +29,9 @@ from garkcli.methodfile.shelves import key_of
 from garkcli.ntrees.count import count_trees
 from garkcli.order.constants import error_constants
 from garkcli.order.meant import as_meant, with_further
-from garkcli.properties.property import Size
-from garkcli.properties.registry import KEYS, find
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import find
+from garkcli.properties.verdict import Size
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import AnyAnalysis

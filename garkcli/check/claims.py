@@ -8,14 +8,14 @@ from garkcli.check.analysis import Analysis, AnyAnalysis
 from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast, ClaimedNumber
-from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
+from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
     from garkcli.check.order_facts import LinearSubject
-    from garkcli.properties.property import NoProperties
     from garkcli.properties.subject import Subject
+    from garkcli.properties.verdict import NoProperties
 
 
 AnySubject: TypeAlias = "Subject | LinearSubject | NoProperties"

@@ -21,7 +21,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, Mutable, replace
-from garkcli.properties.property import Size, size_reason
+from garkcli.properties.verdict import Size, size_reason
 from garkcli.reason import NO_REASON, Formula, Reason, Value, joined
 from garkcli.tableau.family import ring_of
 from garkcli.tableau.tableau import Tableau

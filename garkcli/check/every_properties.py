@@ -23,9 +23,8 @@ from garkcli.exact.parametric import Parametric, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot
 from garkcli.order.simplifying import Simplifying, simplifying
-from garkcli.properties.property import Property
-from garkcli.properties.registry import find as find_by_key
-from garkcli.properties.subject import Subject
+from garkcli.properties.subject import Property, Subject
+from garkcli.properties.subject import find as find_by_key
 from garkcli.stability.algebraic import contractivity
 from garkcli.tableau.tableau import Tableau
 

@@ -18,8 +18,8 @@ from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, s
 from garkcli.order.functionals import Estimator, KnownOrders, estimator
 from garkcli.order.meant import AnyTableau, as_dense, as_embedded, meant, printed, with_further
 from garkcli.order.simplifying import inconsistent_blocks, simplifying
-from garkcli.properties.property import NoProperties, Verdict
 from garkcli.properties.subject import Subject
+from garkcli.properties.verdict import NoProperties, Verdict
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
 from garkcli.tableau.forms import with_time

@@ -9,8 +9,9 @@ from garkcli.check.claims import claimed_text, found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import CLAIMS, AtLeast
-from garkcli.properties.property import Size
-from garkcli.properties.registry import KEYS, find
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import find
+from garkcli.properties.verdict import Size
 
 ORDERS = (
     *("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order"),

@@ -97,7 +97,7 @@ def _filters() -> list[click.Option]:
     keys of catalogue entries, None if not given.
     """
     from garkcli.catalogue.entries import ORDERS
-    from garkcli.properties.registry import every_property
+    from garkcli.properties.subject import every_property
     from garkcli.report.methods import BY_KIND, KEYS_OF_KINDS
 
     counts, truths = {**_COUNTS}, {**_TRUTHS}

@@ -23,8 +23,8 @@ from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder
 from garkcli.order.meant import meant
-from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
+from garkcli.properties.verdict import Size, Verdict
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown

@@ -7,8 +7,8 @@ from typing import Literal
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
-from garkcli.properties.property import KINDS, Kind, Property
-from garkcli.properties.registry import KEYS, find
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import KINDS, Kind, Property, find
 
 
 class Definition(Frozen):

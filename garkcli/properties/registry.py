@@ -1,11 +1,6 @@
-"""Properties by their names."""
+"""The names of properties, and the modules that decide them."""
 
 from __future__ import annotations
-
-from functools import cache
-from importlib import import_module
-
-from garkcli.properties.property import Property
 
 _FILES = (
     ("solving", "explicit diagonally-implicit sdirk esdirk gamma fully-implicit implicit-stages"),
@@ -24,19 +19,3 @@ OF_TEST_EQUATION = frozenset(
     {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
 )
 """Properties that R(z) decides."""
-
-
-@cache
-def find(key: str) -> Property:
-    """The property with a key, imported on demand.
-
-    >>> find("a-stable").field
-    'a_stable'
-    """
-    found = getattr(import_module(f"garkcli.properties.claimed.{KEYS[key]}"), key.replace("-", "_"))
-    assert isinstance(found, Property)
-    return found
-
-
-def every_property() -> list[Property]:
-    return [find(key) for key in KEYS]

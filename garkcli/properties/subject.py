@@ -1,10 +1,13 @@
-"""A method whose properties are decided; shared results are cached."""
+"""Properties: name in method files, definition, and decision for a method; shared results are
+cached.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import cached_property
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from functools import cache, cached_property
+from importlib import import_module
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import fmpq
 
@@ -17,8 +20,9 @@ from garkcli.order.defects import Defects, RoundedDefects
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.reduction import at_points, reduced
-from garkcli.properties.registry import find
+from garkcli.properties.registry import KEYS
 from garkcli.properties.symmetry import Symmetry, symmetry
+from garkcli.properties.verdict import Verdict
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.stages import PointSpace
@@ -26,10 +30,23 @@ from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.order.meant import AnyTableau
-    from garkcli.properties.property import Verdict
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.within import StabilityWithin
 
+Kind: TypeAlias = Literal["truth", "count", "number"]
+"""The kinds of values: true or false, an integer, or a real number that may be infinite."""
+KINDS: dict[Kind, str] = {
+    "truth": "`true` or `false`",
+    "count": 'a whole number, or `">= n"`',
+    "number": "an exact number such as `2*sqrt(2)`, a decimal that it is rounded to,"
+    ' `infinity`, or `">= x"`',
+}
+"""The notation of claims of each kind."""
+Asks: TypeAlias = Literal["zeros", "equations", "signs"]
+"""The question about the coefficients that decides a property: which are zero, which equations they
+meet, or which signs some numbers have. Rounded coefficients meet equations within their tolerance;
+the other properties hold for all methods there, or are undecided.
+"""
 MISSING_BLOCKS = Reason("some stages do not depend on every vector field")
 """Why properties of all vector fields together are not defined if blocks are missing."""
 
@@ -92,8 +109,6 @@ class Subject(Frozen):
         return self._verdicts[key]
 
     def _decided(self, key: str) -> Verdict:
-        from garkcli.properties.property import Verdict
-
         before = processor_time()
         try:
             with spending(SECONDS - sum(self._spent)):
@@ -203,3 +218,73 @@ class Subject(Frozen):
 
         shares = [ONE] * self.tableau.size
         return stiff_stability_within(self.tableau, shares, self.tolerance)
+
+
+class Property(Frozen):
+    """A property that a method file may claim.
+
+    Attributes:
+        key: its name in ``expect``.
+        text: its definition, in whole sentences.
+        source: the reference of the definition.
+        kind: the kind of its values.
+        decide: decides it for a method.
+        asks: what it asks of the coefficients.
+        meaning: the methods for which it is defined; empty for all.
+        is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.
+        noted: the value that every ``gark check`` says in words, and these; None for neither.
+    """
+
+    key: str
+    text: str
+    source: str
+    kind: Kind
+    decide: Callable[[Subject], Verdict]
+    asks: Asks
+    meaning: str = ""
+    is_cheap: bool = True
+    noted: tuple[bool, str] | None = None
+
+    @property
+    def field(self) -> str:
+        return self.key.replace("-", "_")
+
+
+SEES_ALL = "methods whose stages all see all vector fields"
+"""The methods for which some properties are defined."""
+
+
+def claimed(
+    source: str,
+    *,
+    asks: Asks,
+    kind: Kind = "truth",
+    meaning: str = "",
+    is_cheap: bool = True,
+    noted: tuple[bool, str] | None = None,
+) -> Callable[[Callable[[Subject], Verdict]], Property]:
+    """Makes a property from the function that decides it: name and docstring are key and
+    definition.
+    """
+
+    def made(decide: Callable[[Subject], Verdict]) -> Property:
+        key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())
+        return Property(key, text, source, kind, decide, asks, meaning, is_cheap, noted)
+
+    return made
+
+
+@cache
+def find(key: str) -> Property:
+    """The property with a key, imported on demand.
+
+    >>> find("a-stable").field
+    'a_stable'
+    """
+    found = getattr(import_module(f"garkcli.properties.claimed.{KEYS[key]}"), key.replace("-", "_"))
+    assert isinstance(found, Property)
+    return found
+
+
+def every_property() -> list[Property]:
+    return [find(key) for key in KEYS]

@@ -28,8 +28,9 @@ from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.lines import folded
-from garkcli.properties.property import Size
-from garkcli.properties.registry import KEYS, find
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import find
+from garkcli.properties.verdict import Size
 from garkcli.reason import NO_REASON, Place, Reason, joined
 from garkcli.report.remarks import FAULT, FINDING, fault_rows, remark_rows
 from garkcli.tell import kinds
@@ -76,7 +77,7 @@ if TYPE_CHECKING:
     from garkcli.order.sums import WrongSum
     from garkcli.order.suspects import SuspectedNumber
     from garkcli.properties.pattern import Shape
-    from garkcli.properties.property import Verdict
+    from garkcli.properties.verdict import Verdict
     from garkcli.tableau.tableau import Colour, Tableau
     from garkcli.tell.dialect import Plain
 

@@ -16,8 +16,8 @@ from garkcli.constructions.nprk import is_nprk
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
+from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import Reason
 from garkcli.report.check import rounding, verdict_words
 from garkcli.report.other_methods import rosenbrock_words

@@ -14,7 +14,7 @@ from garkcli.exact.expression import read_decimal
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.lines import folded
-from garkcli.properties.registry import every_property
+from garkcli.properties.subject import every_property
 from garkcli.reference import Reference
 from garkcli.report.citation import REFERENCE, short_name
 from garkcli.report.tableau import DOCUMENT, ShownTableau, drawn

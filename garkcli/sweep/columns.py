@@ -24,9 +24,9 @@ from garkcli.order.constants import ErrorConstants, error_constants
 from garkcli.order.meant import printed
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.properties.property import Size
-from garkcli.properties.registry import KEYS, find
-from garkcli.properties.subject import Subject
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import Subject, find
+from garkcli.properties.verdict import Size
 from garkcli.stability.oscillator import PhaseError, oscillator_stability
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import on_linear_problems, pair, with_time

@@ -16,7 +16,7 @@ from garkcli.catalogue.entries import ORDERS, NumberRange, all_entries, read_ran
 from garkcli.cli.command import command_of
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.file_keys import KEYS
-from garkcli.properties.registry import every_property
+from garkcli.properties.subject import every_property
 from garkcli.report.methods import KEYS_OF_KINDS
 from tests.cli.harness import gark
 

@@ -21,7 +21,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.page.look import Look
-from garkcli.properties.registry import every_property
+from garkcli.properties.subject import every_property
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from tests.cli.harness import gark

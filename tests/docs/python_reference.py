@@ -54,7 +54,7 @@ VALUES = (
     "check.outcome:Outcome",
     "check.outcome:Claim",
     "errors:Remark",
-    "properties.property:Verdict",
+    "properties.verdict:Verdict",
     "stability.summary:Stability",
     "stability.summary:LinearStability",
     "stability.linear:StabilityFunction",

@@ -24,9 +24,9 @@ from garkcli.order.meant import meant
 from garkcli.order.simplifying import simplifying
 from garkcli.properties import claimed
 from garkcli.properties.definitions import definition, every_definition
-from garkcli.properties.property import Size
-from garkcli.properties.registry import KEYS, every_property
-from garkcli.properties.subject import Subject
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import Subject, every_property
+from garkcli.properties.verdict import Size
 from garkcli.report.check import within
 from garkcli.tableau.embedded import NOTHING
 from tests.catalogue.catalogue import Entry, entries

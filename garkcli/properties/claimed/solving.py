@@ -7,8 +7,8 @@ from typing import Literal
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
 from garkcli.properties.naming import number_words, stages_name
-from garkcli.properties.property import Size, Verdict, claimed
-from garkcli.properties.subject import Subject
+from garkcli.properties.subject import Subject, claimed
+from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import NO_REASON, Reason
 
 UNDECIDED = "an entry may be zero"

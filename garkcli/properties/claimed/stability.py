@@ -20,8 +20,8 @@ from garkcli.exact.polynomial_text import (
 )
 from garkcli.exact.roots import RealRoot, sign, square_root
 from garkcli.properties.naming import entry, entry_is, number_words, place
-from garkcli.properties.property import SEES_ALL, Size, Verdict, claimed
-from garkcli.properties.subject import MISSING_BLOCKS, Subject
+from garkcli.properties.subject import MISSING_BLOCKS, SEES_ALL, Subject, claimed
+from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.linear import StabilityFunction, e_polynomial, imaginary_set, poles_are_right
 from garkcli.tableau.tableau import Tableau

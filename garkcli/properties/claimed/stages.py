@@ -18,10 +18,10 @@ from garkcli.properties.last_stage import (
 )
 from garkcli.properties.naming import entry, entry_is, number_words, place, stages_name
 from garkcli.properties.pattern import spaces_that_matter
-from garkcli.properties.property import SEES_ALL, Verdict, claimed
 from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes, stages_that_matter
-from garkcli.properties.subject import MISSING_BLOCKS, Subject
+from garkcli.properties.subject import MISSING_BLOCKS, SEES_ALL, Subject, claimed
 from garkcli.properties.symmetry import MOST_TRIALS, symmetry
+from garkcli.properties.verdict import Verdict
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
 from garkcli.tableau.embedded import Further, as_colours

@@ -6,8 +6,9 @@ from markupsafe import Markup
 
 from garkcli.check.every_facts import fact_reason
 from garkcli.check.outcome import Outcome
-from garkcli.properties.property import Verdict
-from garkcli.properties.registry import KEYS, every_property
+from garkcli.properties.registry import KEYS
+from garkcli.properties.subject import every_property
+from garkcli.properties.verdict import Verdict
 from garkcli.report.check import CHECKED, verdict_words, within
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Status

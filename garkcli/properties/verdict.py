@@ -1,10 +1,9 @@
-"""Properties: name in method files, definition, and decision."""
+"""Verdicts on properties, and their values: truths, whole numbers and sizes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import inf
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.frozen import Frozen
 from garkcli.reason import NO_REASON, Formula, Reason
@@ -13,22 +12,7 @@ if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.exact.roots import RealRoot
-    from garkcli.properties.subject import Subject
 
-Kind: TypeAlias = Literal["truth", "count", "number"]
-"""The kinds of values: true or false, an integer, or a real number that may be infinite."""
-KINDS: dict[Kind, str] = {
-    "truth": "`true` or `false`",
-    "count": 'a whole number, or `">= n"`',
-    "number": "an exact number such as `2*sqrt(2)`, a decimal that it is rounded to,"
-    ' `infinity`, or `">= x"`',
-}
-"""The notation of claims of each kind."""
-Asks: TypeAlias = Literal["zeros", "equations", "signs"]
-"""The question about the coefficients that decides a property: which are zero, which equations they
-meet, or which signs some numbers have. Rounded coefficients meet equations within their tolerance;
-the other properties hold for all methods there, or are undecided.
-"""
 _DIGITS = 12
 _LONG = 60
 
@@ -136,57 +120,3 @@ class NoProperties(Frozen):
 
     def verdict(self, _: str) -> Verdict:
         return Verdict.meaningless(self.why)
-
-
-class Property(Frozen):
-    """A property that a method file may claim.
-
-    Attributes:
-        key: its name in ``expect``.
-        text: its definition, in whole sentences.
-        source: the reference of the definition.
-        kind: the kind of its values.
-        decide: decides it for a method.
-        asks: what it asks of the coefficients.
-        meaning: the methods for which it is defined; empty for all.
-        is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.
-        noted: the value that every ``gark check`` says in words, and these; None for neither.
-    """
-
-    key: str
-    text: str
-    source: str
-    kind: Kind
-    decide: Callable[[Subject], Verdict]
-    asks: Asks
-    meaning: str = ""
-    is_cheap: bool = True
-    noted: tuple[bool, str] | None = None
-
-    @property
-    def field(self) -> str:
-        return self.key.replace("-", "_")
-
-
-SEES_ALL = "methods whose stages all see all vector fields"
-"""The methods for which some properties are defined."""
-
-
-def claimed(
-    source: str,
-    *,
-    asks: Asks,
-    kind: Kind = "truth",
-    meaning: str = "",
-    is_cheap: bool = True,
-    noted: tuple[bool, str] | None = None,
-) -> Callable[[Callable[[Subject], Verdict]], Property]:
-    """Makes a property from the function that decides it: name and docstring are key and
-    definition.
-    """
-
-    def made(decide: Callable[[Subject], Verdict]) -> Property:
-        key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())
-        return Property(key, text, source, kind, decide, asks, meaning, is_cheap, noted)
-
-    return made
