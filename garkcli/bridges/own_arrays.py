@@ -6,21 +6,18 @@ They are Nyström methods, nonlinearly partitioned ones, and multiderivative one
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Kind, OwnArrays, Payload
 from garkcli.constructions.nprk import arrays_of, is_nprk, matrix_of
 from garkcli.constructions.nystrom import POSITIONS, VELOCITIES, Nystrom, is_nystrom
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Tableau
 
-if TYPE_CHECKING:
-    from garkcli.bridges.payload import Kind, Payload
-
 OwnKind: TypeAlias = Literal["nystrom", "nprk", "derivatives"]
 Nested: TypeAlias = tuple[Any, ...]
 """Entries in as many nested tuples as the array has dimensions."""
-OwnArrays: TypeAlias = Mapping[str, Nested]
 KINDS: Mapping[Kind, str] = {
     "nystrom": "Nyström methods",
     "nprk": "nonlinearly partitioned methods",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from flint import fmpq
 
@@ -20,7 +20,6 @@ from garkcli.version import __version__
 
 if TYPE_CHECKING:
     from garkcli.bridges.orders import Orders
-    from garkcli.bridges.own_arrays import OwnArrays
     from garkcli.constructions.infinitesimal import Coupling
     from garkcli.constructions.rosenbrock import Rosenbrock
     from garkcli.tableau.embedded import Predictor
@@ -34,6 +33,8 @@ Rosenbrock method; the kinds with their own arrays; a multirate method with an e
 SCHEMA = "gark/export/1"
 """The format of JSON documents."""
 
+OwnArrays: TypeAlias = Mapping[str, tuple[Any, ...]]
+"""The arrays of kinds with their own: entries in as many nested tuples as dimensions."""
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
 """An array: its colour and, for a block, the colour of its columns, from 1; its rows."""
 

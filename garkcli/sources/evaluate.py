@@ -26,6 +26,7 @@ from garkcli.sources.values import (
     Null,
     Number,
     SourceRecord,
+    Space,
     Type,
     Unknown,
     Value,
@@ -78,40 +79,6 @@ _NO_EXTENT = "an extent that is not known"
 
 class OutOfSteps(Exception):
     """A function takes too many steps."""
-
-
-class Space(dict[str, Value]):
-    """The names of a scope.
-
-    Attributes:
-        up: the scope around it, which is only read.
-        calls: records made so far.
-        lines: of the first assignments to names.
-        returned: the value of the function; None before its return.
-    """
-
-    def __init__(self, up: Space | None = None) -> None:
-        super().__init__()
-        self.up = up
-        self.calls: list[SourceRecord] = []
-        self.lines: dict[str, int] = {}
-        self.returned: Value | None = None
-
-    def find(self, name: str) -> Value | None:
-        """The value of a name, here or in a scope around."""
-        space: Space | None = self
-        while space is not None:
-            if name in space:
-                return space[name]
-            space = space.up
-        return None
-
-    def fork(self) -> Space:
-        """A copy with its own values."""
-        other = Space(self.up)
-        other.update({name: copied(value) for name, value in self.items()})
-        other.calls, other.lines = list(self.calls), dict(self.lines)
-        return other
 
 
 Place: TypeAlias = tuple[Any, Any]

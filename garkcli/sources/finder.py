@@ -22,7 +22,7 @@ from garkcli.sources.assembling import (
     table_of,
 )
 from garkcli.sources.couplings import FORM as COUPLING
-from garkcli.sources.evaluate import Space, shown
+from garkcli.sources.evaluate import shown
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.harvest import Harvester
 from garkcli.sources.linear_stages import (
@@ -54,6 +54,7 @@ from garkcli.sources.values import (
     Null,
     Number,
     SourceRecord,
+    Space,
     Type,
     Unknown,
     Value,

@@ -23,7 +23,7 @@ from garkcli.recognise.given import (
 )
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
-from garkcli.sources.evaluate import IN_A_BRANCH, Evaluator, Space
+from garkcli.sources.evaluate import IN_A_BRANCH, Evaluator
 from garkcli.sources.naming import speaks
 from garkcli.sources.values import (
     FILL,
@@ -32,6 +32,7 @@ from garkcli.sources.values import (
     Null,
     Number,
     SourceRecord,
+    Space,
     Unknown,
     Value,
     items_of,

@@ -6,12 +6,13 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, TypeAlias
+from typing import Protocol, TypeAlias
 
 from flint import arb, fmpq, fmpz_poly
 
 from garkcli.frozen import Frozen
 from garkcli.sources import ir
+from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import MAX_STAGES, Unreadable
 from garkcli.sources.scalars import DIGITS_OF_ROOTS, Scalar, real_root
 from garkcli.sources.values import (
@@ -40,8 +41,21 @@ from garkcli.sources.values import (
     whole,
 )
 
-if TYPE_CHECKING:
-    from garkcli.sources.evaluate import Evaluator
+
+class Machine(Protocol):
+    """The reader of a source, for calls of known functions."""
+
+    base: int
+    line: int
+    allowance: Allowance
+
+    def array(self, items: Iterable[Value]) -> Array: ...
+
+    def unknown(self, reason: str) -> Unknown: ...
+
+    def combined(self, sign: str, x: Value, y: Value) -> Value: ...
+
+    def applied(self, function: Function, args: Sequence[Value]) -> Value: ...
 
 
 class KnownCall(Frozen):
@@ -50,7 +64,7 @@ class KnownCall(Frozen):
     name: str
     expr: ir.Call
     named: Mapping[str, Value]
-    evaluator: Evaluator
+    evaluator: Machine
 
     @property
     def line(self) -> int:

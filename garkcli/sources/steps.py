@@ -16,15 +16,7 @@ from itertools import pairwise
 from typing import Any, TypeGuard
 
 from garkcli.sources import ir
-from garkcli.sources.evaluate import (
-    MAX_INLINED,
-    Evaluator,
-    Made,
-    OutOfSteps,
-    Space,
-    names_of,
-    shown,
-)
+from garkcli.sources.evaluate import MAX_INLINED, Evaluator, Made, OutOfSteps, names_of, shown
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
 from garkcli.sources.stages import NEAR, NoStep, Roles, StageSlope, step_in, terms_of, without_steps
@@ -49,6 +41,7 @@ from garkcli.sources.values import (
     Form,
     Number,
     SourceRecord,
+    Space,
     Terms,
     Unknown,
     Value,

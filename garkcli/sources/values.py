@@ -20,7 +20,6 @@ from garkcli.sources.found import MAX_LENGTH
 from garkcli.sources.scalars import ATOM, PRODUCT, Scalar, combined, negated, number, rooted
 
 if TYPE_CHECKING:
-    from garkcli.sources.evaluate import Space
     from garkcli.sources.ir import Expr
 
 FEWEST_DIGITS = 6
@@ -411,6 +410,40 @@ def size(value: Value, level: int = 0) -> int:
     assert value.value is not None
     bits = int(value.value.p).bit_length() + int(value.value.q).bit_length()
     return 2 + bits * 3 // 10
+
+
+class Space(dict[str, Value]):
+    """The names of a scope.
+
+    Attributes:
+        up: the scope around it, which is only read.
+        calls: records made so far.
+        lines: of the first assignments to names.
+        returned: the value of the function; None before its return.
+    """
+
+    def __init__(self, up: Space | None = None) -> None:
+        super().__init__()
+        self.up = up
+        self.calls: list[SourceRecord] = []
+        self.lines: dict[str, int] = {}
+        self.returned: Value | None = None
+
+    def find(self, name: str) -> Value | None:
+        """The value of a name, here or in a scope around."""
+        space: Space | None = self
+        while space is not None:
+            if name in space:
+                return space[name]
+            space = space.up
+        return None
+
+    def fork(self) -> Space:
+        """A copy with its own values."""
+        other = Space(self.up)
+        other.update({name: copied(value) for name, value in self.items()})
+        other.calls, other.lines = list(self.calls), dict(self.lines)
+        return other
 
 
 def copied(value: Value) -> Value:

@@ -5,7 +5,7 @@ products of arrays, whose last bits depend on the machine.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from garkcli import numpy_on_use as np
 from garkcli.deadline import check_time
@@ -15,7 +15,8 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
-    from garkcli.design.search.residuals import Residuals
+    from garkcli.ntrees.table import TreeTable
+    from garkcli.tableau.tableau import Tableau
 
 
 class Functions:
@@ -115,6 +116,22 @@ Steps: TypeAlias = "list[Array]"
 """The arrays of all steps so far at a point."""
 
 
+class ConditionsOfFamily(Protocol):
+    """The order conditions of a family, as ``Residuals`` has them."""
+
+    tableau: Tableau
+    table: TreeTable
+    unknowns: int
+    blocks: dict[tuple[int, int], list[list[RationalFunction]]]
+    weights: list[list[RationalFunction]]
+    more: list[RationalFunction]
+
+    @property
+    def floats(self) -> tuple[Array, Array]: ...
+
+    def __len__(self) -> int: ...
+
+
 class Recorded(StageVectors[int]):
     """The conditions of a family: the steps that compute the stage vectors of its trees, recorded
     once. Numbers of steps stand for vectors.
@@ -123,7 +140,7 @@ class Recorded(StageVectors[int]):
     derivatives, to which matrices are applied together.
     """
 
-    def __init__(self, system: Residuals) -> None:
+    def __init__(self, system: ConditionsOfFamily) -> None:
         colours = [colour.space for colour in system.tableau.colours]
         super().__init__(system.table.admissible, colours)
         n = self.unknowns = system.unknowns
