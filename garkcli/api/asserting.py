@@ -16,18 +16,10 @@ from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import AtLeast
+from garkcli.order import meant as methods
 from garkcli.order.blame import MissedOrder, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
-from garkcli.order.meant import (
-    AnyTableau,
-    as_embedded,
-    as_meant,
-    keep,
-    meant,
-    printed,
-    tolerance_of,
-)
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
@@ -148,15 +140,15 @@ def _embedded(method: GarkMethod) -> GarkMethod:
         message = f"{_called(method)} has no embedded weights"
         cure = "from_arrays(A, b, c, embedded), or embedded: […] in its file"
         raise MethodError(message, cure, code="arrays")
-    return _made(method, as_embedded(as_meant(method), method.embedded))
+    return _made(method, methods.as_embedded(methods.as_meant(method), method.embedded))
 
 
-def _made(method: GarkMethod, changed: AnyTableau) -> GarkMethod:
+def _made(method: GarkMethod, changed: methods.AnyTableau) -> GarkMethod:
     """Returns a method with a changed tableau and its rounding."""
     if not isinstance(changed, Tableau):
-        keep(changed)
-    tolerance = tolerance_of(changed)
-    return GarkMethod(tableau=printed(changed), name=method.name, tolerance=tolerance)
+        methods.keep(changed)
+    tolerance = methods.tolerance_of(changed)
+    return GarkMethod(tableau=methods.printed(changed), name=method.name, tolerance=tolerance)
 
 
 def _seen(which: Which) -> Callable[[GarkMethod], GarkMethod]:
@@ -166,7 +158,7 @@ def _seen(which: Which) -> Callable[[GarkMethod], GarkMethod]:
         if not _is_rosenbrock(method):
             message = f"{_called(method)} is not a Rosenbrock method"
             raise MethodError(message, "leave out w and index_1", code="arrays")
-        return _made(method, seen(as_meant(method), which))
+        return _made(method, seen(methods.as_meant(method), which))
 
     return of
 
@@ -249,7 +241,7 @@ def _read(value: Any) -> int | AtLeast:
 def _blamed(tableau: Tableau, part: _OrderPart, found: AnyOrder, claimed: int) -> Iterator[str]:
     """Yields the entries whose change would restore the order."""
     missed = MissedOrder(found.order + 1, claimed, part.which or "order")
-    method = tableau if isinstance(found, Order) else meant(tableau, found.tolerance)
+    method = tableau if isinstance(found, Order) else methods.meant(tableau, found.tolerance)
     blame = blame_of(method, missed)
     if blame is None or not blame.repairs:
         return

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import comb, prod
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from garkcli.backward.hamiltonian import hamiltonian_structure, modified_hamiltonian
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.nodes import Expression
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.free import Structure
 from garkcli.ntrees.kind import LINEAR
 from garkcli.ntrees.tree import Tree
 from garkcli.order.admissible import elementary_weight
@@ -20,15 +22,9 @@ from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
 from garkcli.stepping.fields import visible_tableau
-from garkcli.stepping.integrator import bind
+from garkcli.stepping.integrator import Binding, bind
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-if TYPE_CHECKING:
-    from garkcli.exact.nodes import Expression
-    from garkcli.ntrees.free import Structure
-    from garkcli.stepping.integrator import Binding
-
 
 Formula: TypeAlias = Any
 """A sympy expression in the positions and momenta."""

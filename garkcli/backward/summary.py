@@ -2,32 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from flint import arb, fmpq
 
+from garkcli.backward import hamiltonian as hamiltonians
 from garkcli.backward.effective import effective_order
-from garkcli.backward.hamiltonian import (
-    HamiltonianTerm,
-    energy_order,
-    hamiltonian_structure,
-    modified_hamiltonian,
-    symplectic_order,
-)
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.free import Structure
 from garkcli.order.deciding import order_of
 from garkcli.order.meant import AnyTableau, meant
 from garkcli.order.simplifying import is_symplectic
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-if TYPE_CHECKING:
-    from garkcli.ntrees.free import Structure
-
 
 EXTRA = 3
 """Digits of coefficients of rounded methods beyond the printed ones."""
@@ -72,7 +61,7 @@ class BackwardAnalysis(Shown, Frozen):
     symplectic: Reached | None
     energy: Reached | None
     effective: Reached
-    hamiltonian: tuple[HamiltonianTerm, ...] | None = None
+    hamiltonian: tuple[hamiltonians.HamiltonianTerm, ...] | None = None
     tolerance: fmpq | None = None
 
     def __repr__(self) -> str:
@@ -98,7 +87,7 @@ def backward_analysis(
     >>> found.symplectic, found.energy
     (Reached(order=4, is_lower_bound=False), Reached(order=4, is_lower_bound=False))
     """
-    structure = hamiltonian_structure(tableau)
+    structure = hamiltonians.hamiltonian_structure(tableau)
     if tolerance:
         return _of_rounded(meant(tableau, tolerance), max_order, structure)
     equation = modified_equation(tableau, max_order)
@@ -108,17 +97,17 @@ def backward_analysis(
     if structure is None:
         return BackwardAnalysis(equation, order, None, False, None, None, effective)
     proved = is_symplectic(tableau)
-    found = symplectic_order(equation, structure)
+    found = hamiltonians.symplectic_order(equation, structure)
     terms = None
     if proved:
-        terms = tuple(modified_hamiltonian(equation, structure))
+        terms = tuple(hamiltonians.modified_hamiltonian(equation, structure))
     return BackwardAnalysis(
         equation,
         order,
         structure,
         proved,
         _reached(found, max_order),
-        _reached(energy_order(equation, structure), max_order),
+        _reached(hamiltonians.energy_order(equation, structure), max_order),
         effective,
         terms,
     )
@@ -142,13 +131,13 @@ def _of_rounded(
 
     symplectic = energy = terms = None
     if structure is not None:
-        known = max_order if proved else symplectic_order(equation, structure, zero)
+        known = max_order if proved else hamiltonians.symplectic_order(equation, structure, zero)
         symplectic = Reached(known, True)
-        energy = Reached(energy_order(equation, structure, zero), True)
+        energy = Reached(hamiltonians.energy_order(equation, structure, zero), True)
     if structure is not None and proved:
         terms = tuple(
             replace(term, coefficient=rounded_to_unit(term.coefficient))
-            for term in modified_hamiltonian(equation, structure, zero)
+            for term in hamiltonians.modified_hamiltonian(equation, structure, zero)
         )
     return BackwardAnalysis(
         equation=replace(equation, coefficients=tuple(map(rounded_to_unit, equation.coefficients))),

@@ -10,11 +10,13 @@ import hashlib
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from garkcli.catalogue.known import fingerprint
+from garkcli.check.analysis import AnyAnalysis
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import found_value
+from garkcli.check.outcome import Outcome
 from garkcli.comparison.comparison import form_of
 from garkcli.constructions.derivatives import Derivatives
 from garkcli.errors import GarkError
@@ -22,6 +24,7 @@ from garkcli.exact.display import decimal
 from garkcli.glossary.key import METHOD_FILE
 from garkcli.grammar.nodes import one_line
 from garkcli.grammar.reading import read_text
+from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.methodfile.folders import SUFFIX
 from garkcli.methodfile.load import loads
@@ -32,13 +35,7 @@ from garkcli.order.meant import as_meant, with_further
 from garkcli.properties.registry import KEYS
 from garkcli.properties.subject import find
 from garkcli.properties.verdict import Size
-
-if TYPE_CHECKING:
-    from garkcli.check.analysis import AnyAnalysis
-    from garkcli.check.outcome import Outcome
-    from garkcli.methodfile.build import MethodFile
-    from garkcli.tableau.tableau import Tableau
-
+from garkcli.tableau.tableau import Tableau
 
 Entry = dict[str, Any]
 """The entry of a method in the index."""

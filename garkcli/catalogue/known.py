@@ -11,14 +11,13 @@ from flint import arb, fmpq
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import rounded_up
-from garkcli.tableau.pointwise import in_points, numeric_entries
+from garkcli.tableau.pointwise import Row, in_points, numeric_entries
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from garkcli.check.analysis import Analysis
     from garkcli.tableau.garkmethod import GarkMethod
-    from garkcli.tableau.pointwise import Row
     from garkcli.tableau.tableau import Tableau
 
 WINDOW = 1e-5

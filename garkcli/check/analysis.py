@@ -16,7 +16,7 @@ from garkcli.families.family import MAX_STAGES
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, StageSpans, prove
 from garkcli.order.deciding import AnyOrder, nonautonomous, order_of
-from garkcli.order.meant import as_embedded, derived, meant, printed
+from garkcli.order.meant import AnyTableau, as_embedded, derived, meant, printed
 from garkcli.order.simplifying import (
     Simplifying,
     defects_of,
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from garkcli.check.remark import RoundingHint
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.build import MethodFile
-    from garkcli.order.meant import AnyTableau
     from garkcli.order.nearness import Nearness
     from garkcli.order.predictor import PredictorOrders
     from garkcli.order.sums import WrongSum

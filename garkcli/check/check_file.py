@@ -4,19 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from garkcli.check.analysis import Analysis, analyse, analyse_any, remark_of
+from garkcli import errors
+from garkcli.check.analysis import Analysis, AnyAnalysis, analyse, analyse_any, remark_of
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit, misprints
 from garkcli.check.outcome import Outcome
 from garkcli.doing import doing
-from garkcli.errors import (
-    GarkError,
-    HasFreeParameters,
-    MethodError,
-    MethodFileError,
-    Remark,
-    UsageProblem,
-)
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
@@ -25,7 +18,6 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from garkcli.check.analysis import AnyAnalysis
     from garkcli.order.constants import ErrorConstants
 
 
@@ -42,9 +34,9 @@ def check_file(
     """
     try:
         method = load(path, settings)
-    except HasFreeParameters as error:
+    except errors.HasFreeParameters as error:
         return check_every(error, limit, want_constants, settings)
-    except MethodFileError as error:
+    except errors.MethodFileError as error:
         return Outcome(error.source, error.source, faults=error.faults, text=error.text)
     return check_method(method, limit, want_constants)
 
@@ -55,7 +47,7 @@ MOST_PARAMETERS = 30
 
 @doing("what holds for every value of the parameters")
 def check_every(
-    file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
+    file: errors.HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
 ) -> Outcome:
     """Checks a file with free parameters.
 
@@ -79,9 +71,9 @@ def check_every(
             cure = f"dense output and predictors are judged for values: --set {name}=1/2"
             return _refused(file, message, cure, "free-parameters")
         facts = every_value(family, max(limit, highest_order(family.claims) + 1))
-    except MethodFileError as error:
+    except errors.MethodFileError as error:
         return Outcome(file.source, file.source, faults=error.faults, text=file.text)
-    except GarkError as error:
+    except errors.GarkError as error:
         return _refused(file, error.message, error.help, error.code)
     if want_constants:
         name = facts.parameters[0]
@@ -98,9 +90,9 @@ def check_every(
     )
 
 
-def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
+def _refused(file: errors.HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
     """Returns the outcome for a file that cannot be decided for all values."""
-    faults = (Remark(message, cure, code=code),)
+    faults = (errors.Remark(message, cure, code=code),)
     return Outcome(file.source, file.source, faults=faults, text=file.text)
 
 
@@ -116,8 +108,11 @@ def check_method(
         return _check_other_kind(method, reach, want_constants)
     try:
         analysis = analyse(method.tableau, reach, method.tolerance, method.further)
-    except (MethodError, UsageProblem) as error:  # it has too many stages, or needs numpy
-        fault = Remark(error.message, error.help, code=error.code)
+    except (
+        errors.MethodError,
+        errors.UsageProblem,
+    ) as error:  # it has too many stages, or needs numpy
+        fault = errors.Remark(error.message, error.help, code=error.code)
         return Outcome(method.source, method.name, faults=(fault,), text=method.text)
     claims = verify(method.claims, analysis)
     remark = remark_of(method, analysis)

@@ -9,13 +9,12 @@ from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast, ClaimedNumber
 from garkcli.properties.registry import KEYS
-from garkcli.properties.verdict import Size, Verdict
+from garkcli.properties.verdict import NoProperties, Size, Verdict
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
     from garkcli.check.order_facts import LinearSubject
     from garkcli.properties.subject import Subject
-    from garkcli.properties.verdict import NoProperties
 
 
 AnySubject: TypeAlias = "Subject | LinearSubject | NoProperties"

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from flint import fmpq
 
-from garkcli.check.analysis import analyse
-from garkcli.check.claims import verify
+from garkcli.check.analysis import Analysis, analyse
+from garkcli.check.claims import Claim, verify
 from garkcli.frozen import replace
 from garkcli.methodfile.description import CONSTRUCTIONS
 from garkcli.methodfile.expectations import highest_order
@@ -23,8 +23,6 @@ from garkcli.order.repair import GAIN, HIGHEST_LOW
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis
-    from garkcli.check.claims import Claim
     from garkcli.check.remark import RoundingHint
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.printed import Printed

@@ -9,16 +9,9 @@ from flint import fmpq
 from garkcli.check.order_facts import ClaimedOrders, DenseFacts, LinearSubject, SeveralOrders
 from garkcli.constructions.nystrom import POSITIONS, VELOCITIES, Which, seen
 from garkcli.exact.field import ZERO
+from garkcli.order import dense as dense_orders
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.dense import (
-    DenseOrder,
-    Ends,
-    dense_order,
-    ends_at_step,
-    slope_at_one,
-    slopes_where,
-)
 from garkcli.order.meant import AnyTableau, as_dense, meant, printed, with_further
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further
@@ -59,8 +52,8 @@ class NystromDense(DenseFacts):
     ends.
     """
 
-    position_order: DenseOrder
-    velocity_order: DenseOrder
+    position_order: dense_orders.DenseOrder
+    velocity_order: dense_orders.DenseOrder
 
     @classmethod
     def of(
@@ -68,21 +61,25 @@ class NystromDense(DenseFacts):
     ) -> NystromDense:
         whole, known = with_further(method) or method, as_dense(method)
         return cls(
-            order=dense_order(known, dense, limit, spans),
+            order=dense_orders.dense_order(known, dense, limit, spans),
             degree=dense.degree,
-            ends_at_step=ends_at_step(whole, dense),
-            slopes=slopes_where(whole, dense, _ends_of_slope),
-            position_order=dense_order(seen(known, "in_positions"), dense, limit, spans),
-            velocity_order=dense_order(seen(known, "in_velocities"), dense, limit, spans),
+            ends_at_step=dense_orders.ends_at_step(whole, dense),
+            slopes=dense_orders.slopes_where(whole, dense, _ends_of_slope),
+            position_order=dense_orders.dense_order(
+                seen(known, "in_positions"), dense, limit, spans
+            ),
+            velocity_order=dense_orders.dense_order(
+                seen(known, "in_velocities"), dense, limit, spans
+            ),
         )
 
 
-def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> Ends:
+def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> dense_orders.Ends:
     """Returns the slope at the ends; it is q′ + h Σ b̄_i'(θ) g_i, so b̄'(0) = 0 and b̄'(1) = b."""
     b = tableau.colours[VELOCITIES].b
     zeros = (ZERO,) * len(b)
     first = dense.coefficients(1)[POSITIONS]
-    last = slope_at_one(dense.weights)[POSITIONS]
+    last = dense_orders.slope_at_one(dense.weights)[POSITIONS]
     off = tuple(x - y for x, y in zip(last, b, strict=True))
     return (zeros, first, (ZERO,)), (zeros, off, (ZERO,))
 

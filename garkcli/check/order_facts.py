@@ -7,10 +7,11 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from flint import fmpq
 
+from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, nonautonomous, order_of
@@ -25,11 +26,6 @@ from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-if TYPE_CHECKING:
-    from typing import Self
-
-    from garkcli.exact.field import Number
 
 
 class EmbeddedFacts(Frozen):

@@ -8,11 +8,10 @@ entry is the cause, the remark states that entry.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.exact.field import ZERO
+from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
 from garkcli.methodfile.printed import SLACK, as_typed, at_full_length, left_open
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -23,9 +22,6 @@ from garkcli.order.rounded import RoundedTableau
 from garkcli.order.suspects import suspects
 from garkcli.order.tolerance import small, unnatural, within
 from garkcli.tableau.tableau import Tableau
-
-if TYPE_CHECKING:
-    from garkcli.exact.field import Number
 
 COARSEST = -1
 """Only tolerances below ten to this power are proposed."""

@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.check.order_facts import (
-    ClaimedOrders,
-    DenseFacts,
-    LinearSubject,
-    SeveralOrders,
-    dense_facts,
-)
+from garkcli.check import order_facts
 from garkcli.constructions.rosenbrock import DAE_VIEWS, NO_PROPERTY, OF_BETA, VIEWS, Which, seen
+from garkcli.exact.field import Number
 from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
@@ -23,11 +17,8 @@ from garkcli.order.meant import AnyTableau, meant, printed
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
 
-if TYPE_CHECKING:
-    from garkcli.exact.field import Number
 
-
-class RosenbrockOrders(ClaimedOrders):
+class RosenbrockOrders(order_facts.ClaimedOrders):
     """The orders of weights at the stages of a Rosenbrock method: with the Jacobian, with any
     matrix, with a matrix that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the
     file.
@@ -102,7 +93,7 @@ class RosenbrockOrders(ClaimedOrders):
         return order, tableau
 
 
-class RosenbrockAnalysis(SeveralOrders[RosenbrockOrders, DenseFacts]):
+class RosenbrockAnalysis(order_facts.SeveralOrders[RosenbrockOrders, order_facts.DenseFacts]):
     """The orders of a Rosenbrock or W-method; ``order`` and ``tableau`` are with the Jacobian."""
 
     form = "rosenbrock"
@@ -140,9 +131,11 @@ class RosenbrockAnalysis(SeveralOrders[RosenbrockOrders, DenseFacts]):
         return self.orders.index_1_z_order
 
     @cached_property
-    def subject(self) -> LinearSubject:
+    def subject(self) -> order_facts.LinearSubject:
         method = seen(meant(self.tableau, self.tolerance), "on_test_equation")
-        return LinearSubject.of(method, self.order.order, self.limit, OF_BETA, NO_PROPERTY)
+        return order_facts.LinearSubject.of(
+            method, self.order.order, self.limit, OF_BETA, NO_PROPERTY
+        )
 
     @property
     def at_infinity(self) -> Number | None:
@@ -164,5 +157,5 @@ def analyse_rosenbrock(
     ``limit``.
     """
     return RosenbrockAnalysis.analysed(
-        RosenbrockOrders, dense_facts, tableau, limit, tolerance, further
+        RosenbrockOrders, order_facts.dense_facts, tableau, limit, tolerance, further
     )

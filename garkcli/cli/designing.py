@@ -15,7 +15,7 @@ from garkcli.cli.arguments import rational, square
 from garkcli.cli.command import declared
 from garkcli.cli.output import Output
 from garkcli.cli.streams import INTERRUPTED, say_problem
-from garkcli.crew.work import WorkerLost
+from garkcli.crew.work import WorkerLost, Workers
 from garkcli.deadline import seconds_left, until, within
 from garkcli.doing import doing
 from garkcli.ending import undone
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from flint import fmpq
 
     from garkcli.api.design import FoundFile
-    from garkcli.crew.work import Workers
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
     from garkcli.design.member import Whose

@@ -8,14 +8,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.comparison.grid import (
-    Grid,
-    Likeness,
-    common_sheets,
-    enclosed_grid,
-    grid_of,
-    have_one_shape,
-)
+from garkcli.comparison import grid as grids
 from garkcli.conversion.sheet import CannotConvert, Sheet, of_weights
 from garkcli.deadline import checked
 from garkcli.errors import LimitExceeded
@@ -36,13 +29,13 @@ MAX_TRIALS = 3000
 """The search stops after this number of trials."""
 
 
-def find_matching(one: Grid, other: Grid, likeness: Likeness) -> Images | None:
+def find_matching(one: grids.Grid, other: grids.Grid, likeness: grids.Likeness) -> Images | None:
     """Returns the stages of ``other`` that correspond to those of ``one``, or None if the methods
     differ.
 
     Raises LimitExceeded after ``MAX_TRIALS`` trials.
     """
-    if not have_one_shape(one, other):
+    if not grids.have_one_shape(one, other):
         return None
     candidates: _Candidates = {}
     for l, stages in enumerate(one.stages):
@@ -56,7 +49,7 @@ def find_matching(one: Grid, other: Grid, likeness: Likeness) -> Images | None:
     return tuple(tuple(chosen[l, i] for i in range(stages)) for l, stages in enumerate(one.stages))
 
 
-def _own(grid: Grid, l: int, i: int) -> Row:
+def _own(grid: grids.Grid, l: int, i: int) -> Row:
     """Returns the node and all weights of a stage."""
     return grid.c[l][i], grid.b[l][i], *[weights[l][i] for weights in grid.further]
 
@@ -64,7 +57,7 @@ def _own(grid: Grid, l: int, i: int) -> Row:
 class _SamenessSearch:
     """A depth-first search; the stage with the fewest candidates is next."""
 
-    def __init__(self, one: Grid, other: Grid, likeness: Likeness) -> None:
+    def __init__(self, one: grids.Grid, other: grids.Grid, likeness: grids.Likeness) -> None:
         self.one = one
         self.other = other
         self.likeness = likeness
@@ -162,17 +155,17 @@ class Views(Frozen):
     compared.
     """
 
-    one: Grid
-    other: Grid
+    one: grids.Grid
+    other: grids.Grid
     sheets: tuple[Sheet, Sheet] | None
 
 
 def views_of(one: GarkMethod, other: GarkMethod) -> Views:
     """Returns the entries of both methods, exact if possible."""
-    sheets = common_sheets(one, other)
+    sheets = grids.common_sheets(one, other)
     if sheets is None:
-        return Views(enclosed_grid(one), enclosed_grid(other), None)
-    return Views(grid_of(sheets[0]), grid_of(sheets[1]), sheets)
+        return Views(grids.enclosed_grid(one), grids.enclosed_grid(other), None)
+    return Views(grids.grid_of(sheets[0]), grids.grid_of(sheets[1]), sheets)
 
 
 def find_sameness(
@@ -197,7 +190,7 @@ def find_sameness(
     return SamenessResult(same)
 
 
-def _plainly(grid: Grid) -> Sameness:
+def _plainly(grid: grids.Grid) -> Sameness:
     """Returns the correspondence without renumbering."""
     stages = tuple(tuple(range(s)) for s in grid.stages)
     return Sameness(tuple(range(grid.size)), stages)
@@ -218,7 +211,7 @@ def _same_algebra(one: Tableau, other: Tableau) -> bool:
     return one.blocks == other.blocks
 
 
-def _as_they_are(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
+def _as_they_are(one: grids.Grid, other: grids.Grid, allowed: fmpq) -> Sameness | None:
     """Matches the methods without reduction, first with their further weights and then without."""
     same = _matched(one, other, allowed)
     if same is not None or not (one.further or other.further):
@@ -237,16 +230,16 @@ def _once_reduced(views: Views) -> Sameness | None:
         except CannotConvert:
             continue
         if [x.tableau for x in smaller] != [x.tableau for x in sheets]:
-            one, other = map(grid_of, smaller)
+            one, other = map(grids.grid_of, smaller)
             same = _matched(one, other, ZERO)
             if same is not None:
                 return replace(same, is_reduced=True, step_only=step_only)
     return None
 
 
-def _matched(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
+def _matched(one: grids.Grid, other: grids.Grid, allowed: fmpq) -> Sameness | None:
     """Returns the renumbering of colours and stages that turns one method into the other."""
-    likeness = Likeness(allowed)
+    likeness = grids.Likeness(allowed)
     if likeness.grids(one, other):
         return replace(_plainly(one), allowed=allowed)
     for order in _orders(one, other):
@@ -256,7 +249,7 @@ def _matched(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
     return None
 
 
-def _orders(one: Grid, other: Grid) -> Iterator[tuple[int, ...]]:
+def _orders(one: grids.Grid, other: grids.Grid) -> Iterator[tuple[int, ...]]:
     """Yields the orders of the colours of ``other`` in which the numbers of stages agree, the given
     order first.
     """

@@ -17,18 +17,8 @@ from collections.abc import Iterator, Sequence
 from flint import fmpq, fmpq_poly
 
 from garkcli.errors import MethodError, counted
+from garkcli.exact import matrix
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    apply,
-    apply_left,
-    dot,
-    identity,
-    multiply,
-    outer,
-    subtract,
-)
 from garkcli.families.extrapolated import extrapolation_weights
 from garkcli.frozen import Frozen, replace
 from garkcli.properties.reduction import merged
@@ -111,7 +101,7 @@ def advance(tableau: Tableau, l: int) -> Number:
     """The change of time of colour l per step; 1 for every consistent method."""
     m = seen_in_nodes(tableau, l)
     colour = tableau.colours[l if m is None else m]
-    return dot(colour.b, tableau.spaces[colour.space].one)
+    return matrix.dot(colour.b, tableau.spaces[colour.space].one)
 
 
 _CURE = "compose methods of the same form and structure"
@@ -137,7 +127,7 @@ class _Composition:
     def tableau(self) -> Tableau:
         colours = tuple(map(self._colour, range(len(self.colours))))
         nodes = (next(x.c for x in colours if x.space == k) for k in range(len(self.places)))
-        blocks: dict[Edge, Matrix] = {}
+        blocks: dict[Edge, matrix.Matrix] = {}
         for l, m in self.substeps[0].tableau.edges():
             place = self.space_of[l], m
             if place not in blocks:
@@ -156,7 +146,7 @@ class _Composition:
         b, c = tuple(weights), tuple(nodes)
         return replace(self.colours[l], space=self.space_of[l], b=b, c=c)
 
-    def _rows(self, l: int, m: int) -> Iterator[Vector]:
+    def _rows(self, l: int, m: int) -> Iterator[matrix.Vector]:
         """The rows of A^{l,m}: weights of the substeps before, the method's own row, zeros."""
         before: list[Number] = []
         widths = [len(x.tableau.colours[m].b) for x in self.substeps]
@@ -179,7 +169,7 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
     ``flows`` of length 0 are left out; ``is_nystrom`` says that velocities are linear in the
     momenta.
     """
-    nothing: Vector = ()
+    nothing: matrix.Vector = ()
     drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
     kick = separable_prk((((),), nothing, (ZERO,)), ((), (ONE,), ()))
     parts = [drift, kick]
@@ -201,7 +191,7 @@ def alone(methods: Sequence[Method], l: int) -> Tableau:
     own = methods[l]
     spaces = []
     colours = []
-    blocks: dict[Edge, Matrix] = {}
+    blocks: dict[Edge, matrix.Matrix] = {}
     for k in range(len(methods)):
         nodes = own.c if k == l else ()
         weights = own.b if k == l else ()
@@ -227,13 +217,13 @@ def adjoint(tableau: Tableau) -> Tableau:
         end = advance(tableau, l)
         own = tableau.spaces[colour.space].one
         rest_of_time = [end * one - c for one, c in zip(own, colour.c, strict=True)]
-        b, c = apply_left(colour.b, turn), apply(turn, rest_of_time)
+        b, c = matrix.apply_left(colour.b, turn), matrix.apply(turn, rest_of_time)
         colours.append(replace(colour, b=b, c=c))
-    blocks: dict[Edge, Matrix] = {}
+    blocks: dict[Edge, matrix.Matrix] = {}
     for (k, m), block in tableau.blocks.items():
         colour = tableau.colours[m]
-        rest = subtract(outer(tableau.spaces[k].one, colour.b), block)
-        blocks[k, m] = multiply(turns[k], multiply(rest, turns[colour.space]))
+        rest = matrix.subtract(matrix.outer(tableau.spaces[k].one, colour.b), block)
+        blocks[k, m] = matrix.multiply(turns[k], matrix.multiply(rest, turns[colour.space]))
     spaces: list[StageSpace] = []
     for k, space in enumerate(tableau.spaces):
         nodes_of = next((x.c for x in colours if x.space == k), space.nodes)
@@ -241,7 +231,7 @@ def adjoint(tableau: Tableau) -> Tableau:
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def _turned_space(space: StageSpace, nodes: Vector) -> StageSpace:
+def _turned_space(space: StageSpace, nodes: matrix.Vector) -> StageSpace:
     """The space of the reversed or reflected stages."""
     if isinstance(space, PolynomialSpace):
         modulus = space.modulus(fmpq_poly([1, -1]))
@@ -249,10 +239,10 @@ def _turned_space(space: StageSpace, nodes: Vector) -> StageSpace:
     return PointSpace(nodes)
 
 
-def _turn(space: StageSpace) -> Matrix:
+def _turn(space: StageSpace) -> matrix.Matrix:
     """The reversal of stages, or f(x) → f(1 − x) on polynomials; its own inverse."""
     if not isinstance(space, PolynomialSpace):
-        return tuple(reversed(identity(space.stages)))
+        return tuple(reversed(matrix.identity(space.stages)))
     columns: list[list[Number]] = []
     power = fmpq_poly([1])
     for _ in range(space.stages):
@@ -281,14 +271,14 @@ def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: 
     return merged(side_by_side(rows, weights))
 
 
-def side_by_side(tableaus: Sequence[Tableau], weights: Vector) -> Tableau:
+def side_by_side(tableaus: Sequence[Tableau], weights: matrix.Vector) -> Tableau:
     """The method Σ w_j Φ_j: every method takes the step from the same value, and the results are
     combined.
     """
     first = tableaus[0]
     colours = [_side_by_side(tableaus, weights, l) for l in range(first.size)]
     nodes = (next(x.c for x in colours if x.space == k) for k in range(len(first.spaces)))
-    blocks: dict[Edge, Matrix] = {}
+    blocks: dict[Edge, matrix.Matrix] = {}
     for place in first.blocks:
         _, m = place
         widths = [len(x.colours[m].b) for x in tableaus]
@@ -296,7 +286,7 @@ def side_by_side(tableaus: Sequence[Tableau], weights: Vector) -> Tableau:
     return Tableau(tuple(map(PointSpace, nodes)), tuple(colours), blocks)
 
 
-def _side_by_side(tableaus: Sequence[Tableau], weights: Vector, l: int) -> Colour:
+def _side_by_side(tableaus: Sequence[Tableau], weights: matrix.Vector, l: int) -> Colour:
     b: list[Number] = []
     c: list[Number] = []
     for tableau, weight in zip(tableaus, weights, strict=True):
@@ -306,7 +296,7 @@ def _side_by_side(tableaus: Sequence[Tableau], weights: Vector, l: int) -> Colou
     return replace(tableaus[0].colours[l], b=tuple(b), c=tuple(c))
 
 
-def _diagonal(blocks: Sequence[Matrix], widths: Sequence[int]) -> Iterator[Vector]:
+def _diagonal(blocks: Sequence[matrix.Matrix], widths: Sequence[int]) -> Iterator[matrix.Vector]:
     """The rows of a block diagonal matrix whose blocks have ``widths`` columns."""
     for k, block in enumerate(blocks):
         before = [ZERO] * sum(widths[:k])

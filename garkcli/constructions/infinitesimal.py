@@ -26,18 +26,8 @@ from operator import mul
 
 from flint import fmpq
 
+from garkcli.constructions import multirate
 from garkcli.constructions.composition import MAX_STAGES, refuse_large
-from garkcli.constructions.multirate import (
-    FAST,
-    SLOW,
-    SMALLER,
-    START,
-    SmallSteps,
-    Value,
-    add_slow_stages,
-    of_slopes,
-    summed,
-)
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_float
 from garkcli.exact.field import ONE, ZERO, Number
@@ -284,7 +274,7 @@ def plan_for_flow(coupling: Coupling) -> CollocationPlan:
     if not any(isinstance(x, Parametric) for row in coupling.rows for x in row):
         wanted = min(wanted, apparent_order(coupling, seen))
     order = max(1, min(wanted, room // (sum(degrees) or 1)))
-    refuse_large(sum(degrees) + len(degrees), SMALLER)
+    refuse_large(sum(degrees) + len(degrees), multirate.SMALLER)
     counts = tuple(d * order + 1 if d else 0 for d in degrees)
     return CollocationPlan(counts, tuple(sorted(seen or {0})), order + 1)
 
@@ -328,8 +318,8 @@ def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
     """
     still = CollocationPlan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
     made, further = _Infinitesimal(coupling, still, None, 1).made()
-    slow = [m for m, colour in enumerate(made.colours) if colour.space == SLOW]
-    A = _as_one(zip(*(made.blocks[SLOW, m] for m in slow), strict=True))
+    slow = [m for m, colour in enumerate(made.colours) if colour.space == multirate.SLOW]
+    A = _as_one(zip(*(made.blocks[multirate.SLOW, m] for m in slow), strict=True))
     weights = [[made.colours[m].b for m in slow]]
     if further.embedded is not None:
         weights.append([further.embedded[m] for m in slow])
@@ -393,7 +383,7 @@ def infinitesimal(
     there are too many stages.
     """
     if fast is not None:
-        refuse_large(len(coupling.every) * (steps * fast.stages + 2), SMALLER)
+        refuse_large(len(coupling.every) * (steps * fast.stages + 2), multirate.SMALLER)
     return _finished(_Infinitesimal(coupling, plan, fast, steps), plan)
 
 
@@ -452,7 +442,7 @@ def predicted(
     are too many stages.
     """
     of_fast = sum(plan.fast) if fast is None else len(forcing) * steps * fast.stages
-    refuse_large(2 * slow.stages + of_fast, SMALLER)
+    refuse_large(2 * slow.stages + of_fast, multirate.SMALLER)
     zeros = _zeros(slow.stages + 1)
     ways = [
         FastInterval(zeros, zeros, ONE, (tuple((*row, ZERO) for row in powers),))
@@ -470,10 +460,10 @@ def slow_part(method: AnyTableau) -> AnyTableau:
 
 
 def _slow_part(tableau: Tableau) -> Tableau:
-    slow = [m for m, colour in enumerate(tableau.colours) if colour.space == SLOW]
+    slow = [m for m, colour in enumerate(tableau.colours) if colour.space == multirate.SLOW]
     colours = tuple(replace(tableau.colours[m], space=0) for m in slow)
-    blocks = {(0, n): tableau.blocks[SLOW, m] for n, m in enumerate(slow)}
-    return Tableau((tableau.spaces[SLOW],), colours, blocks)
+    blocks = {(0, n): tableau.blocks[multirate.SLOW, m] for n, m in enumerate(slow)}
+    return Tableau((tableau.spaces[multirate.SLOW],), colours, blocks)
 
 
 class _Infinitesimal:
@@ -486,8 +476,8 @@ class _Infinitesimal:
         self.plan = plan
         self.fast = fast
         self.steps = steps
-        self.program = SmallSteps([FAST, *[SLOW] * coupling.parts])
-        self.values: list[Value] = []
+        self.program = multirate.SmallSteps([multirate.FAST, *[multirate.SLOW] * coupling.parts])
+        self.values: list[multirate.Value] = []
         self.places = {j: n for n, j in enumerate(plan.stages)}
 
     def made(self) -> tuple[Tableau, Further]:
@@ -500,27 +490,27 @@ class _Infinitesimal:
             further = Further(tuple(colour.b for colour in weights.colours))
         return self.program.tableau(result), further
 
-    def _result(self) -> Value:
+    def _result(self) -> multirate.Value:
         """The value at the end of the step, stage by stage."""
-        self._reached(START)
+        self._reached(multirate.START)
         for i, interval in enumerate(self.coupling.intervals):
             self._reached(self._after(i, interval))
         return self.values[-1]
 
-    def _reached(self, value: Value) -> None:
+    def _reached(self, value: multirate.Value) -> None:
         """Adds a slow stage; an implicit one already has its own slope in its value."""
         i = len(self.values)
         if i in self.places:
-            self.program.add(SLOW, value, self.coupling.nodes[i])
+            self.program.add(multirate.SLOW, value, self.coupling.nodes[i])
         self.values.append(value)
 
-    def _after(self, i: int, interval: FastInterval) -> Value:
+    def _after(self, i: int, interval: FastInterval) -> multirate.Value:
         """The value at the end of a fast problem."""
         value = self._mixed(interval.begin)
         drift = self._mixed(interval.drift)
         count = self.plan.fast[i]
         if not count:
-            value = summed(value, drift, self._forced(interval))
+            value = multirate.summed(value, drift, self._forced(interval))
         elif self.fast is None:
             value = self._small_step(interval, value, drift, collocation(count), ZERO, ONE)
         else:
@@ -529,18 +519,22 @@ class _Infinitesimal:
                 begin = n * length
                 value = self._small_step(interval, value, drift, self.fast, begin, length)
         for part, row in enumerate(interval.after):
-            value = summed(value, self._slow(part, row) if row else START)
+            value = multirate.summed(value, self._slow(part, row) if row else multirate.START)
         return value
 
-    def _mixed(self, row: Vector) -> Value:
+    def _mixed(self, row: Vector) -> multirate.Value:
         """A combination of stages, as Y_j − y_n."""
         pairs = [(x, self.values[j]) for j, x in enumerate(row) if x]
         scaled = [{slope: x * weight for slope, weight in value.items()} for x, value in pairs]
-        return scaled[0] if len(scaled) == 1 else summed(*scaled)
+        return scaled[0] if len(scaled) == 1 else multirate.summed(*scaled)
 
-    def _slow(self, part: int, row: Vector) -> Value:
+    def _slow(self, part: int, row: Vector) -> multirate.Value:
         """A combination of the slopes of one slow part, possibly of later stages."""
-        return {(SLOW + part, self.places[j]): x for j, x in enumerate(row) if j in self.places}
+        return {
+            (multirate.SLOW + part, self.places[j]): x
+            for j, x in enumerate(row)
+            if j in self.places
+        }
 
     def _node(self, interval: FastInterval, tau: Number) -> Number:
         """The time of the fast part."""
@@ -550,33 +544,35 @@ class _Infinitesimal:
     def _small_step(
         self,
         interval: FastInterval,
-        value: Value,
-        drift: Value,
+        value: multirate.Value,
+        drift: multirate.Value,
         fast: Method,
         begin: Number,
         length: Number,
-    ) -> Value:
+    ) -> multirate.Value:
         """One step of the fast method from τ = ``begin``."""
-        first = self.program.count(FAST)
+        first = self.program.count(multirate.FAST)
         stages = range(first, first + fast.stages)
         times = [begin + length * c for c in fast.c]
         for row, time in zip(fast.A, times, strict=True):
             inner = self._moved(interval, drift, row, times, stages, length)
-            self.program.add(FAST, summed(value, inner), self._node(interval, time))
-        return summed(value, self._moved(interval, drift, fast.b, times, stages, length))
+            self.program.add(
+                multirate.FAST, multirate.summed(value, inner), self._node(interval, time)
+            )
+        return multirate.summed(value, self._moved(interval, drift, fast.b, times, stages, length))
 
     def _moved(
         self,
         interval: FastInterval,
-        drift: Value,
+        drift: multirate.Value,
         weights: Vector,
         times: Sequence[Number],
         stages: range,
         length: Number,
-    ) -> Value:
+    ) -> multirate.Value:
         """The fast slopes and the slow ones at their times, with the weights of the fast method."""
         scaled = [length * w for w in weights]
-        moved = of_slopes(FAST, stages, [interval.width * w for w in scaled])
+        moved = multirate.of_slopes(multirate.FAST, stages, [interval.width * w for w in scaled])
         moments = [
             dot(scaled, [time**k for time in times])
             for k in range(max(map(len, interval.forcing)) or 1)
@@ -587,11 +583,11 @@ class _Infinitesimal:
             for part, powers in enumerate(interval.forcing)
             for k, row in enumerate(powers)
         ]
-        return summed(moved, along, *parts)
+        return multirate.summed(moved, along, *parts)
 
-    def _forced(self, interval: FastInterval) -> Value:
+    def _forced(self, interval: FastInterval) -> multirate.Value:
         """The slow slopes with the integrals of their polynomials from 0 to 1."""
-        return summed(
+        return multirate.summed(
             *(
                 self._slow(part, tuple(x * fmpq(1, k + 1) for x in row))
                 for part, powers in enumerate(interval.forcing)
@@ -614,6 +610,6 @@ class _Predicted(_Infinitesimal):
         super().__init__(coupling, plan, fast, steps)
         self.slow = slow
 
-    def _result(self) -> Value:
-        add_slow_stages(self.program, self.slow)
+    def _result(self) -> multirate.Value:
+        multirate.add_slow_stages(self.program, self.slow)
         return self._after(0, self.coupling.intervals[0])

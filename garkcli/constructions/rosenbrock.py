@@ -23,29 +23,10 @@ from operator import sub as subtract_numbers
 from typing import Literal, TypeAlias
 
 from garkcli.errors import MethodError, ShapeMismatch
+from garkcli.exact import matrix as matrices
 from garkcli.exact.field import ZERO
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    add,
-    apply,
-    apply_left,
-    dot,
-    identity,
-    multiply,
-    solve,
-    subtract,
-)
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import (
-    ERROR_OF_MATRIX,
-    MATRIX,
-    NOT_ONE,
-    ONE_BRANCH,
-    PLAIN,
-    SEVERAL,
-    VertexKind,
-)
+from garkcli.ntrees import kind as nature
 from garkcli.order.meant import AnyTableau
 from garkcli.properties.registry import OF_TEST_EQUATION
 from garkcli.reason import Reason
@@ -54,9 +35,9 @@ from garkcli.tableau.forms import beside_clock, gark
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
 
-Blocks: TypeAlias = tuple[tuple[Matrix, ...], ...]
-Rows: TypeAlias = tuple[Vector, ...]
-CONSTRAINT = VertexKind(frozenset({SEVERAL}), weight=0)
+Blocks: TypeAlias = tuple[tuple[matrices.Matrix, ...], ...]
+Rows: TypeAlias = tuple[matrices.Vector, ...]
+CONSTRAINT = nature.VertexKind(frozenset({nature.SEVERAL}), weight=0)
 """The kind of g in 0 = g(y, z), which is solved for z."""
 
 
@@ -73,7 +54,7 @@ class Rosenbrock(Frozen):
 
     alpha: Blocks
     gamma: Blocks
-    b: tuple[Vector, ...]
+    b: tuple[matrices.Vector, ...]
     c: Rows | None = None
     d: Rows | None = None
 
@@ -88,7 +69,9 @@ class Rosenbrock(Frozen):
             return tuple(tuple(tableau.blocks[first + l, m] for m in range(N)) for l in range(N))
 
         alpha, beta = blocks(0), blocks(N)
-        gamma = tuple(tuple(map(subtract, *rows)) for rows in zip(beta, alpha, strict=True))
+        gamma = tuple(
+            tuple(map(matrices.subtract, *rows)) for rows in zip(beta, alpha, strict=True)
+        )
         nodes = tuple(colour.c for colour in tableau.colours)
         d = tuple(
             tuple(map(subtract_numbers, *rows)) for rows in zip(nodes[N:], nodes[:N], strict=True)
@@ -105,12 +88,14 @@ class Rosenbrock(Frozen):
     @property
     def tableau(self) -> Tableau:
         """The tableau with the Jacobians of all f^{l} at the beginning of the step."""
-        return self._tableau(("f", NOT_ONE, self.alpha), ("f'", ONE_BRANCH, self._beta))
+        return self._tableau(
+            ("f", nature.NOT_ONE, self.alpha), ("f'", nature.ONE_BRANCH, self._beta)
+        )
 
     @property
     def with_any_matrix(self) -> Tableau:
         """The tableau of the W-method, with an arbitrary matrix for each Jacobian."""
-        return self._tableau(("f", PLAIN, self.alpha), ("W", MATRIX, self.gamma))
+        return self._tableau(("f", nature.PLAIN, self.alpha), ("W", nature.MATRIX, self.gamma))
 
     @property
     def with_old_jacobian(self) -> Tableau:
@@ -118,9 +103,9 @@ class Rosenbrock(Frozen):
         earlier steps.
         """
         return self._tableau(
-            ("f", NOT_ONE, self.alpha),
-            ("f'", ONE_BRANCH, self._beta),
-            ("E", ERROR_OF_MATRIX, self.gamma),
+            ("f", nature.NOT_ONE, self.alpha),
+            ("f'", nature.ONE_BRANCH, self._beta),
+            ("E", nature.ERROR_OF_MATRIX, self.gamma),
         )
 
     @property
@@ -154,13 +139,13 @@ class Rosenbrock(Frozen):
             raise MethodError(message, "leave them out", code="cannot-construct")
         (((alpha,),), ((beta,),)), g = (self.alpha, self._beta), made.size
         stages, c = len(beta), made.colours[0].c
-        inverse = solve(beta, identity(stages))
-        seen_by_f = multiply(alpha, inverse)
-        weights = apply_left(self.b[0], inverse)
+        inverse = matrices.solve(beta, matrices.identity(stages))
+        seen_by_f = matrices.multiply(alpha, inverse)
+        weights = matrices.apply_left(self.b[0], inverse)
         constraint = Colour("g", g, weights, c, term=1, kind=CONSTRAINT, late=late)
         blocks = {
             (0, g): seen_by_f,
-            (1, g): identity(stages),
+            (1, g): matrices.identity(stages),
             (g, 0): alpha,
             (g, 1): alpha,
             (g, g): seen_by_f,
@@ -169,7 +154,7 @@ class Rosenbrock(Frozen):
         return Tableau(spaces, (*made.colours, constraint), {**made.blocks, **blocks})
 
     @property
-    def diagonal(self) -> Vector:
+    def diagonal(self) -> matrices.Vector:
         """The γ_ii of all stages."""
         blocks = [row[l] for l, row in enumerate(self.gamma)]
         return tuple(row[i] for block in blocks for i, row in enumerate(block))
@@ -218,9 +203,11 @@ class Rosenbrock(Frozen):
     @property
     def _beta(self) -> Blocks:
         """β = α + γ."""
-        return tuple(tuple(map(add, *rows)) for rows in zip(self.alpha, self.gamma, strict=True))
+        return tuple(
+            tuple(map(matrices.add, *rows)) for rows in zip(self.alpha, self.gamma, strict=True)
+        )
 
-    def _tableau(self, *kinds: tuple[str, VertexKind, Blocks]) -> Tableau:
+    def _tableau(self, *kinds: tuple[str, nature.VertexKind, Blocks]) -> Tableau:
         """Returns the tableau whose colours of each kind see all others through blocks of their
         own.
 
@@ -232,7 +219,7 @@ class Rosenbrock(Frozen):
         nodes_of = {"f": c, "f'": alone}
         spaces: list[PointSpace] = []
         colours: list[Colour] = []
-        blocks: dict[Edge, Matrix] = {}
+        blocks: dict[Edge, matrices.Matrix] = {}
         for letter, kind, through in kinds:
             for l in range(N):
                 k = len(spaces)
@@ -248,7 +235,7 @@ def is_rosenbrock(tableau: Tableau) -> bool:
     """Whether a tableau is that of a Rosenbrock method with its Jacobian."""
     kinds = [colour.kind for colour in tableau.colours]
     N = len(kinds) // 2
-    return bool(kinds) and kinds == [NOT_ONE] * N + [ONE_BRANCH] * N
+    return bool(kinds) and kinds == [nature.NOT_ONE] * N + [nature.ONE_BRANCH] * N
 
 
 Which: TypeAlias = Literal[
@@ -295,27 +282,28 @@ def _seen(which: Which, tableau: Tableau) -> Tableau:
     return found
 
 
-def transformed_weights(further: Further, gamma: Matrix) -> Further:
+def transformed_weights(further: Further, gamma: matrices.Matrix) -> Further:
     """Embedded weights and dense output of one colour, converted from the stored form m = b Γ⁻¹ to
     weights of the stages k_i.
     """
     return _times(further, gamma)
 
 
-def _times(further: Further, matrix: Matrix) -> Further:
+def _times(further: Further, matrix: matrices.Matrix) -> Further:
     """Each row of weights times a matrix."""
     embedded, dense = further.embedded, further.dense
     if embedded is not None:
-        embedded = tuple(apply_left(row, matrix) for row in embedded)
+        embedded = tuple(matrices.apply_left(row, matrix) for row in embedded)
     if dense is not None:
         powers = [
-            [apply_left(row, matrix) for row in zip(*block, strict=True)] for block in dense.weights
+            [matrices.apply_left(row, matrix) for row in zip(*block, strict=True)]
+            for block in dense.weights
         ]
         dense = DenseOutput(tuple(tuple(zip(*rows, strict=True)) for rows in powers))
     return Further(embedded, dense)
 
 
-def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
+def rosenbrock(alpha: matrices.Matrix, gamma: matrices.Matrix, b: matrices.Vector) -> Rosenbrock:
     """Returns a Rosenbrock method of one colour.
 
     ``alpha`` and ``gamma`` have the shape (s, s), ``b`` has length s. Raises ShapeMismatch if the
@@ -336,14 +324,16 @@ def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
     return Rosenbrock(((alpha,),), ((gamma,),), (b,))
 
 
-def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
+def transformed(
+    A: matrices.Matrix, C: matrices.Matrix, gamma: matrices.Vector, m: matrices.Vector
+) -> Rosenbrock:
     """Returns a method from the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
 
     ``gamma`` has γ_ii of each stage. Raises MethodError if a γ_ii is zero, or C has a nonzero entry
     on or above the diagonal.
     """
     full = _full(C, gamma)
-    return rosenbrock(multiply(A, full), full, apply_left(m, full))
+    return rosenbrock(matrices.multiply(A, full), full, matrices.apply_left(m, full))
 
 
 class Stored(Frozen):
@@ -353,10 +343,10 @@ class Stored(Frozen):
     embedded weights and the dense output at the stages of this form.
     """
 
-    A: Matrix
-    C: Matrix
-    gamma: Vector
-    m: Vector
+    A: matrices.Matrix
+    C: matrices.Matrix
+    gamma: matrices.Vector
+    m: matrices.Vector
     further: Further = NOTHING
 
 
@@ -382,13 +372,15 @@ def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
         message = "a diagonal entry of gamma is 0, and programs divide by it"
         raise MethodError(message, cure, code="cannot-construct")
     s = len(b)
-    inverse = solve(gamma, identity(s))
+    inverse = matrices.solve(gamma, matrices.identity(s))
     C = tuple(tuple(-x if j < i else ZERO for j, x in enumerate(inverse[i])) for i in range(s))
-    m = apply_left(b, inverse)
-    return Stored(multiply(alpha, inverse), C, method.diagonal, m, _times(further, inverse))
+    m = matrices.apply_left(b, inverse)
+    return Stored(
+        matrices.multiply(alpha, inverse), C, method.diagonal, m, _times(further, inverse)
+    )
 
 
-def _full(C: Matrix, gamma: Vector) -> Matrix:
+def _full(C: matrices.Matrix, gamma: matrices.Vector) -> matrices.Matrix:
     """Γ from the stored form."""
     if not all(gamma):
         message = "a diagonal entry of gamma is 0, and the coefficients are divided by it"
@@ -397,12 +389,12 @@ def _full(C: Matrix, gamma: Vector) -> Matrix:
         message = "C is not zero on and above its diagonal, and diag(1/γ) − Γ⁻¹ is"
         raise MethodError(message, "give alpha and gamma", code="cannot-construct")
     # row after row: elimination takes ten times as long on affine forms
-    rows: list[Vector] = []
+    rows: list[matrices.Vector] = []
     for i, (diagonal, row) in enumerate(zip(gamma, C, strict=True)):
-        before = [dot(row[:i], column) for column in zip(*rows, strict=True)]
+        before = [matrices.dot(row[:i], column) for column in zip(*rows, strict=True)]
         rows.append((*(diagonal * x for x in before[:i]), diagonal, *(ZERO,) * (len(C) - i - 1)))
     return tuple(rows)
 
 
-def _sums(block: Matrix) -> Vector:
-    return apply(block, PointSpace(block[0]).one)
+def _sums(block: matrices.Matrix) -> matrices.Vector:
+    return matrices.apply(block, PointSpace(block[0]).one)

@@ -12,18 +12,8 @@ from contextlib import suppress
 
 from flint import fmpq
 
-from garkcli.convergence import ladder
+from garkcli.convergence import ladder, result
 from garkcli.convergence.ladder import Solver
-from garkcli.convergence.result import (
-    CLOSE,
-    MAX_ORDER,
-    Convergence,
-    StepSizeRow,
-    Stiffness,
-    Visible,
-    observed_order,
-    stiff_order,
-)
 from garkcli.convergence.solver import ROWS
 from garkcli.errors import UsageProblem
 from garkcli.order import deciding
@@ -106,7 +96,7 @@ def converge(
     tolerance: fmpq | None = None,
     is_timed: bool = False,
     order: int | None = None,
-) -> Convergence:
+) -> result.Convergence:
     """Tests the convergence of ``tableau`` on ``problem``.
 
     The problem is in as many terms as the tableau has, or in one with a natural split; the
@@ -139,13 +129,13 @@ def converge(
     rows, plateau = _rows(solver, steps, is_timed)
     fitted = rows[: len(rows) - plateau]
     stiff = _stiffness(solver, tableau, rows, tolerance)
-    observed = observed_order(fitted) if stiff is None else stiff_order(fitted)
+    observed = result.observed_order(fitted) if stiff is None else result.stiff_order(fitted)
     is_exact = tolerance is None
     short_time, short_order = None, None
-    is_off = observed is not None and abs(observed - solver.visible.order) > CLOSE
+    is_off = observed is not None and abs(observed - solver.visible.order) > result.CLOSE
     if is_exact and is_off:
         short_time, short_order = _over_short_times(solver, min(t_end, usual_time(problem)))
-    return Convergence(
+    return result.Convergence(
         solver.problem,
         t_end,
         tuple(map(solver.timed, rows)) if is_timed else tuple(rows),
@@ -164,7 +154,7 @@ def converge(
 
 def _rows(
     solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool
-) -> tuple[list[StepSizeRow], int]:
+) -> tuple[list[result.StepSizeRow], int]:
     """The errors over the given steps or those of the ladder, and the number of rows at the end on
     a plateau.
     """
@@ -176,19 +166,19 @@ def _rows(
 
 
 def _stiffness(
-    solver: Solver, tableau: Tableau, rows: Sequence[StepSizeRow], tolerance: fmpq | None
-) -> Stiffness | None:
+    solver: Solver, tableau: Tableau, rows: Sequence[result.StepSizeRow], tolerance: fmpq | None
+) -> result.Stiffness | None:
     """The stiffness, if the steps of all rows are far too large for the problem; else None."""
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
     is_stable = ladder.is_part(rows[-1], solver.size())
     if not tableau.has_fields_alone:
-        return Stiffness(resolution, None, None, is_stable)
+        return result.Stiffness(resolution, None, None, is_stable)
     method = meant(tableau, tolerance)
     weak = weak_stage_order(method, range(tableau.size), DEFAULT_LIMIT)
     known_weak = None if weak == DEFAULT_LIMIT else weak
-    return Stiffness(resolution, simplifying(method).stage_order, known_weak, is_stable)
+    return result.Stiffness(resolution, simplifying(method).stage_order, known_weak, is_stable)
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:
@@ -223,7 +213,7 @@ def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
     """The order by the certificate, up to ``MAX_ORDER``, within the tolerance of rounded
     coefficients.
     """
-    return deciding.order_of(meant(tableau, tolerance), MAX_ORDER).order
+    return deciding.order_of(meant(tableau, tolerance), result.MAX_ORDER).order
 
 
 def _solver(
@@ -241,13 +231,13 @@ def _solver(
 
     bound = bind(tableau, problem)
     order = max(order_of(visible_tableau(bound.tableau, bound.fields), tolerance), predicted)
-    visible = Visible(order, problem.is_generic, visible_trees(bound.fields))
+    visible = result.Visible(order, problem.is_generic, visible_trees(bound.fields))
     return SteppedSolver(bound, t_end, visible, tolerance)
 
 
-def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[StepSizeRow]:
+def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[result.StepSizeRow]:
     """The errors of some step sizes; only one row if it has no error."""
-    rows: list[StepSizeRow] = []
+    rows: list[result.StepSizeRow] = []
     for h in sorted(set(steps), reverse=True):
         row = solver.row(h, rows[-1] if rows else None)
         if row.error.is_zero():
@@ -267,11 +257,11 @@ def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
         short = usual / fmpq(10) ** decades
         over = solver.over(short)
         rows = _given_rows(over, [over.t_end / n for n in _SHORT_STEPS])
-        order = None if rows[-1].error.is_zero() else observed_order(rows)
+        order = None if rows[-1].error.is_zero() else result.observed_order(rows)
         if order is None:
             break
-        is_whole = abs(order - round(order)) <= CLOSE
-        may_fall = solver.visible.is_sharp and order > solver.visible.order + CLOSE
+        is_whole = abs(order - round(order)) <= result.CLOSE
+        may_fall = solver.visible.is_sharp and order > solver.visible.order + result.CLOSE
         if is_whole and not may_fall:
             break
     return short, order

@@ -20,17 +20,8 @@ from garkcli.problems.expr import rational
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.vectorfield import symbols
+from garkcli.stepping import linear
 from garkcli.stepping.integrator import Integrator, Stepper, bind
-from garkcli.stepping.linear import (
-    MAX_STEPS,
-    LinearStep,
-    conserves_energy,
-    deviations,
-    enclosure,
-    linear_step,
-    visible_order,
-    whole_steps,
-)
 from garkcli.stepping.linearly_implicit import LinearlyImplicit
 from garkcli.tableau.along_flow import AlongFlow
 from garkcli.tableau.tableau import Tableau
@@ -59,11 +50,11 @@ class LinearSolver(Mutable):
     """
 
     tableau: Tableau
-    step: LinearStep
+    step: linear.LinearStep
     t_end: fmpq
     visible: Visible
     spoilt: arb = field(default_factory=arb)
-    most_steps: int = MAX_STEPS
+    most_steps: int = linear.MAX_STEPS
     decades: tuple[int, ...] = _DECADES
     integrators: dict[int, Integrator] = field(default_factory=dict)
 
@@ -95,7 +86,7 @@ class LinearSolver(Mutable):
         Raises:
             NoUniqueStep: the stage equations have no unique solution at this step size.
         """
-        steps = whole_steps(self.t_end, h)
+        steps = linear.whole_steps(self.t_end, h)
         try:
             R = self.step.at(h)
         except UsageProblem as pole:
@@ -130,7 +121,7 @@ class LinearSolver(Mutable):
         Raises:
             StepFailed: the stage equations of a step were not solved.
         """
-        steps = whole_steps(self.t_end, row.h)
+        steps = linear.whole_steps(self.t_end, row.h)
         y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
         if abs(self._distance(y) - row.error) < REACHED * row.error:
             return replace(row, cost=cost)
@@ -177,15 +168,15 @@ def linear_solver(
     made = implicit.on_linear_problems if implicit else tableau
     if tableau.uses_derivatives:
         made = AlongFlow.of(tableau).on_test_equation
-    step = linear_step(made, problem)
-    met = visible_order(step, tolerance)
+    step = linear.linear_step(made, problem)
+    met = linear.visible_order(step, tolerance)
     order = max(met, predicted)
     # where the next condition itself is below the tolerance nothing is known of it
     is_sharp = True
     spoilt = arb(0)
     if tolerance is not None:
         is_sharp = fmpq(1, factorial(order + 1)) > tolerance
-        spoilt = sum(islice(deviations(step), met), arb(0))
+        spoilt = sum(islice(linear.deviations(step), met), arb(0))
     return LinearSolver(tableau, step, t_end, Visible(order, is_sharp, LINEAR_ONLY), spoilt)
 
 
@@ -205,10 +196,10 @@ def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
     about 0.
     """
     bits, enough = _FIRST_BITS, 0
-    is_conserved = conserves_energy(R, omega)
+    is_conserved = linear.conserves_energy(R, omega)
     while True:
         with ctx.workprec(bits):
-            error, energy_error = _errors_of(enclosure(R, bits) ** n, omega, t_end)
+            error, energy_error = _errors_of(linear.enclosure(R, bits) ** n, omega, t_end)
         if error.rel_accuracy_bits() >= ERROR_BITS:
             if is_conserved:
                 return error, arb(0)

@@ -15,16 +15,10 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import BITS_OF_A_DIGIT, to_float
 from garkcli.frozen import Frozen, Mutable, replace
+from garkcli.problems import righthandside
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mass import enclosed
 from garkcli.problems.problem import Problem, unknowns
-from garkcli.problems.righthandside import (
-    EXACT_DIGITS,
-    RightHandSide,
-    solution,
-    starts_exactly,
-    steepness,
-)
 from garkcli.stepping.integrator import Integrator, StepFailed, Stepper, bind
 
 MAX_TRIED = 10_000
@@ -95,14 +89,14 @@ class ReferenceSolution(Mutable):
         """
         if isinstance(self.problem, Hamiltonian) or self.problem.exact is None:
             return False
-        return digits <= EXACT_DIGITS or starts_exactly(self.problem)
+        return digits <= righthandside.EXACT_DIGITS or righthandside.starts_exactly(self.problem)
 
 
 def _exact(problem: Problem, t_end: fmpq, digits: int) -> tuple[arb, ...]:
     """The known solution of a problem at one time."""
-    assert isinstance(problem, RightHandSide)
+    assert isinstance(problem, righthandside.RightHandSide)
     with ctx.workprec(ceil((digits + _SPARE) * BITS_OF_A_DIGIT) + 64):
-        return tuple(x.mid() for x in solution(problem, arb(t_end)))
+        return tuple(x.mid() for x in righthandside.solution(problem, arb(t_end)))
 
 
 def reference(problem: Problem, t_end: fmpq) -> ReferenceSolution:
@@ -202,9 +196,9 @@ class _Runs:
         self.stages = min(_STAGES, max(6, 2 * digits // 5))
         spare = _SPARE
         family = gauss
-        if isinstance(problem, RightHandSide):
+        if isinstance(problem, righthandside.RightHandSide):
             family = radau_iia
-            largest = max(1.0, float(steepness(problem) * arb(t_end)))
+            largest = max(1.0, float(righthandside.steepness(problem) * arb(t_end)))
             # what a stiff field makes of round-off
             spare += ceil(log10(largest))
         method = gark([family(self.stages)], {})
@@ -288,7 +282,7 @@ the solution.
 _BITS = 4 * _DIGITS
 
 
-@doing("invariants along the solution")
+@doing("invariants along the righthandside.solution")
 def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
     after which it is measured.

@@ -16,17 +16,11 @@ from garkcli.doing import doing
 from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
+from garkcli.methodfile import writer
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.writer import (
-    can_spell_out,
-    tolerance_of_file,
-    write_form,
-    write_method,
-    write_tableau_file,
-)
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.tolerance import within
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
@@ -122,7 +116,7 @@ def convert(
     sheet = goal.convert(method) if found is None else found.sheet
     if stages is not None:
         sheet = padded(sheet, stages)
-    if not can_spell_out(sheet.tableau):
+    if not writer.can_spell_out(sheet.tableau):
         raise CannotConvert(
             "a method file spells out a GARK method or one pair (q, p), not"
             " this partitioned method",
@@ -133,8 +127,8 @@ def convert(
     if goal.printed is not None:
         text = _printed(goal, goal.printed, method, sheet, name)
     elif found is None:
-        tolerance = tolerance_of_file(method, sheet.further)
-        text = write_method(sheet.tableau, name, tolerance, sheet.further)
+        tolerance = writer.tolerance_of_file(method, sheet.further)
+        text = writer.write_method(sheet.tableau, name, tolerance, sheet.further)
     else:
         text = _written(replace(found, sheet=sheet), name)
     loses_further = method.further.kinds != sheet.further.kinds
@@ -164,14 +158,14 @@ def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name:
     """
     own = method.tolerance
     key, keys = form(sheet.tableau, own)
-    tolerance = tolerance_of_file(method, sheet.further)
+    tolerance = writer.tolerance_of_file(method, sheet.further)
     if own is None:
-        return write_form(key, keys, sheet.tableau, name, tolerance, sheet.further)
+        return writer.write_form(key, keys, sheet.tableau, name, tolerance, sheet.further)
     orders = orders_of(method)
     for wider in WIDER:
         allowed = own * wider
         written = {**tolerance, "others": allowed} if isinstance(tolerance, dict) else allowed
-        text = write_form(key, keys, sheet.tableau, name, written, sheet.further)
+        text = writer.write_form(key, keys, sheet.tableau, name, written, sheet.further)
         made = loads(text)
         pairs = zip(made.tableau.rows, sheet.tableau.rows, strict=True)
         gaps = (x - y for rows in pairs for x, y in zip(*rows, strict=True))
@@ -185,7 +179,7 @@ def _written(found: RecoveredMethod, name: str) -> str:
     """The file of a recovered method, with as many exact numbers as keep all orders."""
     proposals = {**found.proposals}
     while True:
-        text = write_tableau_file(
+        text = writer.write_tableau_file(
             found.sheet.tableau,
             name,
             found.tolerance_with(proposals),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.check.analysis import analyse
+from garkcli.check.analysis import Analysis, analyse
 from garkcli.conversion.sheet import CannotConvert, Sheet
 from garkcli.design.search.proposing import PRECISION, exact_form
 from garkcli.exact.affine import Affine
@@ -24,7 +24,6 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.stages import PointSpace
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder
     from garkcli.tableau.tableau import Tableau

@@ -20,13 +20,12 @@ from garkcli.exact.matrix import Vector
 from garkcli.grammar.editing import number_text, quoted, row_text
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import is_transformed
-from garkcli.methodfile.writer import tolerance_of_file, tolerance_text
+from garkcli.methodfile.writer import Written, tolerance_of_file, tolerance_text
 from garkcli.order.meant import as_meant, with_further
 from garkcli.tableau.embedded import Further, from_colours
 from garkcli.tableau.garkmethod import GarkMethod
 
 if TYPE_CHECKING:
-    from garkcli.methodfile.writer import Written
     from garkcli.order.rounded import RoundedTableau
     from garkcli.tableau.tableau import Tableau
 

@@ -4,17 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from garkcli.conversion import sheet as sheets
 from garkcli.conversion.printed import InForm, in_2n, in_registers, in_shu_osher
 from garkcli.conversion.rosenbrock import PRINTED, TRANSFORMED
-from garkcli.conversion.sheet import (
-    CannotConvert,
-    Place,
-    Sheet,
-    each_its_own,
-    of_weights,
-    regrouped,
-    sheet_of,
-)
 from garkcli.conversion.stages import in_order, in_solving_order
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, field, replace
@@ -38,21 +30,21 @@ class Target(Frozen):
 
     name: str
     summary: str
-    convert: Callable[[GarkMethod], Sheet]
+    convert: Callable[[GarkMethod], sheets.Sheet]
     claims: Mapping[str, str] = field(default_factory=dict)
     makes_another: bool = False
     printed: InForm | None = None
 
 
-def as_gark(method: GarkMethod) -> Sheet:
+def as_gark(method: GarkMethod) -> sheets.Sheet:
     """The method as a GARK method.
 
     The parts q and p become colours whose vector fields are zero in the other part.
     """
-    return without_parts(each_its_own(sheet_of(method)))
+    return without_parts(sheets.each_its_own(sheets.sheet_of(method)))
 
 
-def without_parts(sheet: Sheet) -> Sheet:
+def without_parts(sheet: sheets.Sheet) -> sheets.Sheet:
     """The method for vector fields that drive all unknowns, with its colours numbered."""
     colours = []
     for l, colour in enumerate(sheet.tableau.colours):
@@ -60,7 +52,7 @@ def without_parts(sheet: Sheet) -> Sheet:
     return replace(sheet, tableau=replace(sheet.tableau, colours=tuple(colours)))
 
 
-def as_ark(method: GarkMethod) -> Sheet:
+def as_ark(method: GarkMethod) -> sheets.Sheet:
     """The method as an additive one.
 
     If the colours have the same stages, they share them. Otherwise the stages of all colours follow
@@ -69,23 +61,23 @@ def as_ark(method: GarkMethod) -> Sheet:
     Raises:
         CannotConvert: a colour is linear, or some stages do not see every colour.
     """
-    sheet = without_parts(sheet_of(method))
+    sheet = without_parts(sheets.sheet_of(method))
     linear = [x.name for x in sheet.tableau.colours if x.is_linear]
     if linear:
         message = f"colour {linear[0]} is linear, which an additive method cannot express"
-        raise CannotConvert(message, "--to gark keeps it")
+        raise sheets.CannotConvert(message, "--to gark keeps it")
     together = shared(sheet)
     if together is None:
-        places: list[Place] = []
+        places: list[sheets.Place] = []
         for k, space in enumerate(sheet.tableau.spaces):
             places += [(k, i) for i in range(space.stages)]
-        in_one_space = regrouped(sheet, [places], [0] * sheet.tableau.size)
-        together = in_solving_order(of_weights(in_one_space, merged))
+        in_one_space = sheets.regrouped(sheet, [places], [0] * sheet.tableau.size)
+        together = in_solving_order(sheets.of_weights(in_one_space, merged))
     tableau = together.tableau
     nodes = tableau.colours[0].c
     for colour in tableau.colours:
         if colour.c != nodes:
-            raise CannotConvert(
+            raise sheets.CannotConvert(
                 f"colour {colour.name} has nodes of its own; an additive"
                 " method has one row of them",
                 "--to gark keeps them",
@@ -93,7 +85,7 @@ def as_ark(method: GarkMethod) -> Sheet:
     return together
 
 
-def shared(sheet: Sheet) -> Sheet | None:
+def shared(sheet: sheets.Sheet) -> sheets.Sheet | None:
     """The method with one stage space, if stage i of every colour is the same; else None."""
     tableau = sheet.tableau
     first, *others = range(len(tableau.spaces))
@@ -103,25 +95,25 @@ def shared(sheet: Sheet) -> Sheet | None:
             return None
         if any(tableau.blocks.get((k, m)) != tableau.blocks.get((first, m)) for m in colours):
             return None
-    places: list[Place] = [(first, i) for i in range(tableau.spaces[first].stages)]
+    places: list[sheets.Place] = [(first, i) for i in range(tableau.spaces[first].stages)]
     # the weights stay as they are: every space is the first one
     seen = tuple(replace(x, space=first) for x in tableau.colours)
     blocks = {key: x for key, x in tableau.blocks.items() if key[0] == first}
     alone = replace(sheet, tableau=replace(tableau, colours=seen, blocks=blocks))
-    return regrouped(alone, [places], [0] * tableau.size)
+    return sheets.regrouped(alone, [places], [0] * tableau.size)
 
 
-def as_prk(method: GarkMethod) -> Sheet:
+def as_prk(method: GarkMethod) -> sheets.Sheet:
     """The method as a partitioned one: colour 1 drives q, colour 2 drives p.
 
     Raises:
         CannotConvert: it does not have two colours, or these neither share their stages nor leave
             themselves unseen.
     """
-    sheet = sheet_of(method)
+    sheet = sheets.sheet_of(method)
     tableau = sheet.tableau
     if tableau.size != 2:
-        raise CannotConvert(
+        raise sheets.CannotConvert(
             f"a partitioned method has two parts, this one has {counted(tableau.size, 'colour')}",
             "--to gark has every number of colours",
         )
@@ -129,11 +121,11 @@ def as_prk(method: GarkMethod) -> Sheet:
         together = shared(sheet)
         if together is None:
             message = "the colours neither have the same stages nor leave themselves unseen (null)"
-            raise CannotConvert(message, "--to ark puts all stages together first")
+            raise sheets.CannotConvert(message, "--to ark puts all stages together first")
         sheet = together
     elif tableau.colours[1].is_linear:
         message = "the file of a partitioned method says that q is linear, not p"
-        raise CannotConvert(message, "exchange the colours")
+        raise sheets.CannotConvert(message, "exchange the colours")
     parts: tuple[Part, ...] = ("q", "p")
     colours = []
     for l, (colour, part) in enumerate(zip(sheet.tableau.colours, parts, strict=True)):
@@ -141,34 +133,36 @@ def as_prk(method: GarkMethod) -> Sheet:
     return replace(sheet, tableau=replace(sheet.tableau, colours=tuple(colours)))
 
 
-def as_pair(method: GarkMethod) -> Sheet:
+def as_pair(method: GarkMethod) -> sheets.Sheet:
     """The pair (Q, P) of a method and its conjugate, as a GARK method: colours V¹…Vᴺ, then F¹…Fᴺ.
 
     Embedded weights and dense output, which are not those of the pair, are left out. Raises
     ``ZeroWeight`` if a conjugate would divide by zero.
     """
     both = GarkMethod(tableau=pair(method.tableau))
-    return without_parts(each_its_own(sheet_of(both)))
+    return without_parts(sheets.each_its_own(sheets.sheet_of(both)))
 
 
-def as_canonical(method: GarkMethod) -> Sheet:
+def as_canonical(method: GarkMethod) -> sheets.Sheet:
     """The smallest method with the same step, with its stages in canonical order.
 
     Methods that differ in numbering, in unused or repeated stages, or in whether colours share
     stages, have the same canonical form.
     """
-    sheet = sheet_of(method)
+    sheet = sheets.sheet_of(method)
     if not sheet.tableau.is_partitioned:
-        sheet = each_its_own(sheet)
-    smaller = in_order(of_weights(sheet, reduced))
+        sheet = sheets.each_its_own(sheet)
+    smaller = in_order(sheets.of_weights(sheet, reduced))
     if smaller.tableau.is_partitioned:
         return smaller
     return shared(smaller) or smaller
 
 
-def as_rosenbrock(_: GarkMethod) -> Sheet:
+def as_rosenbrock(_: GarkMethod) -> sheets.Sheet:
     """Always raises ``CannotConvert``: no GARK method has the forms of Rosenbrock methods."""
-    raise CannotConvert("this form is for Rosenbrock methods", "--to spelled-out has all numbers")
+    raise sheets.CannotConvert(
+        "this form is for Rosenbrock methods", "--to spelled-out has all numbers"
+    )
 
 
 RECOVERED = "recovered"
@@ -176,7 +170,7 @@ RECOVERED = "recovered"
 TARGETS: Mapping[str, Target] = {
     target.name: target
     for target in (
-        Target("spelled-out", "the form that it has, every entry a number", sheet_of),
+        Target("spelled-out", "the form that it has, every entry a number", sheets.sheet_of),
         Target("gark", "every colour with stages of its own, block by block", as_gark),
         Target("ark", "all colours on the same stages", as_ark),
         Target("prk", "two colours as the parts q and p", as_prk),
@@ -187,12 +181,12 @@ TARGETS: Mapping[str, Target] = {
             {"pair-order": "order", "pair-bound": "bound", "pair-sharp-bound": "sharp-bound"},
             makes_another=True,
         ),
-        Target("2N", "low storage: two registers of Williamson", sheet_of, printed=in_2n),
+        Target("2N", "low storage: two registers of Williamson", sheets.sheet_of, printed=in_2n),
         *(
             Target(
                 f"{n}R",
                 f"low storage: {n} registers of van der Houwen",
-                sheet_of,
+                sheets.sheet_of,
                 printed=in_registers(n),
             )
             for n in range(2, 6)
@@ -200,11 +194,11 @@ TARGETS: Mapping[str, Target] = {
         Target(
             "shu-osher",
             "the form of Shu and Osher with the SSP coefficient, without negative numbers",
-            sheet_of,
+            sheets.sheet_of,
             printed=in_shu_osher,
         ),
         Target("canonical", "reduced, spelled out, its stages sorted", as_canonical),
-        Target(RECOVERED, "of a rounded method the one that its digits mean", sheet_of),
+        Target(RECOVERED, "of a rounded method the one that its digits mean", sheets.sheet_of),
         Target(PRINTED, "of a Rosenbrock method alpha, gamma and b", as_rosenbrock),
         Target(TRANSFORMED, "of a Rosenbrock method A, C and m of programs", as_rosenbrock),
     )

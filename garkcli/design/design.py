@@ -12,6 +12,7 @@ from typing import Any, cast, get_args
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
+from garkcli.design import stable_parts
 from garkcli.design.conditions import FamilyCondition, FamilyConditions
 from garkcli.design.critical import smooth_points
 from garkcli.design.ideal import Ideal, without_multiples
@@ -30,14 +31,6 @@ from garkcli.design.pairs import PairConditions, pair_conditions
 from garkcli.design.parts import Part, Pieces, diagonal_unknowns, nodes_as_coordinates, parts_of
 from garkcli.design.real_points import has_methods, has_point, without_complex
 from garkcli.design.solutions import Solution, solutions
-from garkcli.design.stable_parts import (
-    StablePart,
-    has_stable_method,
-    has_values_of_all,
-    joined,
-    on_charts,
-    stable_part,
-)
 from garkcli.design.stable_set import BEYOND, stable_set
 from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted
@@ -455,26 +448,26 @@ class _Finding(Frozen):
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
-        decided: list[StablePart] = []
+        decided: list[stable_parts.StablePart] = []
         sets: list[tuple[StableValues, ...]] = []
         is_complete = True
         for part in parts:
             try:
-                decided.append(stable_part(self.family, self.whose, part))
+                decided.append(stable_parts.stable_part(self.family, self.whose, part))
             except NotDecided:
                 try:
-                    sets += on_charts(self.family, self.whose, part)
+                    sets += stable_parts.on_charts(self.family, self.whose, part)
                 except NotDecided:
                     is_complete = False
-        is_real = has_stable_method(self.family, self.whose, decided)
-        verdicts = [*map(has_values_of_all, sets), is_real]
+        is_real = stable_parts.has_stable_method(self.family, self.whose, decided)
+        verdicts = [*map(stable_parts.has_values_of_all, sets), is_real]
         if True in verdicts:
             is_real = True
         elif None in verdicts or not is_complete:
             is_real = None
         stable: tuple[StableValues, ...] = ()
         if is_complete and not sets:
-            stable = joined(self.family, decided)
+            stable = stable_parts.joined(self.family, decided)
         elif is_complete and not decided and len(sets) == 1:
             [stable] = sets
         if is_real is None and any(not x.found and not x.undecided for x in stable):

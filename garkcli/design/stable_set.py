@@ -32,17 +32,9 @@ from typing import Any
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
+from garkcli.design import stability_kinds
 from garkcli.design.fewer import LinearForm, fewest
 from garkcli.design.member import TABLEAUS, Whose
-from garkcli.design.stability_kinds import (
-    AStability,
-    IStability,
-    Members,
-    SpringStability,
-    StabilityKind,
-    TwoSprings,
-    driven,
-)
 from garkcli.design.stable_values import Branch, StableValues, Strip, StripPart, Wanted, has_wishes
 from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact import projection
@@ -64,9 +56,9 @@ def stable_set(
     family: Family,
     wanted: Wanted,
     whose: Whose = "method",
-    two_springs: TwoSprings | None = None,
+    two_springs: stability_kinds.TwoSprings | None = None,
     colour: int | None = None,
-    members: Members | None = None,
+    members: stability_kinds.Members | None = None,
 ) -> StableValues:
     """The stable values of the free parameters that satisfy the other wants of the file.
 
@@ -89,25 +81,25 @@ def stable_set(
     smaller, forms = (
         (family, ()) if members else _fewest(family, wanted, whose, two_springs, colour)
     )
-    members = members or Members(smaller, whose)
+    members = members or stability_kinds.Members(smaller, whose)
     if len(smaller.parameters) > 2:
         is_pair = whose == "pair" and bool(family.radicals)
         raise beside_roots(family, wanted, whose) if is_pair else too_many(family)
     _refuse_radicals(members, wanted, two_springs)
     tableau = TABLEAUS[whose](smaller.tableau)
-    kind: StabilityKind
+    kind: stability_kinds.StabilityKind
     if wanted not in OSCILLATING:
-        kind = AStability(members, tableau, colour, wanted == "l-stable")
+        kind = stability_kinds.AStability(members, tableau, colour, wanted == "l-stable")
     elif two_springs is None:
-        kind = IStability(members, tableau, wanted == "p-stable")
+        kind = stability_kinds.IStability(members, tableau, wanted == "p-stable")
     else:
-        kind = SpringStability(members, tableau, two_springs, wanted == "p-stable")
+        kind = stability_kinds.SpringStability(members, tableau, two_springs, wanted == "p-stable")
     found: tuple[Interval, ...]
     if len(smaller.parameters) == 1:
         found, undecided = _OnLine(kind, smaller).run()
     else:
 
-        def on_line(x: Members) -> StableValues:
+        def on_line(x: stability_kinds.Members) -> StableValues:
             return stable_set(x.family, wanted, whose, two_springs, colour, x)
 
         found, undecided = _InPlane(kind, tableau, on_line).run()
@@ -115,7 +107,11 @@ def stable_set(
 
 
 def _fewest(
-    family: Family, wanted: Wanted, whose: Whose, two_springs: TwoSprings | None, colour: int | None
+    family: Family,
+    wanted: Wanted,
+    whose: Whose,
+    two_springs: stability_kinds.TwoSprings | None,
+    colour: int | None,
 ) -> tuple[Family, Sequence[LinearForm]]:
     """A family with the fewest parameters, as linear forms of those of another, if there are
     neither ranges, other wants nor denominators.
@@ -126,7 +122,7 @@ def _fewest(
     is_one = len(family.parameters) == 1
     if is_one or two_springs or not is_open or not is_without or has_wishes(family):
         return family, ()
-    smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
+    smaller, forms = fewest(family, tableau, stability_kinds.driven(tableau, wanted, colour))
     return smaller, () if len(forms) == len(family.parameters) else forms
 
 
@@ -149,7 +145,9 @@ def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
     return UsageProblem(message, cure, code="no-radicals")
 
 
-def _refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings | None) -> None:
+def _refuse_radicals(
+    members: stability_kinds.Members, wanted: Wanted, two_springs: stability_kinds.TwoSprings | None
+) -> None:
     """Raises for a family with roots of its parameter among its coefficients, or of large
     degrees.
     """
@@ -183,7 +181,7 @@ def _is_within(t: Point, ends: tuple[fmpq | None, fmpq | None]) -> bool:
 class _OnLine:
     """The set in one parameter for one kind of stability."""
 
-    def __init__(self, kind: StabilityKind, family: Family) -> None:
+    def __init__(self, kind: stability_kinds.StabilityKind, family: Family) -> None:
         self.kind, self.members, in_t = kind, kind.members, kind.step.in_t
         [self.range] = family.ranges.values()
         self.poles = [p for p in map(in_t, kind.step.poles) if p.degree > 0]
@@ -287,7 +285,10 @@ class _InPlane:
     """The set in two parameters for one kind of stability."""
 
     def __init__(
-        self, kind: StabilityKind, tableau: Tableau, on_line: Callable[[Members], StableValues]
+        self,
+        kind: stability_kinds.StabilityKind,
+        tableau: Tableau,
+        on_line: Callable[[stability_kinds.Members], StableValues],
     ) -> None:
         self.members, self.on_line = kind.members, on_line
         self.undecided: list[RealRoot] = []

@@ -19,20 +19,8 @@ from garkcli.design.member import TABLEAUS, member
 from garkcli.design.pairs import PairConditions
 from garkcli.design.stability_kinds import driven
 from garkcli.errors import NotDecided
+from garkcli.exact import matrix as matrices
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    add,
-    apply,
-    apply_left,
-    characteristic_coefficients,
-    multiply,
-    outer,
-    scale,
-    subtract,
-    transpose,
-)
 from garkcli.exact.parametric import Parameters, Rule, fraction
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, terms_of
@@ -86,16 +74,16 @@ class Operator(Frozen):
         left, right: the weights of the inner products of its codomain and its domain.
     """
 
-    matrix: Matrix
-    left: Vector
-    right: Vector
+    matrix: matrices.Matrix
+    left: matrices.Vector
+    right: matrices.Vector
 
     @property
     def adjoint(self) -> Operator:
         """B_1⁻¹ Tᵀ B_2."""
         rows = tuple(
             tuple(x * b / under for x, b in zip(column, self.left, strict=True))
-            for column, under in zip(transpose(self.matrix), self.right, strict=True)
+            for column, under in zip(matrices.transpose(self.matrix), self.right, strict=True)
         )
         return Operator(rows, self.right, self.left)
 
@@ -103,14 +91,18 @@ class Operator(Frozen):
     def across(self) -> Operator:
         """(I − 𝟙b_2ᵀ) T (I − 𝟙b_1ᵀ), the part orthogonal to 𝟙 on both sides."""
         ones = (ONE,) * len(self.left)
-        T = subtract(self.matrix, outer(ones, apply_left(self.left, self.matrix)))
-        T = subtract(T, outer(apply(T, (ONE,) * len(self.right)), self.right))
+        T = matrices.subtract(
+            self.matrix, matrices.outer(ones, matrices.apply_left(self.left, self.matrix))
+        )
+        T = matrices.subtract(
+            T, matrices.outer(matrices.apply(T, (ONE,) * len(self.right)), self.right)
+        )
         return Operator(T, self.left, self.right)
 
     @property
-    def square(self) -> Matrix:
+    def square(self) -> matrices.Matrix:
         """T T*."""
-        return multiply(self.matrix, self.adjoint.matrix)
+        return matrices.multiply(self.matrix, self.adjoint.matrix)
 
     def doubled(self, degree: int) -> Iterable[Number]:
         """Numbers that vanish exactly if at most ``degree`` distinct singular values are nonzero,
@@ -124,11 +116,13 @@ class Operator(Frozen):
         power = K
         for k in range(1, degree + 1):
             sums.append(sum((power[i][i] for i in range(len(K))), ZERO) * HALF)
-            power = multiply(power, K)
+            power = matrices.multiply(power, K)
             # Newton's identities
             total = sum((a * s for a, s in zip(coefficients[::-1], sums, strict=True)), ZERO)
             coefficients.append(-total / fmpq(k))
-            result = add(multiply(K, result), scale(coefficients[-1], T.matrix))
+            result = matrices.add(
+                matrices.multiply(K, result), matrices.scale(coefficients[-1], T.matrix)
+            )
         return chain.from_iterable(result)
 
 
@@ -165,15 +159,15 @@ def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
 
     R = S.across
     ones = (ONE,) * len(S.right), (ONE,) * len(S.left)
-    next_to_them = apply(S.adjoint.matrix, ones[1]), apply(S.matrix, ones[0])
+    next_to_them = matrices.apply(S.adjoint.matrix, ones[1]), matrices.apply(S.matrix, ones[0])
     zeros: list[fmpq_mpoly] = []
     polynomials = []
     for T, seen, root in ((S, ones, alpha), (R, next_to_them, beta if size == 3 else zero)):
         for map_, w in zip((T, T.adjoint), seen, strict=True):
-            image = apply(map_.matrix, w)
-            twice = apply(map_.square, image) if root else image
+            image = matrices.apply(map_.matrix, w)
+            twice = matrices.apply(map_.square, image) if root else image
             zeros += [lifted(x) - root * lifted(y) for x, y in zip(twice, image, strict=True)]
-        c = [lifted(x) for x in characteristic_coefficients(T.square)]
+        c = [lifted(x) for x in matrices.characteristic_coefficients(T.square)]
         # root is a root of this polynomial, or 0
         zeros.append(sum((x * root ** (len(c) - k) for k, x in enumerate(c)), zero))
         polynomials.append((c, [one, -root]))

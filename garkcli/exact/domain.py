@@ -13,18 +13,9 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import ctx, fmpq, fmpq_poly, fmpz
 
 from garkcli.errors import LimitExceeded, UndefinedValue
+from garkcli.exact import nodes
 from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-    divided_by_zero,
-)
 from garkcli.exact.rewriting import roots_in
 
 if TYPE_CHECKING:
@@ -68,7 +59,7 @@ def _without_squares(factor: fmpz) -> fmpz:
     return factor
 
 
-def perfect_root(root: Root, radicand: fmpq) -> fmpq | None:
+def perfect_root(root: nodes.Root, radicand: fmpq) -> fmpq | None:
     """The value of a root of a perfect power; None for other radicands.
 
     Raises:
@@ -86,7 +77,7 @@ def perfect_root(root: Root, radicand: fmpq) -> fmpq | None:
     return candidate
 
 
-def even_root_fault(root: Root) -> UndefinedValue:
+def even_root_fault(root: nodes.Root) -> UndefinedValue:
     message = "an even root of a negative number"
     cure = "coefficients are real numbers"
     return UndefinedValue(message, cure, root.start, root.end, code="not-real")
@@ -100,7 +91,7 @@ def rational_square_root(number: fmpq) -> fmpq | None:
     return root
 
 
-Radical: TypeAlias = Root | AlgebraicRoot
+Radical: TypeAlias = nodes.Root | nodes.AlgebraicRoot
 """A generator of a number field."""
 MAX_BITS = 60_000
 """Most bits of the numerator or denominator of a coefficient."""
@@ -135,7 +126,10 @@ class Domain:
     """
 
     def __init__(
-        self, expressions: Iterable[Expression], only_check: bool = False, are_real: bool = False
+        self,
+        expressions: Iterable[nodes.Expression],
+        only_check: bool = False,
+        are_real: bool = False,
     ) -> None:
         self.field: NumberField | None = None
         self._are_real = are_real
@@ -163,7 +157,7 @@ class Domain:
     def degree(self) -> int:
         return self.field.degree if self.field else 1
 
-    def coefficient(self, expression: Expression) -> Number:
+    def coefficient(self, expression: nodes.Expression) -> Number:
         """Evaluates an expression and counts its size against the limit of a file.
 
         Raises:
@@ -177,7 +171,7 @@ class Domain:
             raise LimitExceeded(message, "write them smaller", expression.start, expression.end)
         return value
 
-    def evaluate(self, expression: Expression) -> Number:
+    def evaluate(self, expression: nodes.Expression) -> Number:
         """The exact value; all roots in the expression must be among those of the domain.
 
         Raises:
@@ -185,43 +179,43 @@ class Domain:
             LimitExceeded: the value has more than ``MAX_BITS`` bits.
         """
         match expression:
-            case Literal(value=value):
+            case nodes.Literal(value=value):
                 return value
-            case Chain(signs=signs, operands=operands):
+            case nodes.Chain(signs=signs, operands=operands):
                 total: Number = ZERO if signs[0] in "+-" else ONE
                 for sign, operand in zip(signs, operands, strict=True):
                     total = self._apply(sign, total, self.evaluate(operand), operand)
                     if _bits(total) > MAX_BITS:
                         raise too_many_bits(expression)
                 return total
-            case Power(base=base, exponent=exponent):
+            case nodes.Power(base=base, exponent=exponent):
                 return self._power(self.evaluate(base), exponent, expression)
-            case Root() | AlgebraicRoot():
+            case nodes.Root() | nodes.AlgebraicRoot():
                 return self._values[expression]
-            case Name(name=name):
+            case nodes.Name(name=name):
                 message = f"{name!r} has no value"
                 cure = "write a number, such as 1/2 or sqrt(2)"
                 where = expression.start, expression.end
                 raise UndefinedValue(message, cure, *where, code="missing-key")
         raise TypeError(f"no expression: {expression!r}")
 
-    def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
+    def _apply(self, sign: str, left: Number, right: Number, at: nodes.Expression) -> Number:
         if sign == "/" and not right:
-            raise divided_by_zero(at, "the divisor is exactly zero: write another one")
+            raise nodes.divided_by_zero(at, "the divisor is exactly zero: write another one")
         result: Number = OPERATIONS[sign](left, right)
         return result
 
-    def _power(self, number: Number, exponent: int, at: Expression) -> Number:
+    def _power(self, number: Number, exponent: int, at: nodes.Expression) -> Number:
         """A power; one that would be too long is refused before it is computed."""
         if not number and exponent < 0:
-            raise divided_by_zero(at, "a negative power of zero: write another base")
+            raise nodes.divided_by_zero(at, "a negative power of zero: write another base")
         if _bits(number) * abs(exponent) > MAX_BITS:
             raise too_many_bits(at)
         return number**exponent
 
     def _rational_root(self, root: Radical) -> Number | None:
         """The value of a root whose radicand is a perfect power; None if it is irrational."""
-        if isinstance(root, AlgebraicRoot):
+        if isinstance(root, nodes.AlgebraicRoot):
             return None
         if not self._has_rational_radicand(root):
             if not self._are_real and root.index % 2 == 0 and _sign(root.radicand) < 0:
@@ -229,10 +223,10 @@ class Domain:
             return None
         return perfect_root(root, self._rational_value(root.radicand))
 
-    def _has_rational_radicand(self, root: Root) -> bool:
+    def _has_rational_radicand(self, root: nodes.Root) -> bool:
         return all(inner in self._values for inner in roots_in(root.radicand))
 
-    def _rational_value(self, expression: Expression) -> fmpq:
+    def _rational_value(self, expression: nodes.Expression) -> fmpq:
         value = self.evaluate(expression)
         assert not isinstance(value, Algebraic)
         return value
@@ -241,7 +235,7 @@ class Domain:
         """Makes the field ℚ(√d) if all roots are square roots in one square class; else False."""
         radicands = []
         for root in roots:
-            if isinstance(root, AlgebraicRoot) or root.index != 2:
+            if isinstance(root, nodes.AlgebraicRoot) or root.index != 2:
                 return False
             if not self._has_rational_radicand(root):
                 return False
@@ -255,7 +249,7 @@ class Domain:
             scales.append(scale)
         theta = fmpq_poly([0, 1])
         modulus = fmpq_poly([-d, 0, 1])
-        self.field = NumberField(modulus, [(Root(Literal(d), 2), theta)])
+        self.field = NumberField(modulus, [(nodes.Root(nodes.Literal(d), 2), theta)])
         for root, scale in zip(roots, scales, strict=True):
             self._values[root] = self.field.element(theta * scale)
         return True
@@ -292,12 +286,14 @@ class Domain:
 
     def _relation(self, tower: Tower, kept: list[Radical], root: Radical) -> list[fmpq_poly]:
         """The r_j of yⁿ = r_0 + r_1 y + … for a root y, as polynomials in θ."""
-        if isinstance(root, AlgebraicRoot):
+        if isinstance(root, nodes.AlgebraicRoot):
             *lower, leading = root.coefficients
             return [fmpq_poly([fmpq(-a, leading)]) for a in lower]
         return [self._within(tower, kept, root.radicand)] + [fmpq_poly()] * (root.index - 1)
 
-    def _within(self, tower: Tower, roots: list[Radical], expression: Expression) -> fmpq_poly:
+    def _within(
+        self, tower: Tower, roots: list[Radical], expression: nodes.Expression
+    ) -> fmpq_poly:
         """The value of an expression in the roots adjoined so far, as a polynomial in θ."""
         field = NumberField(tower.modulus, ())
         outer = self._values
@@ -313,7 +309,7 @@ class Domain:
         return fmpq_poly([value])
 
 
-def _sign(expression: Expression) -> int:
+def _sign(expression: nodes.Expression) -> int:
     """The sign of a value, by enclosures, and exactly if they cannot tell."""
     with ctx.workprec(64):
         while ctx.prec <= MAX_PRECISION:
@@ -341,6 +337,6 @@ def _length(p: fmpq_poly) -> int:
     return max(int(p.numer().height_bits()), p.denom().bit_length())
 
 
-def too_many_bits(at: Expression) -> LimitExceeded:
+def too_many_bits(at: nodes.Expression) -> LimitExceeded:
     message = f"a number of more than {MAX_BITS} bits"
     return LimitExceeded(message, "write it smaller", at.start, at.end)

@@ -16,21 +16,11 @@ from typing import ClassVar, TypeAlias
 from flint import arb, fmpq
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue, did_you_mean, nearest
+from garkcli.exact import nodes
 from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.enclosing import OPERATIONS, integer_power
 from garkcli.exact.expression import FUNCTIONS as ROOTS
 from garkcli.exact.expression import MAX_EXPONENT, Parser
-from garkcli.exact.nodes import (
-    Call,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    RealPower,
-    Root,
-    divided_by_zero,
-)
 from garkcli.exact.rewriting import format_expression
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
@@ -49,7 +39,7 @@ _CURES = {
 }
 
 
-def parse_formula(text: str) -> Expression:
+def parse_formula(text: str) -> nodes.Expression:
     """Parses ``text``.
 
     Raises:
@@ -68,19 +58,19 @@ class _FormulaParser(Parser):
     example: ClassVar[str] = "write one, such as p**2/2 - cos(x)"
     cure: ClassVar[str] = "write names, digits 0-9, + - * / ** ( ) and functions such as sin(x)"
 
-    def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
+    def _raised(self, base: nodes.Expression, is_negative: bool, start: int) -> nodes.Expression:
         exponent = self._atom()
-        if isinstance(exponent, Literal) and exponent.value.q == 1:
+        if isinstance(exponent, nodes.Literal) and exponent.value.q == 1:
             if abs(exponent.value) > MAX_EXPONENT:
                 message = f"an exponent is larger than {MAX_EXPONENT}"
                 raise LimitExceeded(message, "use a smaller one", exponent.start, exponent.end)
             n = int(exponent.value.p)
-            return Power(base, -n if is_negative else n, start=start, end=self.last_end)
+            return nodes.Power(base, -n if is_negative else n, start=start, end=self.last_end)
         if is_negative:
-            exponent = Chain("-", (exponent,), start=exponent.start, end=exponent.end)
-        return RealPower(base, exponent, start=start, end=self.last_end)
+            exponent = nodes.Chain("-", (exponent,), start=exponent.start, end=exponent.end)
+        return nodes.RealPower(base, exponent, start=start, end=self.last_end)
 
-    def _function(self, name: str, start: int) -> Expression:
+    def _function(self, name: str, start: int) -> nodes.Expression:
         if name == "root_of":
             message = "root_of is for coefficients of methods, not for formulas"
             raise ExpressionError(
@@ -97,7 +87,7 @@ class _FormulaParser(Parser):
         self._advance()
         argument = self._sum()
         self._expect(")", opened)
-        return Call(name, argument, start=start, end=self.last_end)
+        return nodes.Call(name, argument, start=start, end=self.last_end)
 
 
 def _cure_of(name: str) -> tuple[str, str]:
@@ -120,7 +110,7 @@ FLOAT_BITS = 1000
 _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for name in FUNCTIONS}
 
 
-def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
+def value_of(expression: nodes.Expression, names: Mapping[str, Value]) -> Value:
     """Returns the value of a formula at the current ``flint.ctx`` precision; operations on rational
     numbers are exact.
 
@@ -133,33 +123,33 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
     3/4
     """
     match expression:
-        case Literal(value=number):
+        case nodes.Literal(value=number):
             return number
-        case Name(name=name):
+        case nodes.Name(name=name):
             return arb.pi() if name == "pi" else names[name]
-        case Chain(signs=signs, operands=operands):
+        case nodes.Chain(signs=signs, operands=operands):
             is_sum = signs[0] in "+-"
             total: Value = fmpq(0) if is_sum else fmpq(1)
             for sign, operand in zip(signs, operands, strict=True):
                 total = _applied(sign, total, value_of(operand, names), operand)
                 total = _bounded(total, expression)
             return total
-        case Power(base=base, exponent=exponent):
+        case nodes.Power(base=base, exponent=exponent):
             x = value_of(base, names)
             return _power(x, fmpq(exponent), expression, base)
-        case RealPower(base=base, exponent=exponent):
+        case nodes.RealPower(base=base, exponent=exponent):
             x = value_of(base, names)
             return _power(x, exponent_of(exponent, names), expression, base)
-        case Root(radicand=radicand, index=index):
+        case nodes.Root(radicand=radicand, index=index):
             x = value_of(radicand, names)
             return _root(x, index, expression, radicand)
-        case Call(function=function, argument=argument):
+        case nodes.Call(function=function, argument=argument):
             x = value_of(argument, names)
             return _finite(_FUNCTIONS[function](arb(x)), expression, function, argument, x)
     raise TypeError(f"no expression: {expression!r}")
 
 
-def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
+def exponent_of(expression: nodes.Expression, names: Mapping[str, Value]) -> fmpq:
     """Returns the value of an exponent.
 
     Raises UndefinedValue if it is irrational, LimitExceeded if it or its denominator is too large.
@@ -188,7 +178,7 @@ def shown(x: Value) -> str:
     return f"{float(arb(x)):.6g}"
 
 
-def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
+def _applied(sign: str, left: Value, right: Value, at: nodes.Expression) -> Value:
     if sign == "/":
         _check_divisor(right, at)
     if isinstance(left, arb) or isinstance(right, arb):
@@ -198,15 +188,15 @@ def _applied(sign: str, left: Value, right: Value, at: Expression) -> Value:
     return result
 
 
-def _check_divisor(number: Value, at: Expression) -> None:
+def _check_divisor(number: Value, at: nodes.Expression) -> None:
     may_be_zero = not number
     if isinstance(number, arb):
         may_be_zero = number.contains(0)
     if not may_be_zero:
         return
-    if isinstance(at, Literal):
-        raise divided_by_zero(at)
-    raise divided_by_zero(at, f"{_cut(format_expression(at))} is 0 here")
+    if isinstance(at, nodes.Literal):
+        raise nodes.divided_by_zero(at)
+    raise nodes.divided_by_zero(at, f"{_cut(format_expression(at))} is 0 here")
 
 
 def _cut(text: str) -> str:
@@ -216,7 +206,7 @@ def _cut(text: str) -> str:
     return f"{start}…"
 
 
-def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
+def _power(base: Value, exponent: fmpq, at: nodes.Expression, of: nodes.Expression) -> Value:
     """A power; the base is positive if the exponent is not an integer."""
     if exponent < 0:
         _check_divisor(base, of)
@@ -236,7 +226,7 @@ def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value
     return _bounded(arb(base) ** arb(exponent), at)
 
 
-def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
+def _root(radicand: Value, index: int, at: nodes.Expression, of: nodes.Expression) -> Value:
     is_odd = index % 2 == 1
     if isinstance(radicand, fmpq) and (is_odd or radicand >= 0):
         size = abs(radicand)
@@ -249,7 +239,9 @@ def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
     return _finite(x.root(index), at, "a root" if is_odd else "an even root", of, radicand)
 
 
-def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value) -> Value:
+def _finite(
+    result: arb, at: nodes.Expression, function: str, of: nodes.Expression, x: Value
+) -> Value:
     if not result.is_finite():
         what = _cut(format_expression(of))
         if what != str(x):
@@ -260,7 +252,7 @@ def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value
     return _bounded(result, at)
 
 
-def _bounded(number: Value, at: Expression) -> Value:
+def _bounded(number: Value, at: nodes.Expression) -> Value:
     if isinstance(number, fmpq) and number.height_bits() > MAX_BITS:
         raise too_many_bits(at)
     size = abs(arb(number))

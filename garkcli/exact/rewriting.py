@@ -8,30 +8,19 @@ from typing import ClassVar, NamedTuple
 from flint import fmpq
 
 from garkcli.errors import LimitExceeded, UndefinedValue, did_you_mean, nearest
+from garkcli.exact import nodes
 from garkcli.exact.expression import INDEX_OF_ROOT
 from garkcli.exact.letters import letter_of
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Call,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    RealPower,
-    Root,
-    is_decimal,
-    parts,
-)
+from garkcli.exact.nodes import parts
 from garkcli.frozen import replace
 
 MAX_SIZE = 2_000
 """Most operations in a number or formula of a file, with parameters expanded."""
 
 
-def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
+def size_of(expression: nodes.Expression, sizes: Mapping[str, int]) -> int:
     """The number of nodes, a name counting ``sizes[name]``, or 1 if it is unknown."""
-    if isinstance(expression, Name):
+    if isinstance(expression, nodes.Name):
         return sizes.get(expression.name, 1)
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
@@ -52,13 +41,13 @@ class Expanded(NamedTuple):
     nested.
     """
 
-    expression: Expression
+    expression: nodes.Expression
     size: int = 1
     depth: int = 1
 
 
 def expanded(
-    expression: Expression, values: Mapping[str, Expanded], used: set[str] | None = None
+    expression: nodes.Expression, values: Mapping[str, Expanded], used: set[str] | None = None
 ) -> Expanded:
     """``expression`` with each name replaced by its value; it keeps its offsets. The names are
     added to ``used``.
@@ -67,31 +56,33 @@ def expanded(
         UndefinedValue: a name has no value.
     """
 
-    def of(inner: Expression) -> Expanded:
+    def of(inner: nodes.Expression) -> Expanded:
         return expanded(inner, values, used)
 
     match expression:
-        case Literal():
+        case nodes.Literal():
             return Expanded(expression)
-        case Name(name=name):
+        case nodes.Name(name=name):
             if used is not None:
                 used.add(name)
             if name not in values:
                 raise _unknown_name(expression, values)
             return values[name]
-        case Chain(operands=operands):
+        case nodes.Chain(operands=operands):
             inside = list(map(of, operands))
-            made: Expression = replace(expression, operands=tuple(x.expression for x in inside))
-        case Power(base=base):
+            made: nodes.Expression = replace(
+                expression, operands=tuple(x.expression for x in inside)
+            )
+        case nodes.Power(base=base):
             inside = [of(base)]
             made = replace(expression, base=inside[0].expression)
-        case RealPower(base=base, exponent=exponent):
+        case nodes.RealPower(base=base, exponent=exponent):
             inside = [of(base), of(exponent)]
             made = replace(expression, base=inside[0].expression, exponent=inside[1].expression)
-        case Root(radicand=radicand):
+        case nodes.Root(radicand=radicand):
             inside = [of(radicand)]
             made = replace(expression, radicand=inside[0].expression)
-        case Call(argument=argument):
+        case nodes.Call(argument=argument):
             inside = [of(argument)]
             made = replace(expression, argument=inside[0].expression)
         case _:
@@ -102,20 +93,22 @@ def expanded(
     return Expanded(made, size, depth)
 
 
-def names_in(expression: Expression) -> Iterator[Name]:
+def names_in(expression: nodes.Expression) -> Iterator[nodes.Name]:
     """Every name in ``expression``, in the order of the text."""
-    if isinstance(expression, Name):
+    if isinstance(expression, nodes.Name):
         yield expression
     for part in parts(expression):
         yield from names_in(part)
 
 
-def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
+def substitute(
+    expression: nodes.Expression, values: Mapping[str, nodes.Expression]
+) -> nodes.Expression:
     """``expression`` with each name replaced by its value; see ``expanded``."""
     return expanded(expression, {name: Expanded(x) for name, x in values.items()}).expression
 
 
-def _unknown_name(name: Name, values: Mapping[str, object]) -> UndefinedValue:
+def _unknown_name(name: nodes.Name, values: Mapping[str, object]) -> UndefinedValue:
     cure = did_you_mean(name.name, values) if values else ""
     meant = nearest(name.name, values)
     if not cure.startswith("did"):
@@ -128,15 +121,15 @@ def _unknown_name(name: Name, values: Mapping[str, object]) -> UndefinedValue:
     return UndefinedValue(message, cure, *place, code="unknown-name", meant=meant)
 
 
-def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:
+def roots_in(expression: nodes.Expression) -> Iterator[nodes.Root | nodes.AlgebraicRoot]:
     """Every root in ``expression``, inner ones first."""
     for part in parts(expression):
         yield from roots_in(part)
-    if isinstance(expression, (Root, AlgebraicRoot)):
+    if isinstance(expression, (nodes.Root, nodes.AlgebraicRoot)):
         yield expression
 
 
-def format_expression(expression: Expression, latex: bool = False) -> str:
+def format_expression(expression: nodes.Expression, latex: bool = False) -> str:
     """The expression as LaTeX, or as text that ``parse`` or ``parse_formula`` reads.
 
     >>> from garkcli.exact.expression import parse
@@ -152,27 +145,29 @@ class PlainText:
 
     is_latex: ClassVar[bool] = False
 
-    def written(self, expression: Expression) -> str:
+    def written(self, expression: nodes.Expression) -> str:
         match expression:
-            case Literal(value=value):
-                return self.decimal(expression) if is_decimal(expression) else self.number(value)
-            case Name(name=name):
+            case nodes.Literal(value=value):
+                return (
+                    self.decimal(expression) if nodes.is_decimal(expression) else self.number(value)
+                )
+            case nodes.Name(name=name):
                 return self.name(name)
-            case Chain():
+            case nodes.Chain():
                 return self.chain(expression)
-            case Power(base=base, exponent=exponent):
+            case nodes.Power(base=base, exponent=exponent):
                 return self.power(self.tight(base), exponent)
-            case RealPower(base=base, exponent=real):
+            case nodes.RealPower(base=base, exponent=real):
                 return self.real_power(self.tight(base), self.written(real))
-            case Call(function=function, argument=argument):
+            case nodes.Call(function=function, argument=argument):
                 return self.call(function, self.written(argument))
-            case Root(radicand=radicand, index=index):
+            case nodes.Root(radicand=radicand, index=index):
                 return self.root(self.written(radicand), index)
-            case AlgebraicRoot():
+            case nodes.AlgebraicRoot():
                 return letter_of(expression, self.is_latex) or self.algebraic(expression)
         raise TypeError(f"no expression: {expression!r}")
 
-    def chain(self, chain: Chain) -> str:
+    def chain(self, chain: nodes.Chain) -> str:
         """The operands with their signs; a leading + or * is dropped."""
         is_product = chain.signs[0] in "*/"
         parts = []
@@ -181,11 +176,13 @@ class PlainText:
             parts.append(sign + (self.tight(operand) if binds else self.written(operand)))
         return "".join(parts).removeprefix("+").removeprefix("*")
 
-    def tight(self, expression: Expression) -> str:
+    def tight(self, expression: nodes.Expression) -> str:
         """The text, in parentheses unless it is one token or call."""
         text = self.written(expression)
-        is_whole_number = isinstance(expression, Literal) and text.isdigit()
-        if is_whole_number or isinstance(expression, (Name, Root, AlgebraicRoot, Call)):
+        is_whole_number = isinstance(expression, nodes.Literal) and text.isdigit()
+        if is_whole_number or isinstance(
+            expression, (nodes.Name, nodes.Root, nodes.AlgebraicRoot, nodes.Call)
+        ):
             return text
         return f"({text})"
 
@@ -195,7 +192,7 @@ class PlainText:
     def number(self, value: fmpq) -> str:
         return str(value)
 
-    def decimal(self, literal: Literal) -> str:
+    def decimal(self, literal: nodes.Literal) -> str:
         """A number that was written as a decimal."""
         return self.number(literal.value)
 
@@ -215,13 +212,13 @@ class PlainText:
                 return f"{name}({radicand})"
         return f"root({radicand}, {index})"
 
-    def algebraic(self, root: AlgebraicRoot) -> str:
+    def algebraic(self, root: nodes.AlgebraicRoot) -> str:
         """A root by its polynomial and first digits."""
         from garkcli.exact.root_of import approximate
 
         return f"root_of({self.polynomial(root)}, {approximate(root)})"
 
-    def polynomial(self, root: AlgebraicRoot) -> str:
+    def polynomial(self, root: nodes.AlgebraicRoot) -> str:
         """The polynomial of a root, highest power first."""
         text = ""
         for k, a in reversed(list(enumerate(root.coefficients))):
@@ -259,8 +256,12 @@ def name_latex(name: str) -> str:
     return f"{head.strip()}_{{{index}}}" if index else head
 
 
-def _is_sum(expression: Expression) -> bool:
-    return isinstance(expression, Chain) and expression.signs[0] in "+-" and expression.signs != "-"
+def _is_sum(expression: nodes.Expression) -> bool:
+    return (
+        isinstance(expression, nodes.Chain)
+        and expression.signs[0] in "+-"
+        and expression.signs != "-"
+    )
 
 
 def decimal_latex(text: str) -> str:
@@ -293,7 +294,7 @@ class _Latex(PlainText):
     def name(self, name: str) -> str:
         return name_latex(name)
 
-    def chain(self, chain: Chain) -> str:
+    def chain(self, chain: nodes.Chain) -> str:
         if chain.signs[0] in "+-":
             first, *others = chain.operands
             start = self.written(first) if chain.signs[0] == "+" else "-" + self.factor(first)
@@ -307,13 +308,13 @@ class _Latex(PlainText):
         minus = "-" * (top.startswith("-") and not _is_sum(over[0]))
         return rf"{minus}\frac{{{top.removeprefix(minus)}}}{{{self.product(under)}}}"
 
-    def product(self, factors: list[Expression]) -> str:
+    def product(self, factors: list[nodes.Expression]) -> str:
         """Juxtaposed factors; one alone needs no parentheses, nor does a leading sign."""
         if len(factors) == 1:
             return self.written(factors[0])
         text = ""
         for expression in factors:
-            if isinstance(expression, Literal) and expression.value == 1:
+            if isinstance(expression, nodes.Literal) and expression.value == 1:
                 continue
             is_first = not text and not _is_sum(expression)
             factor = self.written(expression) if is_first else self.factor(expression)
@@ -323,13 +324,13 @@ class _Latex(PlainText):
             text += (r"\cdot " if is_apart else "") + factor
         return f"{text}1" if text in {"", "-"} else text
 
-    def factor(self, expression: Expression) -> str:
+    def factor(self, expression: nodes.Expression) -> str:
         """The text, with parentheses around sums and negative factors."""
         text = self.written(expression)
         is_whole = not text.startswith("-") and not _is_sum(expression)
         return text if is_whole else rf"\left({text}\right)"
 
-    def tight(self, expression: Expression) -> str:
+    def tight(self, expression: nodes.Expression) -> str:
         text = super().tight(expression)
         return rf"\left{text[:-1]}\right)" if text.startswith("(") else text
 
@@ -340,7 +341,7 @@ class _Latex(PlainText):
         numerator = abs(value.p)
         return f"{sign}\\frac{{{numerator}}}{{{value.q}}}"
 
-    def decimal(self, literal: Literal) -> str:
+    def decimal(self, literal: nodes.Literal) -> str:
         # a literal behind a minus has its digits alone as text
         sign = "-" if literal.value < 0 and not literal.text.startswith("-") else ""
         return sign + decimal_latex(literal.text)
@@ -358,7 +359,7 @@ class _Latex(PlainText):
         degree = "" if index == 2 else f"[{index}]"
         return f"\\sqrt{degree}{{{radicand}}}"
 
-    def algebraic(self, root: AlgebraicRoot) -> str:
+    def algebraic(self, root: nodes.AlgebraicRoot) -> str:
         from garkcli.exact.root_of import approximate
 
         shown = f"{self.polynomial(root)}, x\\approx {approximate(root)}"

@@ -17,15 +17,7 @@ from flint import fmpq
 from garkcli.errors import UnknownFamily
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.families.family import (
-    MAX_STAGES,
-    NONSTIFF,
-    MethodFamily,
-    Options,
-    Recipe,
-    by_stages,
-    of_stages,
-)
+from garkcli.families import family
 from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.reference import Reference
 from garkcli.tableau.tableau import Method, butcher
@@ -68,13 +60,15 @@ def _lower(rows: Sequence[Vector]) -> Matrix:
     return tuple(matrix)
 
 
-def _single(name: str, order: str, summary: str) -> MethodFamily:
+def _single(name: str, order: str, summary: str) -> family.MethodFamily:
     stages = STAGES[name]
-    recipe = by_stages(lambda _: named(name))
-    return MethodFamily(name, recipe, stages, stages, order, summary, reference=NONSTIFF)
+    recipe = family.by_stages(lambda _: named(name))
+    return family.MethodFamily(
+        name, recipe, stages, stages, order, summary, reference=family.NONSTIFF
+    )
 
 
-def ssp3(s: int, _: Options) -> Recipe:
+def ssp3(s: int, _: family.Options) -> family.Recipe:
     """SSPRK(n², 3).
 
     Raises:
@@ -84,7 +78,7 @@ def ssp3(s: int, _: Options) -> Recipe:
     if n * n != s:
         message = f"ssp3 with {s} stages does not exist"
         raise UnknownFamily(message, "it has 4, 9, 16, … stages", code="wrong-value")
-    return Recipe(s, lambda _: _ssp3(n))
+    return family.Recipe(s, lambda _: _ssp3(n))
 
 
 def _ssp3(n: int) -> Method:
@@ -121,8 +115,14 @@ FAMILIES = (
     _single("heun", "2", "the explicit trapezoidal rule"),
     _single("kutta", "3", "Kutta's method of order 3"),
     _single("rk4", "4", "the classical Runge-Kutta method"),
-    of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving", SSP),
-    MethodFamily(
-        "ssp3", ssp3, 4, MAX_STAGES, "3", "s = n^2; strong-stability-preserving", reference=SSP
+    family.of_stages("ssp2", ssp2, 2, "2", "explicit, strong-stability-preserving", SSP),
+    family.MethodFamily(
+        "ssp3",
+        ssp3,
+        4,
+        family.MAX_STAGES,
+        "3",
+        "s = n^2; strong-stability-preserving",
+        reference=SSP,
     ),
 )

@@ -9,16 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from msgspec import json
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.frozen import Frozen
+from garkcli.glossary.key import KeyMeaning
 from garkcli.grammar.source import Cures, Entries, Home, Source
-
-if TYPE_CHECKING:
-    from garkcli.glossary.key import KeyMeaning
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]

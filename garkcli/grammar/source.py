@@ -9,15 +9,7 @@ from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import (
-    ExpressionError,
-    MethodFileError,
-    Remark,
-    counted,
-    did_you_mean,
-    nearest,
-    printable,
-)
+from garkcli import errors
 from garkcli.frozen import Frozen, replace
 from garkcli.glossary.key import KINDS, FileKind
 from garkcli.grammar.foreign import cure_of_foreign
@@ -36,7 +28,7 @@ class NotedFault(Frozen):
     of this cause are always reported once.
     """
 
-    fault: Remark
+    fault: errors.Remark
     cause: str = ""
     is_one: bool = False
 
@@ -45,7 +37,7 @@ def place_of(noted: NotedFault) -> Place:
     return noted.fault.line, noted.fault.column
 
 
-def told_once(noted: Sequence[NotedFault]) -> list[Remark]:
+def told_once(noted: Sequence[NotedFault]) -> list[errors.Remark]:
     """Returns the faults in file order; those of one cause at its first place, with the others
     listed.
     """
@@ -54,7 +46,7 @@ def told_once(noted: Sequence[NotedFault]) -> list[Remark]:
     for number, one in enumerate(noted):
         is_shared = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
         together.setdefault(one.cause if is_shared else number, []).append(one)
-    told: list[Remark] = []
+    told: list[errors.Remark] = []
     for group in together.values():
         _, *others = dict.fromkeys(map(place_of, group))
         fault = group[0].fault
@@ -68,7 +60,7 @@ def _elsewhere(others: Sequence[Place]) -> str:
         return ""
     places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
     left = len(others) - MAX_PLACES
-    more = f" and in {counted(left, 'more place')}" if left > 0 else ""
+    more = f" and in {errors.counted(left, 'more place')}" if left > 0 else ""
     return f" (also at {places}{more})"
 
 
@@ -120,7 +112,7 @@ class Source:
         self.name = name
         self.text = text
         self.kind = kind
-        self.faults: list[Remark] = []
+        self.faults: list[errors.Remark] = []
         """The faults so far, in the order of reading."""
         self._found: list[NotedFault] = []
 
@@ -148,10 +140,12 @@ class Source:
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
-        fault = Remark(printable(text), printable(cure), line, column, code=code, meant=meant)
+        fault = errors.Remark(
+            errors.printable(text), errors.printable(cure), line, column, code=code, meant=meant
+        )
         self._note(fault, cause, is_one)
 
-    def _note(self, fault: Remark, cause: str = "", is_one: bool = False) -> None:
+    def _note(self, fault: errors.Remark, cause: str = "", is_one: bool = False) -> None:
         self.faults.append(fault)
         self._found.append(NotedFault(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
@@ -166,7 +160,7 @@ class Source:
         return line, column + (node.style in {"'", '"'}) + offset
 
     def expression_fault(
-        self, node: Node, where: str, error: ExpressionError, cause: str = ""
+        self, node: Node, where: str, error: errors.ExpressionError, cause: str = ""
     ) -> None:
         """Reports an error in the text of a number."""
         told = error.message, error.help, error.start, where, cause
@@ -177,7 +171,7 @@ class Source:
         if self._found:
             raise self.error()
 
-    def error(self) -> MethodFileError:
+    def error(self) -> errors.MethodFileError:
         """Returns the faults as one error, in file order, each cause once; there is at least
         one.
         """
@@ -188,11 +182,13 @@ class Source:
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
-            rest = Remark(more, "fix these first", last.line, last.column, code="more-faults")
+            rest = errors.Remark(
+                more, "fix these first", last.line, last.column, code="more-faults"
+            )
             faults = [*faults[:MAX_FAULTS], rest]
-        return MethodFileError(self.name, faults, self.text)
+        return errors.MethodFileError(self.name, faults, self.text)
 
-    def error_with(self, note: Callable[[], None]) -> MethodFileError:
+    def error_with(self, note: Callable[[], None]) -> errors.MethodFileError:
         """Returns the faults as an error, including those that ``note`` reports temporarily."""
         before = len(self._found)
         note()
@@ -207,7 +203,7 @@ class Source:
             self.fault(None, message, "split it", code="file-too-large")
             return None
         root = composed(self.text)
-        if isinstance(root, Remark):
+        if isinstance(root, errors.Remark):
             self._note(replace(root, help=self._foreign(False) or root.help))
             return None
         if root is None:
@@ -318,7 +314,7 @@ class Source:
                 cure = f"write {cure.key}: {{{', '.join(lines)}}}"
             elif cure is None:
                 meant = meant_key(first, known, words)
-                cure = f"did you mean {meant!r}?" if meant else did_you_mean(first, known)
+                cure = f"did you mean {meant!r}?" if meant else errors.did_you_mean(first, known)
             message = f"{where}: unknown {noun} {names}"
             self.fault(nodes[0], message, cure, code="unknown-key", meant=meant)
         if len(unknown) > MAX_FAULTS:
@@ -388,5 +384,5 @@ class Source:
     def unknown_word(self, node: Node, message: str, word: str, known: Iterable[str]) -> None:
         """Reports a word at ``node`` that is not known, with the one that was meant."""
         words = list(known)
-        cure, meant = did_you_mean(word, words), nearest(word, words)
+        cure, meant = errors.did_you_mean(word, words), errors.nearest(word, words)
         self.fault(node, message, cure, code="unknown-word", meant=meant)

@@ -20,16 +20,7 @@ from garkcli.doing import doing
 from garkcli.exact.display import to_float
 from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen
-from garkcli.longtime.history import (
-    BLOW_UP,
-    SERIES,
-    InvariantHistory,
-    LongRun,
-    StepMapStability,
-    Verdict,
-    count_steps,
-    stability,
-)
+from garkcli.longtime import history as histories
 from garkcli.longtime.record import extremes
 from garkcli.longtime.rounding import energy_rate, power_of_ten
 from garkcli.longtime.trend import Shape
@@ -114,9 +105,9 @@ def oscillator_run(
     problem: Oscillator,
     t_end: fmpq,
     step: fmpq,
-    points: int = SERIES,
+    points: int = histories.SERIES,
     tolerance: fmpq | None = None,
-) -> LongRun:
+) -> histories.LongRun:
     """The energy of ``problem`` under ``tableau`` to the time ``t_end``, judged by the exact step
     map. It starts from q = 1, p = ω/2, with the energy 5ω²/8.
 
@@ -128,9 +119,9 @@ def oscillator_run(
     Raises ``UsageProblem`` if the split does not fit the structure, the step does not divide the
     time, there are more than ``MAX_STEPS`` steps, or the stage equations are singular.
     """
-    count = count_steps(t_end, step)
+    count = histories.count_steps(t_end, step)
     R = linear_step(tableau, problem).at(step)
-    fate = stability(R)
+    fate = histories.stability(R)
     energy = to_float(5 * problem.omega**2 / 8)
     errors = _errors(R, problem.omega, energy, count)
     done = len(errors.values) - 1
@@ -144,18 +135,18 @@ def oscillator_run(
     kept = np.union1d(extremes(errors.values, points - 2), [0, done])
     history = _history(errors, energy, fate, line, excused, kept, h)
     times = tuple((kept * h).tolist())
-    return LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
+    return histories.LongRun(problem, step, t_end, done, None, (history,), times, stability=fate)
 
 
 def _history(
     errors: _Errors,
     energy: float,
-    fate: StepMapStability,
+    fate: histories.StepMapStability,
     line: FittedLine,
     excused: float,
     kept: Integers,
     h: float,
-) -> InvariantHistory:
+) -> histories.InvariantHistory:
     """The history of the energy; ``excused`` is the error that rounded coefficients can cause, and
     ``kept`` has the indices of the errors that are kept.
     """
@@ -169,7 +160,7 @@ def _history(
     kept_errors = errors.values[kept]
     left = kept_errors - line.slope * kept
     height = float(left.max() - left.min())
-    return InvariantHistory(
+    return histories.InvariantHistory(
         name="energy",
         initial=energy,
         max_error=largest,
@@ -192,7 +183,7 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
         values: Floats = np.zeros(count + 1)
     else:
         values = _energy_errors(R, omega, count)
-    is_inside = np.abs(values) <= BLOW_UP * energy  # and no nan
+    is_inside = np.abs(values) <= histories.BLOW_UP * energy  # and no nan
     outside = np.flatnonzero(~is_inside)
     if outside.size:
         values = values[: int(outside[0])]
@@ -200,8 +191,12 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
 
 
 def _verdict(
-    errors: _Errors, energy: float, fate: StepMapStability, line: FittedLine, excused: float
-) -> Verdict:
+    errors: _Errors,
+    energy: float,
+    fate: histories.StepMapStability,
+    line: FittedLine,
+    excused: float,
+) -> histories.Verdict:
     """The verdict from the step map and the errors. A visible drift is undecided if without its
     uncertainty it is at most ``excused``, the error that rounded coefficients can cause.
 
@@ -221,7 +216,7 @@ def _verdict(
     return "undecided" if abs(line.slope) > line.uncertainty else "bounded"
 
 
-def _shape(verdict: Verdict, line: FittedLine) -> Shape:
+def _shape(verdict: histories.Verdict, line: FittedLine) -> Shape:
     """The shape of a drift: a line if its slope can be distinguished from 0."""
     if verdict not in ("drifts", "undecided"):
         return "none"
@@ -306,7 +301,7 @@ def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb
         error = (x * x + y * y) / 2 - energy
         starts.append((x, y))
         errors.append(error)
-        if error.mid() > BLOW_UP * energy:
+        if error.mid() > histories.BLOW_UP * energy:
             break
         z = block * z
     return starts, errors

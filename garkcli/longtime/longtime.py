@@ -16,16 +16,8 @@ from garkcli import numpy_on_use as np
 from garkcli.doing import counting, doing
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
+from garkcli.longtime import history as histories
 from garkcli.longtime.energy import oscillator_run
-from garkcli.longtime.history import (
-    MAX_STEPS,
-    SERIES,
-    Doubt,
-    InvariantHistory,
-    LongRun,
-    Verdict,
-    count_steps,
-)
 from garkcli.longtime.measure import Measure
 from garkcli.longtime.record import RunRecord
 from garkcli.longtime.rounding import energy_rate, invariant_rate, power_of_ten, unit_round_off
@@ -62,9 +54,9 @@ def long_run(
     t_end: fmpq,
     step: fmpq,
     digits: int = FLOAT_DIGITS,
-    points: int = SERIES,
+    points: int = histories.SERIES,
     tolerance: fmpq | None = None,
-) -> LongRun:
+) -> histories.LongRun:
     """Steps ``problem`` with ``tableau`` to the time ``t_end`` and judges the energy and the other
     invariants.
 
@@ -87,7 +79,7 @@ def long_run(
         return oscillator_run(tableau, problem, t_end, step, points, tolerance)
     bound = bind(tableau, problem)
     problem = bound.problem
-    count = count_steps(t_end, step)
+    count = histories.count_steps(t_end, step)
     method = bound.at(digits)
     record = RunRecord(Measure(problem, method.digits), count, points)
     record.take(counting("steps", trajectory(method, step, count), count + 1))
@@ -99,7 +91,7 @@ def long_run(
         rate = invariant_rate(tableau, tolerance, problem, states)
     judge = _Judge(record, step, tableau, problem, tolerance, rate * record.done * h)
     noise = _noise(record, bound, step, method.digits)
-    return LongRun(
+    return histories.LongRun(
         problem,
         step,
         t_end,
@@ -133,7 +125,7 @@ def _noise(record: RunRecord, bound: Binding, step: fmpq, digits: int) -> Floats
     return np.array([power_of_ten(float(x)) for x in np.maximum(derived, expected)])
 
 
-_Finding: TypeAlias = tuple[Verdict, Shape, Doubt | None]
+_Finding: TypeAlias = tuple[histories.Verdict, Shape, histories.Doubt | None]
 """A verdict on one invariant, with its trend or doubt."""
 
 
@@ -167,7 +159,7 @@ class _Judge(Frozen):
         is_wrong = abs(error) > _LARGE * record.measure.scale
         return record.excursions.escape if is_wrong else None
 
-    def history(self, k: int, noise: float) -> InvariantHistory:
+    def history(self, k: int, noise: float) -> histories.InvariantHistory:
         """The history of the invariant ``k``, whose errors have the uncertainty ``noise``."""
         record, h = self.record, to_float(self.step)
         # the bound is one of the energy; other invariants are taken to change in proportion
@@ -186,7 +178,7 @@ class _Judge(Frozen):
         left = errors - slope * record.kept_numbers
         height = float(np.nanmax(left) - np.nanmin(left))
         lost = record.lost.get(k)
-        return InvariantHistory(
+        return histories.InvariantHistory(
             name=record.measure.names[k],
             initial=record.measure.initial[k],
             max_error=float(record.largest[k]),
@@ -240,7 +232,7 @@ class _Judge(Frozen):
         """The sum of the sizes of an invariant's summands at the start; 1 if all are zero."""
         return float(self.record.measure.sizes(self.record.states[0])[k]) or 1.0
 
-    def _longer(self, trend: Trend | None, doubt: Doubt | None) -> fmpq | None:
+    def _longer(self, trend: Trend | None, doubt: histories.Doubt | None) -> fmpq | None:
         """A time that would decide; None if there is none within the limit of steps."""
         if doubt not in _LEFT_TO_TIME:
             return None
@@ -256,8 +248,8 @@ class _Judge(Frozen):
             ratio = abs(trend.slope) / trend.uncertainty
             needed = int(_MARGIN * CERTAIN / ratio)
         count = max(_LONGER, needed) * record.count
-        return count * self.step if count <= MAX_STEPS else None
+        return count * self.step if count <= histories.MAX_STEPS else None
 
 
-def _undecided(doubt: Doubt, shape: Shape = "none") -> _Finding:
+def _undecided(doubt: histories.Doubt, shape: Shape = "none") -> _Finding:
     return "undecided", shape, doubt

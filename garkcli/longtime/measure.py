@@ -12,15 +12,8 @@ from flint import arb, ctx
 from garkcli import numpy_on_use as np
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import BITS_OF_A_DIGIT, to_float
+from garkcli.problems import problem as problems
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.problems.problem import (
-    Problem,
-    conserved,
-    conserved_names,
-    quantities_function,
-    summands,
-    unknowns,
-)
 from garkcli.problems.straightline import function
 
 if TYPE_CHECKING:
@@ -35,13 +28,13 @@ class Measure:
     UsageProblem if a quantity has no value at the start.
     """
 
-    def __init__(self, problem: Problem, digits: int) -> None:
-        self.names = conserved_names(problem)
+    def __init__(self, problem: problems.Problem, digits: int) -> None:
+        self.names = problems.conserved_names(problem)
         self.digits = digits
         self.has_energy = isinstance(problem, Hamiltonian)
         self._bits = 0 if digits <= FLOAT_DIGITS else ceil(BITS_OF_A_DIGIT * digits) + 48
         self._function: Callable[..., list[Any]] = self._precisely(
-            lambda: quantities_function(problem, digits)
+            lambda: problems.quantities_function(problem, digits)
         )
         number = arb if self._bits else to_float
 
@@ -50,8 +43,8 @@ class Measure:
 
         start: list[Any] = self._precisely(initial_state)
         self._problem = problem
-        arguments = unknowns(problem)
-        parts = [summands(problem, k) for k in range(len(self.names))]
+        arguments = problems.unknowns(problem)
+        parts = [problems.summands(problem, k) for k in range(len(self.names))]
         self._summands = [function(own, arguments, False) for own in parts]
         terms_of = self._summands[0]
         if isinstance(problem, Hamiltonian):
@@ -91,11 +84,13 @@ class Measure:
     @cached_property
     def _alone(self) -> list[Callable[..., list[Any]]]:
         """Functions of single invariants, for states at which one of them has no value."""
-        arguments = unknowns(self._problem)
-        return [function((x,), arguments, bool(self._bits)) for x in conserved(self._problem)]
+        arguments = problems.unknowns(self._problem)
+        return [
+            function((x,), arguments, bool(self._bits)) for x in problems.conserved(self._problem)
+        ]
 
     @staticmethod
-    def _no_value(problem: Problem) -> UsageProblem:
+    def _no_value(problem: problems.Problem) -> UsageProblem:
         return UsageProblem(
             f"the energy or an invariant of {problem.name} has no value at the start",
             "give other initial values",

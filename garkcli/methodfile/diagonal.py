@@ -13,21 +13,14 @@ from garkcli.grammar.keys import Key, OfSchema, Schema, ValueKind, count, entrie
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, keys_of, shortened
 from garkcli.grammar.source import Entries
 from garkcli.methodfile import description as d
+from garkcli.methodfile import spelled_out
 from garkcli.methodfile.numbers import Coefficient, NumbersReader, Row
 from garkcli.methodfile.parameters import NUMBER
-from garkcli.methodfile.spelled_out import (
-    BUTCHER,
-    are_too_many,
-    butcher,
-    further_of_method,
-    names_beside,
-    refuse_partial,
-)
 
 _FORM = "write a list: [{family: gauss, stages: 2}, …]"
 _FORM_OF_MEMBER = "write for instance {family: gauss, stages: 2}"
 _TAG = "tag:yaml.org,2002:"
-_BESIDE = [key for key in BUTCHER.inside() if key.name not in {"A", "b", "c"}]
+_BESIDE = [key for key in spelled_out.BUTCHER.inside() if key.name not in {"A", "b", "c"}]
 
 
 def _kind_of(option: Option) -> ValueKind:
@@ -77,7 +70,7 @@ def methods(
         items = [node]  # one method needs no brackets around it
     else:
         items = at.source.items(node, "methods", _FORM)
-    if are_too_many(at, items, node):
+    if spelled_out.are_too_many(at, items, node):
         return None
     every = [_method(at, item, l) for l, item in enumerate(items, start=1)]
     texts = [x for x in every if x is not None]
@@ -94,7 +87,7 @@ def methods(
     if not texts or len(texts) < len(items) or _is_too_large(at, texts, node):
         return None
     names = [f"method {l}" for l in range(1, len(texts) + 1)]
-    refuse_partial(at, [x.further for x in texts], names, node)
+    spelled_out.refuse_partial(at, [x.further for x in texts], names, node)
     return d.MethodsText(tuple(texts), rules)
 
 
@@ -137,12 +130,19 @@ def _method(at: NumbersReader, node: Node, l: int) -> d.FamilyText | d.ButcherTe
         return None
     b = d.of_colour("b", l - 1)
     if "family" not in keys and isinstance(node, MappingNode):
-        return butcher(at, node, where, (d.block_name(l - 1, l - 1), b, d.of_colour("c", l - 1)))
+        return spelled_out.butcher(
+            at, node, where, (d.block_name(l - 1, l - 1), b, d.of_colour("c", l - 1))
+        )
     family_text = _family(at, node, where)
     if family_text is None:
         return None
     family, entries = family_text
-    return replace(family, further=further_of_method(at, entries, family.stages, names_beside(b)))
+    return replace(
+        family,
+        further=spelled_out.further_of_method(
+            at, entries, family.stages, spelled_out.names_beside(b)
+        ),
+    )
 
 
 def _in_a_word(node: Node) -> MappingNode | None:

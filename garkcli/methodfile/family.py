@@ -14,15 +14,9 @@ from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
 from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.grammar.nodes import Extent, ScalarNode, extent, one_line
+from garkcli.methodfile import description as d
 from garkcli.methodfile.build import Builder
-from garkcli.methodfile.description import (
-    ClaimText,
-    Description,
-    MatrixText,
-    MethodsText,
-    Structure,
-    left_behind,
-)
+from garkcli.methodfile.description import left_behind
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
 from garkcli.methodfile.reader import MethodReader
@@ -68,8 +62,8 @@ class FamilyFile(Family, kw_only=True):
     shape: tuple[Extent, str] | None = None
     blocks: tuple[tuple[Extent, str], ...] = ()
     wanted_at: Extent | None = None
-    structure: Structure = "general"
-    claims: tuple[ClaimText, ...] = ()
+    structure: d.Structure = "general"
+    claims: tuple[d.ClaimText, ...] = ()
     left_behind: tuple[str, ...] = ()
     tolerance: fmpq | None = None
 
@@ -169,7 +163,7 @@ def refuse_rounded(family: FamilyFile) -> None:
 
 def _family(
     reader: MethodReader,
-    description: Description,
+    description: d.Description,
     wishes: Wishes,
     settings: Mapping[str, str],
     deadline: float | None,
@@ -274,13 +268,13 @@ def _shape(reader: MethodReader) -> tuple[Extent, str] | None:
     return reader.shaped.place, text
 
 
-def _blocks(description: Description, text: str) -> Iterator[tuple[Extent, str]]:
+def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str]]:
     """Yields the places where "?" stands for a whole block, and the text of the block."""
-    if not isinstance(description.content, MethodsText):
+    if not isinstance(description.content, d.MethodsText):
         return
-    by_method: dict[int, dict[tuple[int, int], MatrixText]] = {}
+    by_method: dict[int, dict[tuple[int, int], d.MatrixText]] = {}
     for edge, block in description.content.transfer.blocks.items():
-        if isinstance(block, MatrixText) and isinstance(block.node, ScalarNode):
+        if isinstance(block, d.MatrixText) and isinstance(block.node, ScalarNode):
             by_method.setdefault(id(block.node), {})[edge] = block
     for blocks in by_method.values():
         from garkcli.methodfile.transfers import spelled

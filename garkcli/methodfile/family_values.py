@@ -12,17 +12,10 @@ from typing import Any, cast
 from flint import fmpq, fmpq_mpoly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded
+from garkcli.exact import parametric
 from garkcli.exact.domain import Domain, perfect_root
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
-from garkcli.exact.parametric import (
-    Parameters,
-    Parametric,
-    fraction,
-    terms_of_power,
-    terms_of_product,
-    terms_of_sum,
-)
 from garkcli.exact.rewriting import format_expression, names_in, roots_in
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
@@ -130,7 +123,7 @@ class _FamilyDomain(Domain):
         self._change = change
         roots = dict.fromkeys(chain.from_iterable(map(roots_in, expressions)))
         self._names = {root: f"{ROOT}{i}" for i, root in enumerate(roots, start=1)}
-        self.ring = Parameters([*names, *self._names.values()])
+        self.ring = parametric.Parameters([*names, *self._names.values()])
         self.radicals: list[Radical] = []
         self.divisors: list[fmpq_mpoly] = []
         self._values = {}
@@ -152,7 +145,7 @@ class _FamilyDomain(Domain):
         unknown = self.ring.parameter(name)
         # θ^n = r; of an even root the positive θ is meant
         difference = unknown**root.index - cast("Any", radicand)
-        relation = cast("Parametric", difference).numerator
+        relation = cast("parametric.Parametric", difference).numerator
         is_even = root.index % 2 == 0
         self._add(root, Radical(name, relation, is_even))
         return cast("Number", unknown)
@@ -174,7 +167,7 @@ class _FamilyDomain(Domain):
     def coefficient(self, expression: Expression) -> Number:
         changed = expression if self._change is None else self._change(expression)
         value = super().coefficient(changed)
-        parts = fraction(value, self.ring)
+        parts = parametric.fraction(value, self.ring)
         self._limit(max(map(self._terms_of, parts)), 0, expression)
         self._terms += sum(map(len, parts))
         if self._terms > MAX_TERMS_TOGETHER:
@@ -189,17 +182,20 @@ class _FamilyDomain(Domain):
         return super().evaluate(expression)
 
     def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
-        p, q = fraction(left, self.ring)
-        u, v = fraction(right, self.ring)
+        p, q = parametric.fraction(left, self.ring)
+        u, v = parametric.fraction(right, self.ring)
         if sign == "/":
             self._note_divisor(right)
             u, v = v, u
         if sign in "*/":
-            lengths = [terms_of_product(p, u), terms_of_product(q, v)]
+            lengths = [parametric.terms_of_product(p, u), parametric.terms_of_product(q, v)]
         elif q == v:
-            lengths = [terms_of_sum(p, u)]
+            lengths = [parametric.terms_of_sum(p, u)]
         else:
-            lengths = [terms_of_product(p, v) + terms_of_product(u, q), terms_of_product(q, v)]
+            lengths = [
+                parametric.terms_of_product(p, v) + parametric.terms_of_product(u, q),
+                parametric.terms_of_product(q, v),
+            ]
         degree = sum(max(0, x.total_degree()) for x in (p, q, u, v))
         self._limit(max(lengths), 0 if sign in "+-" and q == v else degree, at)
         return super()._apply(sign, left, right, at)
@@ -212,7 +208,7 @@ class _FamilyDomain(Domain):
         def written_out(radical: Radical, exponents: Sequence[int]) -> int:
             place = self.ring.names.index(radical.name)
             index = radical.relation.degrees()[place]
-            return terms_of_power(radical.relation, exponents[place] // index)
+            return parametric.terms_of_power(radical.relation, exponents[place] // index)
 
         every = polynomial.monoms()
         return sum(prod(written_out(x, exponents) for x in self.radicals) for exponents in every)
@@ -229,15 +225,15 @@ class _FamilyDomain(Domain):
 
     def _note_divisor(self, number: Number) -> None:
         """Records the zeros of a divisor, which may cancel."""
-        p, _ = fraction(number, self.ring)
+        p, _ = parametric.fraction(number, self.ring)
         if not p.is_constant():
             self.divisors.append(p)
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
         if exponent < 0:
             self._note_divisor(number)
-        numerator, denominator = fraction(number, self.ring)
+        numerator, denominator = parametric.fraction(number, self.ring)
         degree = abs(exponent) * (max(0, numerator.total_degree()) + denominator.total_degree())
-        terms = [terms_of_power(p, abs(exponent)) for p in (numerator, denominator)]
+        terms = [parametric.terms_of_power(p, abs(exponent)) for p in (numerator, denominator)]
         self._limit(max(terms), degree, at)
         return super()._power(number, exponent, at)

@@ -8,27 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cache
-from typing import TYPE_CHECKING
 
+from garkcli.glossary.key import FileKind, KeyMeaning
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import SequenceNode
 from garkcli.grammar.source import Home
+from garkcli.methodfile import spelled_out
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import EXPECT
 from garkcli.methodfile.parameters import DEFINITIONS, PARAMETERS
-from garkcli.methodfile.spelled_out import (
-    BUTCHER,
-    DENSE,
-    PREDICTOR,
-    PREDICTOR_KEY,
-    TABLEAU,
-    TABLEAU_KEYS,
-    rows_of,
-)
-
-if TYPE_CHECKING:
-    from garkcli.glossary.key import FileKind, KeyMeaning
 
 _PAGE = "docs/method-file.md#"
 _MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
@@ -38,13 +27,13 @@ _PAPER = f"{_PAGE}methods-and-transfer-the-papers-construction"
 def _methods() -> g.Schema:
     member = {"type": "string", "pattern": "^[a-zA-Z]"}
     method = {"anyOf": [g.defined("method").schema(), member]}
-    return {"anyOf": [rows_of(method), method]}
+    return {"anyOf": [spelled_out.rows_of(method), method]}
 
 
 def _inside_methods() -> Iterable[g.Key]:
     from garkcli.methodfile.diagonal import FAMILY
 
-    return {key.name: key for key in (*BUTCHER.inside(), *FAMILY.inside())}.values()
+    return {key.name: key for key in (*spelled_out.BUTCHER.inside(), *FAMILY.inside())}.values()
 
 
 KEYS = {
@@ -83,8 +72,8 @@ KEYS = {
             page=_PAPER,
             also=("method",),
         ),
-        *TABLEAU_KEYS,
-        PREDICTOR_KEY,
+        *spelled_out.TABLEAU_KEYS,
+        spelled_out.PREDICTOR_KEY,
         g.Key(
             "transfer: collocation",
             g.later("garkcli.methodfile.transfers", "TRANSFER"),
@@ -94,7 +83,7 @@ KEYS = {
         ),
         g.Key(
             "tableau: {A: [[0, 0], [1/2, 0]], b: [0, 1]}",
-            TABLEAU,
+            spelled_out.TABLEAU,
             "One Butcher tableau, or every block A^{l,m} of several colours spelled out.",
             page=f"{_PAGE}tableau-every-block-spelled-out",
             also=("butcher",),
@@ -350,9 +339,9 @@ def method_file_schema() -> g.Schema:
         g.mapping(*KEYS.values(), rules=rules),
         definitions={
             **DEFINITIONS,
-            "dense": DENSE.schema(),
-            "predictor": PREDICTOR.schema(),
-            "butcher": BUTCHER.schema(),
+            "dense": spelled_out.DENSE.schema(),
+            "predictor": spelled_out.PREDICTOR.schema(),
+            "butcher": spelled_out.BUTCHER.schema(),
             "method": {"oneOf": [FAMILY.schema(), g.defined("butcher").schema()]},
             "part": {
                 "anyOf": [

@@ -24,7 +24,14 @@ from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import MethodReader
 from garkcli.methodfile.values import Values
-from garkcli.order.meant import remember, remember_digits, remembered, remembered_digits
+from garkcli.order.meant import (
+    ByRadii,
+    Radii,
+    remember,
+    remember_digits,
+    remembered,
+    remembered_digits,
+)
 from garkcli.reference import Work
 from garkcli.remade import Remade
 
@@ -33,7 +40,6 @@ if TYPE_CHECKING:
 
     from garkcli.exact.field import Number
     from garkcli.exact.nodes import Expression
-    from garkcli.order.meant import ByRadii, Radii
     from garkcli.tableau.box import Box, Make
     from garkcli.tableau.embedded import Further
 

@@ -22,17 +22,8 @@ from garkcli.files import STDIN, leads_away
 from garkcli.frozen import fields
 from garkcli.glossary.key import METHOD_FILE
 from garkcli.grammar.reading import read_text
+from garkcli.methodfile import shelves as shelving
 from garkcli.methodfile.folders import files_below, no_one, within
-from garkcli.methodfile.shelves import (
-    Found,
-    Shelf,
-    Shelved,
-    key_of,
-    letters_of,
-    others,
-    own_folders,
-    package,
-)
 
 if TYPE_CHECKING:
     from garkcli.families.family import MethodFamily
@@ -62,7 +53,7 @@ def read_argument(argument: str, path: str = "") -> tuple[str, str]:
     return method.read(), method.name
 
 
-def find_named(argument: str, path: str = "") -> Shelved | None:
+def find_named(argument: str, path: str = "") -> shelving.Shelved | None:
     """Returns the method of the catalogue that an argument stands for; None for a file.
 
     Raises MethodFileError if it may be both or several, or does not exist.
@@ -109,13 +100,13 @@ def is_both(path: str) -> bool:
     return can_be_name(path) and look_up(path) is not None
 
 
-def look_up(name: str) -> Shelved | None:
+def look_up(name: str) -> shelving.Shelved | None:
     """Returns the method with a name or an alias, or None.
 
     Raises MethodFileError if several files in one place have the name, or several methods the
     alias.
     """
-    key = key_of(name)
+    key = shelving.key_of(name)
     for shelves in _in_turn():
         for shelf in shelves:
             if methods := shelf.named(key):
@@ -127,9 +118,9 @@ def look_up(name: str) -> Shelved | None:
     return _of_family(name)
 
 
-def _spelt_like(name: str, shelves: Iterable[Shelf]) -> list[Shelved]:
+def _spelt_like(name: str, shelves: Iterable[shelving.Shelf]) -> list[shelving.Shelved]:
     """Returns the methods with the letters and digits of a name, if no family has the name."""
-    methods = _called(letters_of(name), (shelf.spellings for shelf in shelves))
+    methods = _called(shelving.letters_of(name), (shelf.spellings for shelf in shelves))
     return methods if methods and _family(name) is None else []
 
 
@@ -147,7 +138,7 @@ def is_catalogued(name: str) -> bool:
     return method is not None and method.name == name and method.shelf != FAMILY
 
 
-def _of_family(name: str) -> Shelved | None:
+def _of_family(name: str) -> shelving.Shelved | None:
     """Returns a member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
     from garkcli.families.registry import FAMILIES, member_named
 
@@ -166,7 +157,7 @@ def _of_family(name: str) -> Shelved | None:
     return _made(called, FAMILIES[family].reference)
 
 
-def _made(name: str, reference: Reference | None = None) -> Shelved:
+def _made(name: str, reference: Reference | None = None) -> shelving.Shelved:
     """Returns the file of a member of a family, with the reference of the family."""
 
     def written() -> str:
@@ -176,25 +167,25 @@ def _made(name: str, reference: Reference | None = None) -> Shelved:
         told = json.dumps({key: x for key, x in known.items() if x}, ensure_ascii=False)
         return f"methods: {name}\n" + (f"reference: {told}\n" if reference else "")
 
-    return Shelved(name, "", name, FAMILY, written)
+    return shelving.Shelved(name, "", name, FAMILY, written)
 
 
-def _in_turn() -> Iterator[Sequence[Shelf]]:
+def _in_turn() -> Iterator[Sequence[shelving.Shelf]]:
     """Yields the shelves in the order of search, those of other packages last, as they are slow."""
-    yield [*own_folders(), package()]
-    yield others()
+    yield [*shelving.own_folders(), shelving.package()]
+    yield shelving.others()
 
 
-def _called(key: str, known: Iterable[Found]) -> list[Shelved]:
+def _called(key: str, known: Iterable[shelving.Found]) -> list[shelving.Shelved]:
     """Returns the methods under a key, the first of those with the same name."""
-    by_name: dict[str, Shelved] = {}
+    by_name: dict[str, shelving.Shelved] = {}
     for methods in known:
         for method in methods.get(key, ()):
-            by_name.setdefault(key_of(method.name), method)
+            by_name.setdefault(shelving.key_of(method.name), method)
     return list(by_name.values())
 
 
-def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
+def _only(name: str, methods: Sequence[shelving.Shelved]) -> shelving.Shelved:
     """Returns the only method of a name.
 
     Raises MethodFileError if there are several.
@@ -220,7 +211,9 @@ def _unknown(name: str, files: Sequence[str]) -> Remark:
         needs = " and ".join(option.name for option in family.needed)
         message = f"{family.name} is a family: its methods need {needs}"
         cure = f"write for instance {family.example}"
-        if alike := _called(letters_of(name), (shelf.spellings for shelf in every_shelf())):
+        if alike := _called(
+            shelving.letters_of(name), (shelf.spellings for shelf in every_shelf())
+        ):
             cure += f", or {_first([x.name for x in alike])} for the method of the catalogue"
         return Remark(message, cure, code="missing-key")
     known = [
@@ -242,17 +235,17 @@ def _first(names: Sequence[str]) -> str:
     return f"{shown}, …" if len(names) > _MOST_SHOWN else shown
 
 
-def every_shelf() -> list[Shelf]:
+def every_shelf() -> list[shelving.Shelf]:
     """All shelves in the order of search."""
     return list(chain.from_iterable(_in_turn()))
 
 
-def shelf_of(method: Shelved) -> Shelf:
+def shelf_of(method: shelving.Shelved) -> shelving.Shelf:
     (shelf,) = [x for x in every_shelf() if x.label == method.shelf]
     return shelf
 
 
-def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
+def visible(shelves: Iterable[shelving.Shelf]) -> Iterator[tuple[shelving.Shelf, shelving.Shelved]]:
     """Yields the methods shelf by shelf, without those hidden by another of the same name."""
     known: set[str] = set()
     for shelf in shelves:
@@ -262,10 +255,12 @@ def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
         known.update(shelf.methods)
 
 
-def hidden_by(method: Shelved) -> list[str]:
+def hidden_by(method: shelving.Shelved) -> list[str]:
     """Returns the user's folders, or the package, in which a method of the same name is hidden."""
-    key = key_of(method.name)
-    elsewhere = [x for x in (*own_folders(), package()) if x.label != method.shelf]
+    key = shelving.key_of(method.name)
+    elsewhere = [
+        x for x in (*shelving.own_folders(), shelving.package()) if x.label != method.shelf
+    ]
     return [shelf.label for shelf in elsewhere if key in shelf.methods]
 
 
@@ -290,14 +285,14 @@ def names_beginning(start: str) -> list[str]:
 
     Raises MethodFileError if another package cannot be imported.
     """
-    key = key_of(start)
+    key = shelving.key_of(start)
     shelves = every_shelf()
     names = [method.name for _, method in visible(shelves)]
-    beginning = [name for name in names if key_of(name).startswith(key)]
+    beginning = [name for name in names if shelving.key_of(name).startswith(key)]
     if beginning:
         return beginning
     called = chain.from_iterable(shelf.called(method) for shelf, method in visible(shelves))
-    return [x for x in called if key_of(x).startswith(key) and len(x.split()) == 1]
+    return [x for x in called if shelving.key_of(x).startswith(key) and len(x.split()) == 1]
 
 
 def expanded(argument: str) -> list[str]:
@@ -307,9 +302,9 @@ def expanded(argument: str) -> list[str]:
     """
     if not argument.startswith(PREFIX) or os.path.lexists(argument):
         return []
-    folder = key_of(argument.removeprefix(PREFIX))
+    folder = shelving.key_of(argument.removeprefix(PREFIX))
     methods = (method for _, method in visible(every_shelf()))
-    return [PREFIX + x.name for x in methods if folder in {"", key_of(x.folder)}]
+    return [PREFIX + x.name for x in methods if folder in {"", shelving.key_of(x.folder)}]
 
 
 _MAGIC = frozenset("*?[")

@@ -8,16 +8,8 @@ from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.nodes import Name
 from garkcli.exact.rewriting import Expanded, roots_in
+from garkcli.grammar import nodes as yaml_nodes
 from garkcli.grammar.keys import Key, ReadMapping, Schema, ValueKind, defined, mapping
-from garkcli.grammar.nodes import (
-    MappingNode,
-    Node,
-    ScalarNode,
-    SequenceNode,
-    key_nodes,
-    shortened,
-    unquoted,
-)
 from garkcli.methodfile.numbers import NOTHING, UNKNOWN, Between, Free, Numbers
 
 NUMBER = defined("number", lambda at, node, where: at.numbers.entry(node, where))
@@ -49,7 +41,7 @@ DEFINITIONS: Schema = {
 """The definitions of coefficients in a schema."""
 
 
-def _range(at: Any, node: Node, where: str) -> Between:
+def _range(at: Any, node: yaml_nodes.Node, where: str) -> Between:
     """Reads a range with two ends; empty after a fault."""
     numbers: Numbers = at.numbers
     ends = numbers.source.items(node, where)
@@ -75,7 +67,7 @@ RANGE = ValueKind(
 _FREE_FORM = "write {free: true, range: [1/4, 1]}, or give it a value"
 
 
-def _true(at: Any, node: Node, where: str) -> bool | None:
+def _true(at: Any, node: yaml_nodes.Node, where: str) -> bool | None:
     return True if at.source.scalar(node, where) == "true" else None
 
 
@@ -91,7 +83,7 @@ _FREE = mapping(
 )
 
 
-def _read(at: Any, node: Node, _: str) -> None:
+def _read(at: Any, node: yaml_nodes.Node, _: str) -> None:
     """Reads ``parameters`` into the numbers of a file; each may use those before it.
 
     The values are kept apart from the coefficients: an unused one does not enlarge their domain,
@@ -99,7 +91,7 @@ def _read(at: Any, node: Node, _: str) -> None:
     """
     numbers: Numbers = at.numbers
     source = numbers.source
-    keys = key_nodes(node)
+    keys = yaml_nodes.key_nodes(node)
     names = _names_alone(node)
     shown = [x for x in names if len(x) < 20][:5] or ["tau"]
     form = f"write parameters: {{{', '.join(f'{x}: free' for x in shown)}}}"
@@ -107,7 +99,7 @@ def _read(at: Any, node: Node, _: str) -> None:
         numbers.define(name, NOTHING)
     for name, value_node in source.mapping(node, "parameters", (), form=form).items():
         key = keys[name]
-        where = f"parameters: {unquoted(name)}"
+        where = f"parameters: {yaml_nodes.unquoted(name)}"
         if name in FUNCTIONS:
             message = f"{where} is a function already"
             source.fault(key, message, "choose another name", code="name-taken")
@@ -121,28 +113,28 @@ def _read(at: Any, node: Node, _: str) -> None:
         numbers.define(name, NOTHING)
 
 
-def _names_alone(node: Node) -> list[str]:
+def _names_alone(node: yaml_nodes.Node) -> list[str]:
     """Returns the names in a list without values, or a single one."""
-    nodes = node.value if isinstance(node, SequenceNode) else [node]
-    words = [x.value for x in nodes if isinstance(x, ScalarNode)]
+    nodes = node.value if isinstance(node, yaml_nodes.SequenceNode) else [node]
+    words = [x.value for x in nodes if isinstance(x, yaml_nodes.ScalarNode)]
     return [x for x in words if x.isidentifier() and x.isascii() and x not in FUNCTIONS]
 
 
-def _define(at: Any, name: str, node: Node, where: str) -> None:
+def _define(at: Any, name: str, node: yaml_nodes.Node, where: str) -> None:
     """Reads a parameter with a value, with one from outside, or free."""
     numbers: Numbers = at.numbers
     if name in numbers.settings:
         numbers.given(name, node, where)
-    elif isinstance(node, MappingNode) or node.value == "free":
+    elif isinstance(node, yaml_nodes.MappingNode) or node.value == "free":
         numbers.free[name] = _free(at, node, where)
         numbers.define(name, Expanded(Name(name)))
     else:
         numbers.parameter(name, node, where)
 
 
-def _free(at: Any, node: Node, where: str) -> Free:
+def _free(at: Any, node: yaml_nodes.Node, where: str) -> Free:
     """Reads a free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
-    if isinstance(node, ScalarNode):
+    if isinstance(node, yaml_nodes.ScalarNode):
         return Free(node=node)
     entries: ReadMapping = _FREE.read(at, node, where)
     if "free" in entries.nodes and "free" not in entries:
@@ -192,5 +184,5 @@ def refuse_unknown_settings(numbers: Numbers) -> None:
     known = list(numbers.parameters)
     for name in (x for x in numbers.settings if x not in known):
         cure = did_you_mean(name, known) or "the file has none: leave out --set"
-        message = f"no parameter {shortened(name)} to be set"
+        message = f"no parameter {yaml_nodes.shortened(name)} to be set"
         numbers.source.fault(None, message, cure, code="unknown-word")

@@ -11,16 +11,8 @@ from garkcli.exact.matrix import Matrix
 from garkcli.frozen import replace
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node, ScalarNode, is_null
+from garkcli.methodfile import description, spelled_out
 from garkcli.methodfile import description as d
-from garkcli.methodfile import spelled_out
-from garkcli.methodfile.description import (
-    NOTHING_FURTHER,
-    FurtherText,
-    Made,
-    OwnContent,
-    Place,
-    places_of,
-)
 from garkcli.methodfile.numbers import Coefficient, NumbersReader, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, NUMBER, ROW
 from garkcli.methodfile.values import Values
@@ -165,7 +157,7 @@ ROSENBROCK = g.mapping(
 """A Rosenbrock or W-method."""
 
 
-class RosenbrockText(OwnContent):
+class RosenbrockText(description.OwnContent):
     """A Rosenbrock or W-method as in papers, or transformed as in programs; the latter has one
     colour.
     """
@@ -177,23 +169,23 @@ class RosenbrockText(OwnContent):
     d: Rows | None = None
     diagonal: Row | None = None
     error: Row | None = None
-    beside: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
+    beside: tuple[description.FurtherText, ...] = (description.NOTHING_FURTHER,)
 
     @property
     def names(self) -> Sequence[str]:
         return [""] * len(self.b) if len(self.b) > 1 else ()
 
-    def places(self) -> Iterator[Place]:
+    def places(self) -> Iterator[description.Place]:
         """Yields the numbers; those of one colour are all alike."""
-        yield from places_of([self.error or ()], 0, "embedded")
+        yield from description.places_of([self.error or ()], 0, "embedded")
         for l in range(len(self.b) if len(self.b) > 1 else 0):
             for of_colours in (self.alpha, self.gamma):
-                yield from places_of(chain.from_iterable(of_colours[l]), l)
+                yield from description.places_of(chain.from_iterable(of_colours[l]), l)
             others = (x[l] for x in (self.c, self.d) if x is not None)
-            yield from places_of([self.b[l], *others], l)
+            yield from description.places_of([self.b[l], *others], l)
         yield from super().places()
 
-    def made(self, values: Values, _: object) -> Made:
+    def made(self, values: Values, _: object) -> description.Made:
         matrix, vector = values.matrix, values.vector
         alpha, gamma = (
             tuple(tuple(map(matrix, row)) for row in blocks) for blocks in (self.alpha, self.gamma)
@@ -211,7 +203,7 @@ class RosenbrockText(OwnContent):
                 rosenbrock_method.gamma[0][0],
             )
         c, d_ = (None if x is None else matrix(x) for x in (self.c, self.d))
-        return Made(replace(rosenbrock_method, c=c, d=d_).tableau, finish=finish)
+        return description.Made(replace(rosenbrock_method, c=c, d=d_).tableau, finish=finish)
 
     def _finished(self, values: Values, size: int, gamma: Matrix, further: Further) -> Further:
         """Returns the further weights of a transformed method, with those from ``e``; ``size`` is

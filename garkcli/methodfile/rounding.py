@@ -3,42 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
+from garkcli.exact import nodes
 from garkcli.exact.enclosing import OPERATIONS, enclose, midpoint, real_root
 from garkcli.exact.field import ONE, Number
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-    is_decimal,
-    parts,
-)
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
 from garkcli.grammar.source import Source
 from garkcli.methodfile.build import Builder
+from garkcli.methodfile.description import Content, PartText
 from garkcli.methodfile.number_tolerances import NumberTolerances
 from garkcli.methodfile.numbers import Coefficient, Numbers
 from garkcli.methodfile.printed import is_long_fraction
 from garkcli.methodfile.tolerance import Tolerance, same_for_all
 from garkcli.methodfile.values import Values
+from garkcli.order.meant import Radii
 from garkcli.tableau.box import Box, rational_or_ball, to_points
 from garkcli.tableau.embedded import as_colours
 
-if TYPE_CHECKING:
-    from garkcli.methodfile.description import Content, PartText
-    from garkcli.order.meant import Radii
-
 INDETERMINATE = "_number"
 """The prefix of indeterminates for known numbers."""
-_Rounded: TypeAlias = tuple[Coefficient, Expression, Number]
+_Rounded: TypeAlias = tuple[Coefficient, nodes.Expression, Number]
 """A rounded number, in an entry."""
 
 
@@ -117,7 +105,7 @@ class Rounded:
         rounded += mixed
         radii: dict[int, fmpq] = {}
         numbers: dict[int, Number] = {}
-        written: dict[int, Expression] = {}
+        written: dict[int, nodes.Expression] = {}
         self.keys: set[str] = set()
         self._largest: dict[str, fmpq] = {}
         for entry, part, value in rounded:
@@ -162,54 +150,56 @@ class Rounded:
 
         return make
 
-    def literals(self, numbers: Sequence[fmpq]) -> Mapping[int, Expression]:
+    def literals(self, numbers: Sequence[fmpq]) -> Mapping[int, nodes.Expression]:
         """Returns other numbers by the identity of the expressions that they replace."""
-        return {key: Literal(numbers[place]) for key, place in self.places.items()}
+        return {key: nodes.Literal(numbers[place]) for key, place in self.places.items()}
 
-    def indeterminates(self) -> Mapping[int, Expression]:
+    def indeterminates(self) -> Mapping[int, nodes.Expression]:
         """Returns names for the rounded numbers, including those in sums that are 0 as printed, and
         for the roots of known numbers, by the identity of the expressions.
         """
-        names: dict[int, Expression] = {}
+        names: dict[int, nodes.Expression] = {}
         for entry in self._coefficients:
             expression = self.expressions[id(entry)]
             every = list(_all_parts(expression))
             named = [x for x in every if id(x) in self.places]
             named += [x for x, _ in _rounded_in(expression, self.known.number(entry))]
-            roots = (x for x in every if isinstance(x, Root | AlgebraicRoot))
+            roots = (x for x in every if isinstance(x, nodes.Root | nodes.AlgebraicRoot))
             named += [x for x in roots if not is_of_unknowns(x, ())]
             for x in named:
-                names.setdefault(id(x), Name(f"{INDETERMINATE}{len(names)}"))
+                names.setdefault(id(x), nodes.Name(f"{INDETERMINATE}{len(names)}"))
         return names
 
     @staticmethod
-    def changer(instead: Mapping[int, Expression]) -> Callable[[Expression], Expression]:
+    def changer(
+        instead: Mapping[int, nodes.Expression],
+    ) -> Callable[[nodes.Expression], nodes.Expression]:
         """Returns a function that replaces expressions by identity. A root of a polynomial with
         decimals is replaced by a decimal with as many digits as the precision gives.
         """
-        known: dict[int, Expression] = {}
+        known: dict[int, nodes.Expression] = {}
 
-        def change(expression: Expression) -> Expression:
+        def change(expression: nodes.Expression) -> nodes.Expression:
             key = id(expression)
             if key not in known:
                 known[key] = changed(expression)
             return known[key]
 
-        def changed(expression: Expression) -> Expression:
+        def changed(expression: nodes.Expression) -> nodes.Expression:
             if id(expression) in instead:
                 return instead[id(expression)]
             match expression:
-                case Chain(operands=operands):
+                case nodes.Chain(operands=operands):
                     return replace(expression, operands=tuple(map(change, operands)))
-                case Power(base=base):
+                case nodes.Power(base=base):
                     return replace(expression, base=change(base))
-                case Root(radicand=radicand):
+                case nodes.Root(radicand=radicand):
                     expression = replace(expression, radicand=change(radicand))
                     if is_of_unknowns(expression, ()):
                         return expression
-                    return Literal(midpoint(enclose(expression)))
-                case AlgebraicRoot():
-                    return Literal(midpoint(enclose(expression)))
+                    return nodes.Literal(midpoint(enclose(expression)))
+                case nodes.AlgebraicRoot():
+                    return nodes.Literal(midpoint(enclose(expression)))
             return expression
 
         return change
@@ -220,34 +210,36 @@ class Rounded:
         return to_points(as_colours(builder.tableau, builder.further))
 
 
-def _all_parts(expression: Expression) -> Iterator[Expression]:
+def _all_parts(expression: nodes.Expression) -> Iterator[nodes.Expression]:
     yield expression
-    for part in parts(expression):
+    for part in nodes.parts(expression):
         yield from _all_parts(part)
 
 
-def _copied(expression: Expression, kept: Container[int]) -> Expression:
+def _copied(expression: nodes.Expression, kept: Container[int]) -> nodes.Expression:
     """Returns a copy of an expression that shares only the parts in ``kept``."""
     if id(expression) in kept:
         return expression
     match expression:
-        case Chain(operands=operands):
+        case nodes.Chain(operands=operands):
             return replace(expression, operands=tuple(_copied(x, kept) for x in operands))
-        case Power(base=base):
+        case nodes.Power(base=base):
             return replace(expression, base=_copied(base, kept))
-        case Root(radicand=radicand):
+        case nodes.Root(radicand=radicand):
             return replace(expression, radicand=_copied(radicand, kept))
     return replace(expression)
 
 
-def is_of_unknowns(expression: Expression, given: Container[int]) -> bool:
+def is_of_unknowns(expression: nodes.Expression, given: Container[int]) -> bool:
     """Returns whether an expression contains unknowns, or literals in their place."""
-    if isinstance(expression, Name) or id(expression) in given:
+    if isinstance(expression, nodes.Name) or id(expression) in given:
         return True
-    return any(is_of_unknowns(x, given) for x in parts(expression))
+    return any(is_of_unknowns(x, given) for x in nodes.parts(expression))
 
 
-def _rounded_in(expression: Expression, value: Number) -> Iterator[tuple[Expression, Number]]:
+def _rounded_in(
+    expression: nodes.Expression, value: Number
+) -> Iterator[tuple[nodes.Expression, Number]]:
     """Yields the rounded numbers in an expression and their values."""
     if is_long_fraction(expression, value):
         yield expression, value
@@ -257,10 +249,10 @@ def _rounded_in(expression: Expression, value: Number) -> Iterator[tuple[Express
         if own:
             yield expression, own
         return
-    if isinstance(expression, Literal) and expression.value and is_decimal(expression):
+    if isinstance(expression, nodes.Literal) and expression.value and nodes.is_decimal(expression):
         yield expression, expression.value
-    for part in parts(expression):
-        yield from _rounded_in(part, part.value if isinstance(part, Literal) else fmpq(0))
+    for part in nodes.parts(expression):
+        yield from _rounded_in(part, part.value if isinstance(part, nodes.Literal) else fmpq(0))
 
 
 class _Moved(Values):
@@ -280,7 +272,7 @@ class _Moved(Values):
             moved = self._value(rounded.expressions[id(entry)]) if value else None
             self._values[id(entry)] = rational_or_ball(value) if moved is None else moved
 
-    def _value(self, expression: Expression) -> Any:
+    def _value(self, expression: nodes.Expression) -> Any:
         """Returns the value of an expression with other numbers; None if it contains none of
         them.
         """
@@ -289,12 +281,12 @@ class _Moved(Values):
             self._found[key] = self._moved(expression)
         return self._found[key]
 
-    def _moved(self, expression: Expression) -> Any:
+    def _moved(self, expression: nodes.Expression) -> Any:
         place = self._places.get(id(expression))
         if place is not None:
             return self._numbers[place]
         match expression:
-            case Chain(signs=signs, operands=operands):
+            case nodes.Chain(signs=signs, operands=operands):
                 moved = [self._value(x) for x in operands]
                 if all(x is None for x in moved):
                     return None
@@ -302,10 +294,10 @@ class _Moved(Values):
                 for sign, operand, x in zip(signs, operands, moved, strict=True):
                     total = OPERATIONS[sign](total, _exact(operand) if x is None else x)
                 return total
-            case Power(base=base, exponent=exponent):
+            case nodes.Power(base=base, exponent=exponent):
                 inner = self._value(base)
                 return None if inner is None else inner**exponent
-            case Root(radicand=radicand, index=index):
+            case nodes.Root(radicand=radicand, index=index):
                 inner = self._value(radicand)
                 if isinstance(inner, (fmpq, arb)):
                     return real_root(arb(inner), index)
@@ -313,11 +305,11 @@ class _Moved(Values):
         return None
 
 
-def _exact(expression: Expression) -> Any:
+def _exact(expression: nodes.Expression) -> Any:
     return rational_or_ball(_value(expression))
 
 
-def _value(expression: Expression) -> Number:
+def _value(expression: nodes.Expression) -> Number:
     from garkcli.exact.domain import Domain
 
     return Domain([expression]).coefficient(expression)

@@ -7,15 +7,7 @@ from collections.abc import Mapping, Sequence
 from itertools import permutations
 
 from garkcli.grammar import keys as g
-from garkcli.grammar.nodes import (
-    MappingNode,
-    Node,
-    ScalarNode,
-    SequenceNode,
-    key_nodes,
-    keys_of,
-    shortened,
-)
+from garkcli.grammar import nodes
 from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import UNKNOWN, NumbersReader, name_of_place
 from garkcli.methodfile.parameters import NUMBER
@@ -95,7 +87,7 @@ def _block_of(key: str) -> tuple[int, int]:
     return l - 1, m - 1
 
 
-def rules_of(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.TransferText:
+def rules_of(at: NumbersReader, node: nodes.Node, stages: Sequence[int]) -> d.TransferText:
     """Reads ``transfer``: the rules, and the blocks given one by one.
 
     ``stages`` are those of the colours.
@@ -103,9 +95,9 @@ def rules_of(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.Transfer
     if _is_unknown(node):
         edges = permutations(range(len(stages)), 2)
         return d.TransferText(None, {edge: _unknown(at, node, edge, stages) for edge in edges})
-    if not keys_of(node) & {"default", "blocks"}:
+    if not nodes.keys_of(node) & {"default", "blocks"}:
         # without quotes {1,2: rule} has the keys 1 and 2
-        for key in key_nodes(node).values():
+        for key in nodes.key_nodes(node).values():
             if _BLOCK_OR_COLOUR.fullmatch(key.value):
                 message = "transfer: single blocks go under blocks"
                 cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
@@ -117,12 +109,12 @@ def rules_of(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.Transfer
     return d.TransferText(entries.get("default"), blocks)
 
 
-def _is_unknown(node: Node) -> bool:
-    return isinstance(node, ScalarNode) and node.value == UNKNOWN
+def _is_unknown(node: nodes.Node) -> bool:
+    return isinstance(node, nodes.ScalarNode) and node.value == UNKNOWN
 
 
 def _unknown(
-    at: NumbersReader, node: Node, edge: tuple[int, int], stages: Sequence[int]
+    at: NumbersReader, node: nodes.Node, edge: tuple[int, int], stages: Sequence[int]
 ) -> d.MatrixText:
     """Returns a block with an unknown for each entry, named by its place."""
     rows, columns = (range(1, stages[k] + 1) for k in edge)
@@ -147,17 +139,17 @@ def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
     return f"{{blocks: {{{lines}}}}}"
 
 
-def _blocks(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.BlockTexts:
+def _blocks(at: NumbersReader, node: nodes.Node, stages: Sequence[int]) -> d.BlockTexts:
     """Reads the blocks given one by one; keys such as ``1,2`` count colours from 1."""
     blocks: d.BlockTexts = {}
     colours = len(stages)
-    keys = key_nodes(node)
+    keys = nodes.key_nodes(node)
     form = 'write for instance {"1,2": interpolation}'
     for key, value in at.source.mapping(node, "transfer, blocks", (), form=form).items():
         l, m = _block_of(key)
         if l == m or max(l, m) >= colours:
             wanted = f"off-diagonal block of {colours} colours"
-            message = f"transfer, blocks: {shortened(key)} names no {wanted}"
+            message = f"transfer, blocks: {nodes.shortened(key)} names no {wanted}"
             cure = 'write for instance "1,2" for the block A^{1,2}'
             at.source.fault(keys[key], message, cure, code="wrong-value")
             continue
@@ -174,29 +166,31 @@ def _blocks(at: NumbersReader, node: Node, stages: Sequence[int]) -> d.BlockText
     return blocks
 
 
-def _block(at: NumbersReader, node: Node, where: str, shape: tuple[int, int]) -> d.BlockText | None:
-    if not isinstance(node, SequenceNode):
+def _block(
+    at: NumbersReader, node: nodes.Node, where: str, shape: tuple[int, int]
+) -> d.BlockText | None:
+    if not isinstance(node, nodes.SequenceNode):
         return _rule(at, node, where)
     rows = at.numbers.matrix(node, where)
     rows = at.numbers.rectangular(rows, node, where, shape)
     return d.MatrixText(node, rows) if rows else None
 
 
-def _rule(at: NumbersReader, node: Node, where: str) -> d.RuleText | None:
+def _rule(at: NumbersReader, node: nodes.Node, where: str) -> d.RuleText | None:
     if _is_unknown(node):
         message = f'{where}: "?" is not a rule; it stands for all blocks or for one'
         cure = 'write transfer: "?", or blocks: {"1,2": "?"}'
         at.source.fault(node, message, cure, code="unknown-word")
         return None
-    if isinstance(node, ScalarNode):
+    if isinstance(node, nodes.ScalarNode):
         rule = at.source.choice(node, where, ALL_RULES)
         return d.RuleText(node, ((rule, None),)) if rule else None
-    if keys_of(node) & {"rule", "degree"}:
+    if nodes.keys_of(node) & {"rule", "degree"}:
         of_degree: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
         if of_degree is None or not of_degree.is_right:
             return None
         return d.RuleText(node, (("legendre", None),), of_degree.get("degree"))
-    of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
+    of_pairs = sorted(nodes.keys_of(node) & set(PAIR_RULES))
     if of_pairs:
         why = "makes both blocks of a pair of colours"
         message = f"{where}: {of_pairs[0]} {why} and cannot be combined"
@@ -204,7 +198,7 @@ def _rule(at: NumbersReader, node: Node, where: str) -> d.RuleText | None:
         return None
     form = "write one of the rules, for instance transfer: collocation"
     entries = at.source.mapping(node, where, RULES, form=form)
-    if isinstance(node, MappingNode) and not node.value:
+    if isinstance(node, nodes.MappingNode) and not node.value:
         cure = f"one of: {', '.join(ALL_RULES)}"
         at.source.fault(node, f"{where}: no rule", cure, code="missing-key")
     terms = [

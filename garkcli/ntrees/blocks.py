@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Iterator
 
 from garkcli import numpy_on_use as np
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, Edges
-from garkcli.ntrees.table import Columns, Places, TreeTable, segments_of
+from garkcli.ntrees.table import Column, Columns, Places, TreeTable, segments_of
 from garkcli.ntrees.tree import Tree
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
-
-    from garkcli.ntrees.table import Column
 
 BLOCK_SIZE = 1 << 18
 """Default number of trees in a block."""

@@ -19,7 +19,8 @@ chapter 2; van der Hoeven, "Relax, but don't be too lazy", J. Symb. Comput. 34 (
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Collection, Iterable, Sequence
+from typing import TypeAlias
 
 from flint import fmpz, fmpz_poly
 
@@ -27,9 +28,6 @@ from garkcli.errors import TreeError
 from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import LINEAR, PLAIN, SEVERAL, VertexKind
 from garkcli.ntrees.tree import Tree
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
 
 SHORT = 48
 """Blocks of so many orders are done one by one: products of shorter polynomials gain nothing."""

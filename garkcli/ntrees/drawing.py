@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
 
 from garkcli.errors import counted
 from garkcli.ntrees.notation import written_order
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from garkcli.ntrees.tree import Tree
-
+from garkcli.ntrees.tree import Tree
 
 PALETTE = (
     ("#0072b2", "#ffffff"),

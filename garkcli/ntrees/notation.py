@@ -8,13 +8,10 @@ its Table 1.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from garkcli.errors import TreeError
 from garkcli.ntrees.tree import Tree
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
 
 MAX_LENGTH = 20_000
 MAX_VERTICES = 1000

@@ -5,14 +5,12 @@ floats.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 from garkcli import numpy_on_use as np
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from garkcli.arrays import Floats
     from garkcli.ntrees.count import Admissible
     from garkcli.ntrees.table import Column, Segment, TreeTable

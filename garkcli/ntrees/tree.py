@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from itertools import groupby
 from math import factorial, prod
-from typing import TYPE_CHECKING
 
 from garkcli.ntrees.kind import FIELDS, PLAIN, VertexKind
 from garkcli.upward import Shown, answered
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
 
 
 class Tree(Shown):

@@ -7,7 +7,8 @@ Equations I*, II.3.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias
 
 from flint import arb, ctx
 
@@ -22,10 +23,6 @@ from garkcli.order.admissible import count_conditions, coupling_graph
 from garkcli.order.conditions import all_conditions
 from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.tableau import Tableau
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
 
 EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly, not in floats."""

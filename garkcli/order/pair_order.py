@@ -5,16 +5,14 @@ docs/pair-order.md.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.defects import Defects
+from garkcli.order.meant import AnyTableau
 from garkcli.order.simplifying import defects_of
-
-if TYPE_CHECKING:
-    from garkcli.order.meant import AnyTableau
-    from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Tableau
 
 
 class SimplifyingCondition(Frozen):

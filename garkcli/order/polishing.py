@@ -19,11 +19,10 @@ from garkcli.errors import MethodError
 from garkcli.exact.display import BITS_OF_A_DIGIT
 from garkcli.exact.enclosing import midpoint
 from garkcli.order.place import BoxPlace
-from garkcli.order.rows import of_tree
+from garkcli.order.rows import System, of_tree
 
 if TYPE_CHECKING:
     from garkcli.order.recovering import Recovery
-    from garkcli.order.rows import System
 
 SPARE_DIGITS = 12
 """Guard digits."""

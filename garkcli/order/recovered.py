@@ -8,23 +8,18 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from flint import fmpq
 
 from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree, parse_tree
-from garkcli.order.rows import Label, of_tree
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
-
-    from garkcli.ntrees.tree import Tree
-    from garkcli.order.rows import System
-    from garkcli.tableau.box import Box
+from garkcli.ntrees.tree import Tree
+from garkcli.order.rows import Label, System, of_tree
+from garkcli.tableau.box import Box
 
 FILE = Path(__file__).with_name("recovered.json")
 

@@ -22,16 +22,7 @@ from garkcli.exact.affine import Affine
 from garkcli.exact.enclosing import midpoint
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
-from garkcli.order.bounded import (
-    FLOOR,
-    INDEPENDENT,
-    Solver,
-    bounded_least_squares,
-    dyadic,
-    excludes,
-    orthonormal,
-    scaled,
-)
+from garkcli.order import bounded
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.place import BoxPlace, SearchedBox, arithmetic
 from garkcli.order.recovered import as_data, key_of, recovered_of
@@ -372,7 +363,7 @@ class Recovery(SearchedBox):
             return fresh
         basis = np.zeros((0, rows.shape[1]))
         if any(known.values()) and place is not self.origin:
-            basis = orthonormal(place.rows(known).slopes)
+            basis = bounded.orthonormal(place.rows(known).slopes)
         rest = rows / np.maximum(np.linalg.norm(rows, axis=1), 1e-300)[:, None]
         rest = rest - (rest @ basis.T) @ basis
         labels = [(name, label) for name, chosen in fresh.items() for label in chosen]
@@ -380,7 +371,7 @@ class Recovery(SearchedBox):
         while True:
             sizes = np.linalg.norm(rest, axis=1)
             i = int(np.argmax(sizes))
-            if sizes[i] < INDEPENDENT:
+            if sizes[i] < bounded.INDEPENDENT:
                 return kept
             q = rest[i] / sizes[i]
             rest = rest - np.outer(rest @ q, q)
@@ -404,13 +395,13 @@ class Recovery(SearchedBox):
             return RecoveryFailure(is_proved=False)  # numbers beyond floats
         place = self._newton(system, self.place)
         if place is None and np.isfinite(rows.remainders).all():
-            c, G, scale = scaled(rows)
-            start = bounded_least_squares(G, c)
+            c, G, scale = bounded.scaled(rows)
+            start = bounded.bounded_least_squares(G, c)
             miss = c + G @ start
-            if np.abs(miss).max(initial=0) > 1e-12 and excludes(rows, miss / scale):
+            if np.abs(miss).max(initial=0) > 1e-12 and bounded.excludes(rows, miss / scale):
                 heavy = np.argsort(-np.abs(miss))
                 return RecoveryFailure(True, tuple(labels[i] for i in heavy))
-            place = self._newton(system, BoxPlace(self, [dyadic(x, 60) for x in start]))
+            place = self._newton(system, BoxPlace(self, [bounded.dyadic(x, 60) for x in start]))
         if place is None:
             return RecoveryFailure(is_proved=False)
         self.place = place
@@ -453,15 +444,15 @@ class Recovery(SearchedBox):
         vanish to second order; None if neither is found. The first steps go to the method nearest
         to the print, to first order.
         """
-        floor, cut = FLOOR, max(FLOOR, 30 * self.radius)
+        floor, cut = bounded.FLOOR, max(bounded.FLOOR, 30 * self.radius)
         best: arb | None = None
         champion: tuple[arb, BoxPlace] | None = None
-        solver: Solver | None = None
+        solver: bounded.Solver | None = None
         with arithmetic(self.bits):
             for step in range(MAX_STEPS):
                 check_time()
                 if solver is None:
-                    solver = Solver(place.rows(system), self.radius, groups)
+                    solver = bounded.Solver(place.rows(system), self.radius, groups)
                     centres = solver.rows.centres
                 else:
                     centres = place.values(system)
@@ -480,7 +471,7 @@ class Recovery(SearchedBox):
                 if step < 4 and not worst < 1e-9:
                     near = solver.nearest(parts, place.shifts, cut)
                     if near is not None:
-                        place = BoxPlace(self, [dyadic(x, 50) for x in near])
+                        place = BoxPlace(self, [bounded.dyadic(x, 50) for x in near])
                         if self.radius > COARSE:
                             solver = None
                         continue
@@ -488,20 +479,21 @@ class Recovery(SearchedBox):
                     if floor <= LOWEST_FLOOR and step > 9:
                         break
                     floor = LOWEST_FLOOR
-                    solver = Solver(place.rows(system), self.radius, groups, solver.fixed)
+                    solver = bounded.Solver(place.rows(system), self.radius, groups, solver.fixed)
                 best = worst if best is None else best.min(worst)
                 change = solver.step(parts, worst, cut)
                 if not np.isfinite(change).all():
                     break
                 unit = midpoint(worst)
                 moved = [
-                    x + unit * dyadic(y, 50) for x, y in zip(place.shifts, change, strict=True)
+                    x + unit * bounded.dyadic(y, 50)
+                    for x, y in zip(place.shifts, change, strict=True)
                 ]
                 place = BoxPlace(self, [_rounded(x, self.bits) for x in moved])
                 if place.distance > MAX_SHIFT:
                     break
                 if relative > COARSE and self.radius > COARSE:
-                    solver = Solver(place.rows(system), self.radius, groups, solver.fixed)
+                    solver = bounded.Solver(place.rows(system), self.radius, groups, solver.fixed)
         if champion is None or not champion[0] < min(1e-2, 100 * self.radius):
             return None
         worst, place = champion

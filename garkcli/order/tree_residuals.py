@@ -5,20 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import chain
-from typing import TYPE_CHECKING
 
 from flint import arb, arb_mat, ctx
 
 from garkcli.exact.enclosing import times
 from garkcli.frozen import Frozen
 from garkcli.ntrees.stage_vectors import StageVectors
-from garkcli.ntrees.table import TreeTable
+from garkcli.ntrees.table import Column, Segment, TreeTable
 from garkcli.order.admissible import coupling_graph, twin_roots
 from garkcli.tableau.enclosure import Enclosure, Row
 from garkcli.tableau.tableau import Tableau
-
-if TYPE_CHECKING:
-    from garkcli.ntrees.table import Column, Segment
 
 
 class ResidualSizes(Frozen, eq=False):

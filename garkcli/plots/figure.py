@@ -12,23 +12,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
-from garkcli.plots.scene import (
-    COLOURS,
-    DASHES,
-    WIDTH,
-    Area,
-    Axis,
-    Curve,
-    Loops,
-    Panel,
-    RuledLine,
-    Scene,
-    shortened,
-)
+from garkcli.plots import scene as scenes
 
 _MARKS = "os^DvXP*"
 """The markers by style; every second one is open."""
-_INCH = WIDTH / 6.4
+_INCH = scenes.WIDTH / 6.4
 """Units of a picture per inch."""
 _BESIDE, _ABOVE, _LEGEND_ROW = 0.95, 0.35, 0.21
 """Space around the axes of a panel, above all panels, and for a line below, in inches."""
@@ -41,14 +29,14 @@ _BELOW_AXES, _BELOW_LABEL = 0.5, 4.2
 _TEXT = "0.15"
 
 
-def figure(scene: Scene) -> Figure:
+def figure(scene: scenes.Scene) -> Figure:
     """Returns a figure of a scene, with the legend of each panel below it."""
     panels = scene.panels
     heights = [_BESIDE + x.height / _INCH + _LEGEND_ROW * len(x.legend) for x in panels]
     title = [line for text in scene.title.splitlines() for line in wrap(text, _TITLE_WIDTH)]
     rows, columns = (1, len(panels)) if scene.is_row else (len(panels), 1)
     high = max(heights) if scene.is_row else sum(heights)
-    size = (WIDTH / _INCH * columns, high + _ABOVE * len(title))
+    size = (scenes.WIDTH / _INCH * columns, high + _ABOVE * len(title))
     made = Figure(figsize=size, layout="constrained")
     grid = made.subplots(
         rows,
@@ -63,7 +51,7 @@ def figure(scene: Scene) -> Figure:
     return made
 
 
-def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
+def draw(axes: Axes, panel: scenes.Panel, has_label: bool = True) -> None:
     """Draws a panel on axes, with or without numbers and label below."""
     _set_axis(axes.xaxis, panel.x, _MOST_ACROSS)
     _set_axis(axes.yaxis, panel.y, _MOST_UP)
@@ -76,10 +64,10 @@ def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
     note = "\n".join(wrap(panel.note, _TITLE_WIDTH + 10))
     axes.set_title(note, fontsize=10, loc="left", parse_math=False)
     for shape in panel.shapes:
-        if isinstance(shape, Curve):
+        if isinstance(shape, scenes.Curve):
             xs = [x for x, _ in shape.points]
             axes.plot(xs, [y for _, y in shape.points], **_line(shape))
-        elif isinstance(shape, Area):
+        elif isinstance(shape, scenes.Area):
             _fill(axes, shape, shape.outlines(panel.x, panel.y))
         else:
             _rule(axes, shape)
@@ -88,42 +76,42 @@ def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
         axes.set_xlabel("")
 
 
-def _set_axis(drawn: Any, axis: Axis, most: int) -> None:
+def _set_axis(drawn: Any, axis: scenes.Axis, most: int) -> None:
     marks = axis.marks(most)
     drawn.set_ticks([x.at for x in marks], [x.label for x in marks], parse_math=False)
     drawn.set_label_text(axis.label, parse_math=False)
 
 
-def _line(shape: Curve | Area) -> dict[str, Any]:
+def _line(shape: scenes.Curve | scenes.Area) -> dict[str, Any]:
     """Returns the line style of a shape for matplotlib; after all combinations of marks and dashes
     are used, they are combined anew.
     """
     style = shape.style or 0
-    rounds, place = divmod(style, len(COLOURS))
-    dashes = DASHES[(style + rounds) % len(DASHES)]
-    width = 0.9 * (shape.width if isinstance(shape, Curve) else 1.6)
+    rounds, place = divmod(style, len(scenes.COLOURS))
+    dashes = scenes.DASHES[(style + rounds) % len(scenes.DASHES)]
+    width = 0.9 * (shape.width if isinstance(shape, scenes.Curve) else 1.6)
     drawn = {
-        "color": COLOURS[place],
+        "color": scenes.COLOURS[place],
         "linewidth": width,
         "linestyle": (0, tuple(x / 1.6 for x in dashes)) if dashes else "-",
     }
-    if isinstance(shape, Curve) and shape.is_dense:
+    if isinstance(shape, scenes.Curve) and shape.is_dense:
         drawn["alpha"] = 0.6
-    if isinstance(shape, Curve) and shape.has_dots:
+    if isinstance(shape, scenes.Curve) and shape.has_dots:
         drawn |= {"marker": _MARKS[place], "markersize": 5.5}
         if place % 2:
             drawn["markerfacecolor"] = "white"
-    if isinstance(shape, Curve) and not shape.has_line:
+    if isinstance(shape, scenes.Curve) and not shape.has_line:
         drawn["linestyle"] = "none"
     return drawn
 
 
-def _fill(axes: Axes, area: Area, loops: Loops) -> None:
+def _fill(axes: Axes, area: scenes.Area, loops: scenes.Loops) -> None:
     """Fills an area as one patch, to avoid seams; outlines of holes turn the other way."""
     if not loops:
         return
     whole = Path.make_compound_path(*(Path([*loop, loop[0]], closed=True) for loop in loops))
-    colour = _TEXT if area.style is None else COLOURS[area.style % len(COLOURS)]
+    colour = _TEXT if area.style is None else scenes.COLOURS[area.style % len(scenes.COLOURS)]
     axes.add_patch(PathPatch(whole, facecolor=colour, alpha=area.opacity, linewidth=0))
     if area.has_outline:
         line = _line(area)
@@ -131,7 +119,7 @@ def _fill(axes: Axes, area: Area, loops: Loops) -> None:
         axes.add_patch(PathPatch(whole, fill=False, **line))
 
 
-def _rule(axes: Axes, rule: RuledLine) -> None:
+def _rule(axes: Axes, rule: scenes.RuledLine) -> None:
     """Draws a thin line, with its label on the far side of the curve."""
     xs, ys = zip(rule.start, rule.end, strict=True)
     axes.plot(xs, ys, color=_TEXT, linewidth=0.8)
@@ -150,13 +138,13 @@ def _rule(axes: Axes, rule: RuledLine) -> None:
     )
 
 
-def _add_legend(axes: Axes, named: Sequence[Curve | Area], distance: float) -> None:
+def _add_legend(axes: Axes, named: Sequence[scenes.Curve | scenes.Area], distance: float) -> None:
     """Adds the legend below the axes."""
     if not named:
         return
     handles = [
         Patch(facecolor=_line(shape)["color"], alpha=shape.opacity, linewidth=0)
-        if isinstance(shape, Area) and not shape.has_outline
+        if isinstance(shape, scenes.Area) and not shape.has_outline
         else Line2D([], [], **_line(shape))
         for shape in named
     ]
@@ -173,4 +161,4 @@ def _add_legend(axes: Axes, named: Sequence[Curve | Area], distance: float) -> N
     # names are no formulas, and may begin with _, which would hide them
     for text, shape in zip(legend.get_texts(), named, strict=True):
         text.set_parse_math(False)
-        text.set_text(shortened(shape.label, _LONGEST))
+        text.set_text(scenes.shortened(shape.label, _LONGEST))

@@ -21,18 +21,7 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
-from garkcli.plots.scene import (
-    Area,
-    Axis,
-    Curve,
-    Loops,
-    Panel,
-    Point,
-    RuledLine,
-    Scene,
-    Shape,
-    polygons,
-)
+from garkcli.plots import scene
 from garkcli.stability.damping import ImexPair, explicit_colour
 from garkcli.stability.linear import StabilityFunction, stability_function
 from garkcli.stability.oscillator import OscillatorStability
@@ -48,29 +37,29 @@ _WITHOUT_END = 8.0
 """The end of the z-axis if all z are stable."""
 
 
-def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> Panel:
+def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> scene.Panel:
     """Returns |tr M|/2 over z = hω, with the stable step sizes shaded if there is one method."""
     spans = [_stable(oscillator) for _, oscillator in named]
     highest = [high for found in spans for _, high in found if high]
     end = 1.25 * max(highest, default=_WITHOUT_END)
-    shapes: list[Shape] = []
+    shapes: list[scene.Shape] = []
     if len(named) == 1:
         bands = [(low, end if high is None else high) for low, high in spans[0]]
         loops = [[(a, 0.0), (b, 0.0), (b, _HIGHEST), (a, _HIGHEST)] for a, b in bands]
-        shapes.append(polygons(None, loops, 0.12, has_outline=False))
+        shapes.append(scene.polygons(None, loops, 0.12, has_outline=False))
     for style, (name, oscillator) in enumerate(named):
         label = name if len(named) > 1 else ""
         for part in _parts(oscillator, end):
-            shapes.append(Curve(style, part, label))
+            shapes.append(scene.Curve(style, part, label))
             label = ""
-    shapes.append(RuledLine((0.0, 1.0), (end, 1.0)))
+    shapes.append(scene.RuledLine((0.0, 1.0), (end, 1.0)))
     names = "; ".join(name for name, _ in named)
     about = f"of {names}" if len(named) > 1 else _spans_text(spans[0])
-    return Panel(
+    return scene.Panel(
         "Oscillator",
         f"Half the modulus of the trace over z; {about}.",
-        Axis("z = hω", 0.0, end),
-        Axis("|tr M(z)| / 2", 0.0, _HIGHEST),
+        scene.Axis("z = hω", 0.0, end),
+        scene.Axis("|tr M(z)| / 2", 0.0, _HIGHEST),
         shapes,
         "The step matrix M on q̈ = −ω²q"
         + ("; shaded where it is stable." if len(named) == 1 else "."),
@@ -97,7 +86,7 @@ def _spans_text(spans: Sequence[tuple[float, float | None]]) -> str:
     return f"stable {', '.join(written) or 'nowhere'}"
 
 
-def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
+def _parts(oscillator: OscillatorStability, end: float) -> list[list[scene.Point]]:
     """Returns the pieces of the curve within the frame or just above."""
     ratio = oscillator.trace
     sides = _floats(ratio.numerator), _floats(ratio.denominator)
@@ -108,7 +97,7 @@ def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
         # a point above the frame is where a line to it leaves the frame
         is_above = over >= 4 * _HIGHEST * under
         points.append((z, 2 * _HIGHEST if is_above else over / under / 2))
-    parts: list[list[Point]] = [[]]
+    parts: list[list[scene.Point]] = [[]]
     for here, there in pairwise(points):
         if min(here[1], there[1]) > _HIGHEST:
             parts.append([])
@@ -119,7 +108,7 @@ def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
     return [part for part in parts if part]
 
 
-def springs_panel(plane: SpringsPlane) -> Panel:
+def springs_panel(plane: SpringsPlane) -> scene.Panel:
     """Returns the plane of the two frequencies, with the resonances, |tr M| > 2, filled."""
     fast, slow, half = plane.fast, plane.slow, plane.half_trace
 
@@ -129,19 +118,21 @@ def springs_panel(plane: SpringsPlane) -> Panel:
         )
         return half[row][column] > 1
 
-    def outlines(*_: Axis) -> Loops:
+    def outlines(*_: scene.Axis) -> scene.Loops:
         from garkcli.plots.plane import outlined
 
         return outlined(fast, slow, [[1.0 - value for value in row] for row in half])
 
-    resonances = Area(1, is_unstable, outlines, 0.45, has_outline=False)
-    x = Axis("hω of the fast spring", fast[0], fast[-1])
-    y = Axis("hω of the slow spring", slow[0], slow[-1])
+    resonances = scene.Area(1, is_unstable, outlines, 0.45, has_outline=False)
+    x = scene.Axis("hω of the fast spring", fast[0], fast[-1])
+    y = scene.Axis("hω of the slow spring", slow[0], slow[-1])
     description = (
         f"The plane of both frequencies, the fast one to {x.high:.3g} and the slow one to "
         f"{y.high:.3g}, filled where the steps are unstable."
     )
-    return Panel("Two springs", description, x, y, [resonances], "Filled where unstable.", 240)
+    return scene.Panel(
+        "Two springs", description, x, y, [resonances], "Filled where unstable.", 240
+    )
 
 
 Named: TypeAlias = tuple[str, StabilityFunction]
@@ -177,7 +168,7 @@ def stability_scene(
     methods: Sequence[tuple[str, Stability]],
     is_order_star: bool = False,
     plane: SpringsPlane | None = None,
-) -> Scene:
+) -> scene.Scene:
     """Returns the scene for one or several methods, all with a linear part or all with an
     oscillator.
 
@@ -187,13 +178,13 @@ def stability_scene(
     (name, found), *others = methods
     title = f"{len(methods)} methods" if others else name
     if plane is not None:
-        return Scene(title, [springs_panel(plane)])
+        return scene.Scene(title, [springs_panel(plane)])
     if not all(x.linear for _, x in methods):
         traces = [(name, x.oscillator) for name, x in methods if x.oscillator is not None]
         if not traces:
             cure = "choose a method whose stability is decided"
             raise MethodError("there is nothing to draw", cure, code="arrays")
-        return Scene(title, [trace_panel(traces)])
+        return scene.Scene(title, [trace_panel(traces)])
     if others:
         named = [(name, x.linear[0].R) for name, x in methods]
     else:
@@ -208,12 +199,12 @@ def stability_scene(
         pair = found.colours.pair
         if pair is not None and found.colours.explicit_alone is not None:
             panels.append(pair_panel(pair, found.colours.explicit_alone))
-    return Scene(title, panels, is_row=True)
+    return scene.Scene(title, panels, is_row=True)
 
 
 def region_of(
     tableau: Tableau, tolerance: fmpq | None, is_order_star: bool = False, most: int = 4
-) -> Panel | None:
+) -> scene.Panel | None:
     """Returns the regions |R(z)| ≤ 1 of a method, or its order stars: of all colours alike, and of
     each of the first ones alone with the others at 0. None without a stability function.
     """
@@ -246,7 +237,7 @@ def of_directions(found: Sequence[Named], explicit: int | None = None) -> list[N
     return [(label, R) for label, (_, R) in zip(labels, found, strict=True)]
 
 
-def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
+def region_panel(named: Sequence[Named], is_order_star: bool = False) -> scene.Panel:
     """Returns the regions |R(z)| ≤ 1, or the order stars, of stability functions."""
     functions = [R for _, R in named]
     labels = [name if len(named) > 1 else "" for name, _ in named]
@@ -270,7 +261,7 @@ def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
     return _in_plane(title, f"{description}.", window, areas, note, "z")
 
 
-def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
+def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> scene.Panel:
     """Returns the region of z_E for which every z_I in the left half plane is damped, decided
     exactly point by point, and the outline for z_I = 0.
     """
@@ -283,7 +274,7 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
     window = _window_of([explicit], is_symmetric=False)
     e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
     areas = [
-        Area(
+        scene.Area(
             0,
             lambda a, b: is_damped(a, abs(b)),
             partial(_squares, is_damped),
@@ -305,16 +296,18 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
 
 
 def _in_plane(
-    title: str, description: str, window: _Window, areas: Sequence[Area], note: str, z: str
-) -> Panel:
+    title: str, description: str, window: _Window, areas: Sequence[scene.Area], note: str, z: str
+) -> scene.Panel:
     """Returns the panel of regions in the complex plane with both axes."""
     left, right, top = window.left, window.right, window.top
-    axes = [RuledLine((left, 0.0), (right, 0.0)), RuledLine((0.0, -top), (0.0, top))]
-    x, y = Axis(f"Re {z}", left, right), Axis(f"Im {z}", -top, top)
-    return Panel(title, description, x, y, [*areas, *axes], note, _HEIGHT, is_plane=True)
+    axes = [scene.RuledLine((left, 0.0), (right, 0.0)), scene.RuledLine((0.0, -top), (0.0, top))]
+    x, y = scene.Axis(f"Re {z}", left, right), scene.Axis(f"Im {z}", -top, top)
+    return scene.Panel(title, description, x, y, [*areas, *axes], note, _HEIGHT, is_plane=True)
 
 
-def _squares(is_damped: Callable[[float, float], bool], x: Axis, y: Axis) -> Loops:
+def _squares(
+    is_damped: Callable[[float, float], bool], x: scene.Axis, y: scene.Axis
+) -> scene.Loops:
     """Returns the squares of a grid whose centres are damped, with neighbours in a row joined."""
     columns = [x.low + (x.high - x.low) * k / _SQUARES for k in range(_SQUARES + 1)]
     rows = [2 * y.high * k / _SQUARES for k in range(_SQUARES // 2 + 1)]
@@ -365,7 +358,7 @@ def _area(
     label: str = "",
     is_order_star: bool = False,
     edge: float = _EDGE,
-) -> Area:
+) -> scene.Area:
     """Returns the region |R(z)| ≤ 1, or |R(z)| > |e^z|."""
     P, Q = _floats(R.numerator), _floats(R.denominator)
 
@@ -384,12 +377,12 @@ def _area(
         point = [complex(x, y)]
         return small(point)[0] <= large(point)[0] * edge
 
-    def outlines(x: Axis, y: Axis) -> Loops:
+    def outlines(x: scene.Axis, y: scene.Axis) -> scene.Loops:
         from garkcli.plots.plane import compared
 
         return compared(small, large, x, y)
 
-    return Area(style, holds, outlines, opacity, label=label)
+    return scene.Area(style, holds, outlines, opacity, label=label)
 
 
 class _Window(Frozen):
@@ -424,7 +417,7 @@ def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
     return sorted(sizes)
 
 
-def _nearer(window: _Window, areas: Sequence[Area]) -> _Window:
+def _nearer(window: _Window, areas: Sequence[scene.Area]) -> _Window:
     """Returns a part of the window if the region around 0 fills too little of it, as for zeros of R
     that are far away.
     """
@@ -440,7 +433,7 @@ def _nearer(window: _Window, areas: Sequence[Area]) -> _Window:
     return window
 
 
-def _reach(window: _Window, area: Area) -> float:
+def _reach(window: _Window, area: scene.Area) -> float:
     """Returns the distance from 0 to which the widest connected part of a region extends, on a
     coarse grid of the upper half.
     """

@@ -9,18 +9,10 @@ from itertools import combinations
 from flint import arb
 
 from garkcli.deadline import checked
+from garkcli.problems import problem as problems
 from garkcli.problems.builtin import PROBLEMS, problem
 from garkcli.problems.deferred import KNOWN, Record, recorded
 from garkcli.problems.hamiltonian import Hamiltonian
-from garkcli.problems.problem import (
-    Problem,
-    conserved,
-    conserved_names,
-    field_of,
-    summands,
-    texts_of,
-    unknowns,
-)
 from garkcli.problems.righthandside import RightHandSide, clock, solution, steepness
 from garkcli.problems.straightline import code_of
 from garkcli.problems.vectorfield import GROUPS, Group, StateLayout, VectorField
@@ -42,18 +34,18 @@ def answers(name: str, terms: int) -> Record:
     return recorded(work)
 
 
-def _ask_all(of: Problem) -> None:
-    texts_of(of)
+def _ask_all(of: problems.Problem) -> None:
+    problems.texts_of(of)
     groups: tuple[Group, ...] = GROUPS if isinstance(of, Hamiltonian) else ("y",)
     for term in range(len(of.terms)):
         for group in groups:
-            _ask_field(field_of(of, term, group), of.layout)
-    for k in range(len(conserved_names(of))):
+            _ask_field(problems.field_of(of, term, group), of.layout)
+    for k in range(len(problems.conserved_names(of))):
         for is_for_balls in (False, True):
-            code_of(conserved(of), unknowns(of), is_for_balls)
-        code_of(summands(of, k), unknowns(of), False)
+            code_of(problems.conserved(of), problems.unknowns(of), is_for_balls)
+        code_of(problems.summands(of, k), problems.unknowns(of), False)
     if isinstance(of, Hamiltonian):
-        code_of(of.terms, unknowns(of), False)
+        code_of(of.terms, problems.unknowns(of), False)
         return
     steepness(of)
     if of.exact is not None:

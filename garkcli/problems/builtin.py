@@ -13,22 +13,10 @@ from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
+from garkcli.problems import mechanical as systems
 from garkcli.problems import stiff, textbook
 from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
-from garkcli.problems.mechanical import (
-    Mechanical,
-    angular_momentum,
-    henon_heiles_potential,
-    kepler_potential,
-    numbers,
-    pendulum_potential,
-    rods,
-    rods_potential,
-    spring,
-    springs,
-    two_springs,
-)
 from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 
@@ -58,7 +46,9 @@ class BuiltIn(Frozen):
     stiff: StiffMaker | None = None
 
 
-def mechanical(name: str, summary: str, formula: str, sees: str, made: Mechanical) -> BuiltIn:
+def mechanical(
+    name: str, summary: str, formula: str, sees: str, made: systems.Mechanical
+) -> BuiltIn:
     """An entry for H = T + V, without a seed."""
 
     def make(terms: int, _: int) -> Hamiltonian:
@@ -189,34 +179,38 @@ _ENTRIES = (
         "½p² and parts of ½ω²q²; sees the unbranched trees only",
         "½p² + ½ω²q², the step map taken exactly",
         "the unbranched trees",
-        Mechanical(("q",), spring, numbers("1 1/2"), fmpq(4)),
+        systems.Mechanical(("q",), systems.spring, systems.numbers("1 1/2"), fmpq(4)),
     ),
     mechanical(
         "split-oscillator",
         "two springs of frequencies 1 and 5/2; sees the unbranched trees only",
         "½|p|² + ½x² + ½(5/2)²(y − x)²",
         "the unbranched trees",
-        Mechanical(("x", "y"), two_springs, numbers("1 1/2 0 1"), fmpq(2), long_run=_TENTHS),
+        systems.Mechanical(
+            ("x", "y"), systems.two_springs, systems.numbers("1 1/2 0 1"), fmpq(2), long_run=_TENTHS
+        ),
     ),
     mechanical(
         "pendulum",
         "½p² + 1 − cos q",
         "½p² + 1 − cos q",
         _ALTERNATING,
-        Mechanical(("x",), pendulum_potential, numbers("1 1/2"), fmpq(4), long_run=_TENTHS),
+        systems.Mechanical(
+            ("x",), systems.pendulum_potential, systems.numbers("1 1/2"), fmpq(4), long_run=_TENTHS
+        ),
     ),
     mechanical(
         "kepler",
         "½|p|² − 1/|q|, eccentricity 3/5; with angular momentum",
         "½|p|² − 1/|q|, eccentricity 3/5, with angular momentum",
         _ALTERNATING,
-        Mechanical(
+        systems.Mechanical(
             ("x", "y"),
-            kepler_potential,
+            systems.kepler_potential,
             # at the pericentre, with eccentricity 3/5 and period 2π
-            numbers("2/5 0 0 2"),
+            systems.numbers("2/5 0 0 2"),
             fmpq(2),
-            invariants=(("angular momentum", angular_momentum),),
+            invariants=(("angular momentum", systems.angular_momentum),),
             long_run=(fmpq(1, 50), fmpq(1000)),
         ),
     ),
@@ -225,10 +219,10 @@ _ENTRIES = (
         "½|p|² + ½|q|² + x²y − y³/3",
         "½|p|² + ½|q|² + x²y − y³/3",
         _ALTERNATING,
-        Mechanical(
+        systems.Mechanical(
             ("x", "y"),
-            henon_heiles_potential,
-            numbers("0 3/10 2/5 1/10"),
+            systems.henon_heiles_potential,
+            systems.numbers("0 3/10 2/5 1/10"),
             fmpq(4),
             long_run=_TENTHS,
         ),
@@ -238,8 +232,12 @@ _ENTRIES = (
         "three masses between walls, on springs with quadratic and cubic forces",
         "three masses between walls, α = 1/4, β = 1/2",
         _ALTERNATING,
-        Mechanical(
-            ("x", "y", "z"), springs, numbers("1 1/2 -1/4 0 1/2 0"), fmpq(2), long_run=_TENTHS
+        systems.Mechanical(
+            ("x", "y", "z"),
+            systems.springs,
+            systems.numbers("1 1/2 -1/4 0 1/2 0"),
+            fmpq(2),
+            long_run=_TENTHS,
         ),
     ),
     mechanical(
@@ -247,7 +245,13 @@ _ENTRIES = (
         "two rods; the kinetic energy depends on the angles",
         "two rods, by the Legendre transform of their Lagrangian",
         "all; parts that depend on positions alone have only velocities as branches",
-        Mechanical(("a", "b"), rods_potential, numbers("1 -1/2 1 1/2"), fmpq(2), kinetic=rods),
+        systems.Mechanical(
+            ("a", "b"),
+            systems.rods_potential,
+            systems.numbers("1 -1/2 1 1/2"),
+            fmpq(2),
+            kinetic=systems.rods,
+        ),
     ),
     stiff_one(
         "prothero-robinson",

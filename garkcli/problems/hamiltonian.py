@@ -15,16 +15,9 @@ from flint import fmpq
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, replace
+from garkcli.problems import vectorfield
 from garkcli.problems.deferred import Deferred
 from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
-from garkcli.problems.vectorfield import (
-    GROUPS,
-    Group,
-    StateLayout,
-    VectorField,
-    field_of_components,
-    symbols,
-)
 
 FLOAT_DIGITS = 15
 """Most digits of floats; with more, numbers are the midpoints of balls."""
@@ -70,9 +63,9 @@ class Hamiltonian(Frozen):
         return sum(self.terms)
 
     @property
-    def layout(self) -> StateLayout:
+    def layout(self) -> vectorfield.StateLayout:
         """The groups q and p."""
-        return StateLayout(GROUPS, self.dimension)
+        return vectorfield.StateLayout(vectorfield.GROUPS, self.dimension)
 
     @property
     def quantities(self) -> Invariants:
@@ -97,21 +90,25 @@ def summed(terms: Vector, total: Callable[[], Expr]) -> Vector:
     return (total(),)
 
 
-def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
+def vector_field(
+    problem: Hamiltonian, term: int, drives: vectorfield.Group
+) -> vectorfield.VectorField:
     """V^{l} for ``drives`` q, F^{l} for p."""
     terms, variables = problem.terms, problem.variables
     if not isinstance(terms, Deferred):
-        return field_of_components(_moved(terms[term], variables, drives), variables, GROUPS)
+        return vectorfield.field_of_components(
+            _moved(terms[term], variables, drives), variables, vectorfield.GROUPS
+        )
     what = f"{'velocity' if drives == 'q' else 'force'} {term + 1}"
     components = terms.derived(what, lambda: _moved(terms[term], variables, drives), len(variables))
-    return field_of_components(components, variables, GROUPS)
+    return vectorfield.field_of_components(components, variables, vectorfield.GROUPS)
 
 
 @cache
-def _moved(H: Expr, variables: tuple[str, ...], drives: Group) -> Exprs:
+def _moved(H: Expr, variables: tuple[str, ...], drives: vectorfield.Group) -> Exprs:
     """∂H/∂p or −∂H/∂q; cached, as problems share terms."""
     import sympy
 
     if drives == "q":
-        return tuple(sympy.diff(H, x) for x in symbols(variables, "p"))
-    return tuple(-sympy.diff(H, x) for x in symbols(variables, "q"))
+        return tuple(sympy.diff(H, x) for x in vectorfield.symbols(variables, "p"))
+    return tuple(-sympy.diff(H, x) for x in vectorfield.symbols(variables, "q"))

@@ -14,19 +14,10 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.doing import doing
 from garkcli.errors import NoLegendreTransform
 from garkcli.frozen import Frozen
+from garkcli.problems import mass
 from garkcli.problems.draw import Draw
 from garkcli.problems.expr import Expr, ExprMatrix, Place, Substitution, Vector, dot
-from garkcli.problems.mass import (
-    BITS,
-    WRITE_HAMILTONIAN,
-    Lagrangian,
-    coupled,
-    differentiated,
-    enclosed,
-    inverse_of,
-    is_smooth,
-    velocities,
-)
+from garkcli.problems.mass import velocities
 from garkcli.problems.solving import solutions
 from garkcli.problems.vectorfield import symbols
 
@@ -68,7 +59,7 @@ class Equations(Frozen):
         are_known = all(x in at for x in self.p)
         if are_known or not needed <= set(at):
             return {}
-        return dict(zip(self.p, enclosed(self.gradient, at), strict=True))
+        return dict(zip(self.p, mass.enclosed(self.gradient, at), strict=True))
 
 
 def candidates(L: Expr, equations: Equations) -> list[SolvedVelocities]:
@@ -87,7 +78,7 @@ def candidates(L: Expr, equations: Equations) -> list[SolvedVelocities]:
 def _by_elimination(equations: Equations) -> SolvedVelocities:
     """The solution of linear equations: v = M⁻¹(p − ∂L/∂v at v = 0)."""
     at_rest = dict.fromkeys(equations.v, 0)
-    inverse, divisor = inverse_of(equations.M, equations.v, equations.start)
+    inverse, divisor = mass.inverse_of(equations.M, equations.v, equations.start)
     pairs = zip(equations.p, equations.gradient, strict=True)
     products = _times(inverse, [p - slope.xreplace(at_rest) for p, slope in pairs])
     return SolvedVelocities(
@@ -126,7 +117,7 @@ def _by_form(L: Expr, equations: Equations) -> list[SolvedVelocities]:
         if form is None:
             continue
         try:
-            inverse, divisor = inverse_of(form.G, equations.v, equations.start)
+            inverse, divisor = mass.inverse_of(form.G, equations.v, equations.start)
         except NoLegendreTransform:
             continue
         shifted = [p - b for p, b in zip(equations.p, form.b, strict=True)]
@@ -184,13 +175,13 @@ _NEAR = 50  # thousandths: how far from the start they are
 _GOOD = 1e-40  # what enclosures have to be good to, to tell that two numbers are one
 
 
-def by_solving(lagrangian: Lagrangian) -> Expr:
+def by_solving(lagrangian: mass.Lagrangian) -> Expr:
     """The transform of a Lagrangian that is not quadratic; see ``legendre_transform``."""
     L, gradient, M = lagrangian.L, lagrangian.gradient, lagrangian.M
     variables = lagrangian.variables
     v, p = velocities(variables), symbols(variables, "p")
     replaced: dict[Expr, Expr] = {}
-    for block in coupled(M):
+    for block in mass.coupled(M):
         equations = Equations(
             [v[i] for i in block],
             [p[i] for i in block],
@@ -202,8 +193,10 @@ def by_solving(lagrangian: Lagrangian) -> Expr:
         replaced |= {**solved.velocities, **solved.forms}
     H = dot(p, [replaced[x] for x in v]) - L.xreplace(replaced)
     derivatives = (H.diff(x) for x in (*symbols(variables, "q"), *p))
-    if not is_smooth(H) or not all(map(is_smooth, derivatives)):
-        raise NoLegendreTransform("the Hamiltonian was not found without kinks", WRITE_HAMILTONIAN)
+    if not mass.is_smooth(H) or not all(map(mass.is_smooth, derivatives)):
+        raise NoLegendreTransform(
+            "the Hamiltonian was not found without kinks", mass.WRITE_HAMILTONIAN
+        )
     return H
 
 
@@ -218,9 +211,9 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> SolvedVelocities:
         right += [x for x in _smooth(candidate, p) if _is_right(x.velocities, equations)]
     if not right:
         whose = ", ".join(map(str, equations.v))
-        raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", WRITE_HAMILTONIAN)
+        raise NoLegendreTransform(f"p = ∂L/∂v was not solved for {whose}", mass.WRITE_HAMILTONIAN)
     known = {**equations.start, **equations.momenta(equations.start)}
-    at_start = [enclosed(list(solved.velocities.values()), known) for solved in right]
+    at_start = [mass.enclosed(list(solved.velocities.values()), known) for solved in right]
     first, *others = at_start
     for other in others:
         if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):
@@ -275,7 +268,7 @@ def _is_right(solved: Substitution, equations: Equations) -> bool:
     tested = 1
     for _ in range(_TRIES - 1):
         near = {}
-        with ctx.workprec(BITS):
+        with ctx.workprec(mass.BITS):
             for x, y in equations.start.items():
                 near[x] = y + arb(fmpq(draw.between(-_NEAR, _NEAR), 1000))
         agrees = _agrees(solved, equations, near)
@@ -290,8 +283,8 @@ def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | 
     at = {**place, **equations.momenta(place)}
     if not all(x in at for x in equations.p):
         return False
-    solution = dict(zip(solved, enclosed(list(solved.values()), at), strict=True))
-    back = enclosed(equations.gradient, {**at, **solution})
+    solution = dict(zip(solved, mass.enclosed(list(solved.values()), at), strict=True))
+    back = mass.enclosed(equations.gradient, {**at, **solution})
     pairs = [(value, at[p]) for p, value in zip(equations.p, back, strict=True)]
     known = [v for v in solved if v in at]
     pairs += [(solution[v], at[v]) for v in known]
@@ -339,13 +332,13 @@ def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Exp
             f"each term has all velocities or none; move {missing} into this term, "
             f"or write the Hamiltonian",
         )
-    lagrangian = differentiated(L, variables, start)
+    lagrangian = mass.differentiated(L, variables, start)
     if lagrangian.is_quadratic:
         return _of_quadratic(lagrangian)
     return by_solving(lagrangian)
 
 
-def _of_quadratic(lagrangian: Lagrangian) -> Expr:
+def _of_quadratic(lagrangian: mass.Lagrangian) -> Expr:
     """H = ½ (p − b)·M⁻¹(p − b) − c, block by block of M."""
     import sympy
 
@@ -356,9 +349,9 @@ def _of_quadratic(lagrangian: Lagrangian) -> Expr:
     for x, slope in zip(p, lagrangian.gradient, strict=True):
         shifted.append(x - slope.xreplace(at_rest))
     H = [-lagrangian.L.xreplace(at_rest)]
-    for block in coupled(M):
+    for block in mass.coupled(M):
         own = [[M[i][j] for j in block] for i in block]
-        inverse, divisor = inverse_of(own, [v[i] for i in block], lagrangian.start)
+        inverse, divisor = mass.inverse_of(own, [v[i] for i in block], lagrangian.start)
         products = []
         for row, i in zip(inverse, block, strict=True):
             for entry, j in zip(row, block, strict=True):
@@ -380,7 +373,7 @@ def initial_momenta(
     moving = [L for L in lagrangians if L.free_symbols & set(v)]
     if len(moving) == 1:
         (L,) = moving
-        return enclosed([L.diff(x) for x in v], start)
+        return mass.enclosed([L.diff(x) for x in v], start)
     H: Expr = sum(hamiltonians)
     gradient = [H.diff(x) for x in p]
     hessian = [g.diff(y) for g in gradient for y in p]
@@ -395,9 +388,9 @@ def initial_momenta(
     places = {x: y for x, y in start.items() if x not in v}
     at_rest = dict.fromkeys(p, 0)
     offsets = [g.xreplace(at_rest) for g in gradient]
-    with ctx.workprec(BITS):
-        matrix = arb_mat(d, d, enclosed(hessian, places))
-        rest = [start[x] - y for x, y in zip(v, enclosed(offsets, places), strict=True)]
+    with ctx.workprec(mass.BITS):
+        matrix = arb_mat(d, d, mass.enclosed(hessian, places))
+        rest = [start[x] - y for x, y in zip(v, mass.enclosed(offsets, places), strict=True)]
         right = arb_mat(d, 1, rest)
         try:
             return [arb(x) for x in matrix.solve(right).entries()]
@@ -413,17 +406,17 @@ def missing_derivative(made: Expr, by: Vector, start: Place) -> tuple[str, str] 
     """
     gradient = [made.diff(x) for x in by]
     for x, g in zip(by, gradient, strict=True):
-        if not is_smooth(g):
+        if not mass.is_smooth(g):
             return (
                 f"the derivative by {x} has kinks, such as those of |x|",
                 "write it without inverse functions",
             )
-    if all(x.is_finite() for x in enclosed(gradient, start)):
+    if all(x.is_finite() for x in mass.enclosed(gradient, start)):
         return None
     # one operation that fails spoils them all: the guilty one is undefined on its own
     guilty = by[0]
     for x, g in zip(by, gradient, strict=True):
-        (alone,) = enclosed([g], start)
+        (alone,) = mass.enclosed([g], start)
         if not alone.is_finite():
             guilty = x
             break

@@ -13,20 +13,11 @@ from flint import arb, fmpq
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, replace
+from garkcli.problems import vectorfield
 from garkcli.problems.deferred import Deferred, ask
 from garkcli.problems.expr import Exprs, Invariants, Vector, rational
 from garkcli.problems.hamiltonian import summed
 from garkcli.problems.straightline import function
-from garkcli.problems.vectorfield import (
-    TIME,
-    Group,
-    StateLayout,
-    VectorField,
-    arguments_in,
-    field_of_components,
-    occurring,
-    symbols,
-)
 
 EXACT_DIGITS = 50
 """An irrational start of an exact solution agrees with the rational one of the steps to so many
@@ -73,13 +64,17 @@ class RightHandSide(Frozen):
         return ask(self.terms, "time", self._has_time)
 
     def _has_time(self) -> bool:
-        return bool(occurring([x for term in self.terms for x in term], self.variables, (TIME,)))
+        return bool(
+            vectorfield.occurring(
+                [x for term in self.terms for x in term], self.variables, (vectorfield.TIME,)
+            )
+        )
 
     @property
-    def layout(self) -> StateLayout:
+    def layout(self) -> vectorfield.StateLayout:
         """y, and t if it occurs."""
-        groups: tuple[Group, ...] = ("y", TIME) if self.has_time else ("y",)
-        return StateLayout(groups, self.dimension)
+        groups: tuple[vectorfield.Group, ...] = ("y", vectorfield.TIME) if self.has_time else ("y",)
+        return vectorfield.StateLayout(groups, self.dimension)
 
     @property
     def quantities(self) -> Invariants:
@@ -101,7 +96,7 @@ class RightHandSide(Frozen):
         return f"<RightHandSide {self.name}: {terms}, {unknowns}>"
 
 
-def right_hand_side(problem: RightHandSide, term: int) -> VectorField:
+def right_hand_side(problem: RightHandSide, term: int) -> vectorfield.VectorField:
     """f^{l}."""
     components: Vector
     if isinstance(problem.terms, Deferred):
@@ -110,12 +105,12 @@ def right_hand_side(problem: RightHandSide, term: int) -> VectorField:
         components = problem.terms.derived(what, make, problem.dimension)
     else:
         components = problem.terms[term]
-    return field_of_components(components, problem.variables, ("y", TIME))
+    return vectorfield.field_of_components(components, problem.variables, ("y", vectorfield.TIME))
 
 
-def clock(problem: RightHandSide) -> VectorField:
+def clock(problem: RightHandSide) -> vectorfield.VectorField:
     """ṫ = 1."""
-    return VectorField(Deferred("clock rate", _one, 1), problem.variables, ())
+    return vectorfield.VectorField(Deferred("clock rate", _one, 1), problem.variables, ())
 
 
 def _one() -> Exprs:
@@ -127,7 +122,9 @@ def _one() -> Exprs:
 def solution(problem: RightHandSide, time: arb) -> list[arb]:
     """The exact solution at one time, at the current precision."""
     assert problem.exact is not None
-    evaluate = function(problem.exact, arguments_in(problem.variables, (TIME,)), True)
+    evaluate = function(
+        problem.exact, vectorfield.arguments_in(problem.variables, (vectorfield.TIME,)), True
+    )
     return [arb(x) for x in evaluate(arb(time))]
 
 
@@ -136,7 +133,7 @@ def starts_exactly(problem: RightHandSide) -> bool:
     ``EXACT_DIGITS``.
     """
     assert problem.exact is not None
-    (t,) = symbols(problem.variables, TIME)
+    (t,) = vectorfield.symbols(problem.variables, vectorfield.TIME)
     return [x.subs(t, 0) for x in problem.exact] == [rational(x) for x in problem.initial]
 
 
@@ -149,7 +146,7 @@ def steepness(problem: RightHandSide) -> arb:
     d = problem.dimension
     field = right_hand_side(problem.unsplit(), 0)
     slopes = field.slopes([("y", k) for k in range(d)])
-    names = arguments_in(problem.variables, ("y", TIME))
+    names = vectorfield.arguments_in(problem.variables, ("y", vectorfield.TIME))
     entries = enclosed_at(slopes, names, [*map(arb, problem.initial), arb(0)])
     norm = arb(0)
     for i in range(d):

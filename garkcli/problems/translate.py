@@ -10,20 +10,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from garkcli.errors import LimitExceeded, UndefinedValue
+from garkcli.exact import nodes
 from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import CONSTANTS, FLOAT_BITS, Value, exponent_of, value_of
-from garkcli.exact.nodes import (
-    Call,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    RealPower,
-    Root,
-    parts,
-)
+from garkcli.exact.nodes import parts
 from garkcli.exact.rewriting import format_expression, names_in
 from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, rational
@@ -42,7 +33,7 @@ class Translator(Frozen):
     symbols: Mapping[str, Any]
     values: Mapping[str, Value]
 
-    def check_constants(self, expression: Expression) -> None:
+    def check_constants(self, expression: nodes.Expression) -> None:
         """Refuses constants beyond the limits before sympy computes with them.
 
         Raises:
@@ -52,15 +43,15 @@ class Translator(Frozen):
         if all(map(self._is_constant, names_in(expression))):
             value_of(expression, self.values)
             return
-        if isinstance(expression, RealPower):
+        if isinstance(expression, nodes.RealPower):
             self._check_exponent(expression.exponent)
         for part in parts(expression):
             self.check_constants(part)
 
-    def _is_constant(self, name: Name) -> bool:
+    def _is_constant(self, name: nodes.Name) -> bool:
         return name.name in self.values or name.name in CONSTANTS
 
-    def _check_exponent(self, exponent: Expression) -> None:
+    def _check_exponent(self, exponent: nodes.Expression) -> None:
         """Refuses an exponent with variables."""
         for name in names_in(exponent):
             if not self._is_constant(name):
@@ -68,7 +59,7 @@ class Translator(Frozen):
                 cure = "exponents are constants"
                 raise UndefinedValue(message, cure, name.start, name.end, code="not-real")
 
-    def translate(self, expression: Expression) -> Expr:
+    def translate(self, expression: nodes.Expression) -> Expr:
         """The sympy expression of a formula whose names are all known.
 
         Raises:
@@ -92,30 +83,30 @@ class Translator(Frozen):
             raise LimitExceeded(message, "choose other units", start, end)
         return made
 
-    def _node(self, expression: Expression) -> Expr:
+    def _node(self, expression: nodes.Expression) -> Expr:
         import sympy
 
         match expression:
-            case Literal(value=value):
+            case nodes.Literal(value=value):
                 return rational(value)
-            case Name(name=name):
+            case nodes.Name(name=name):
                 if name == "pi":
                     return sympy.pi
                 return self.symbols[name]
-            case Chain(signs=signs, operands=operands):
+            case nodes.Chain(signs=signs, operands=operands):
                 made = [self._node(x) for x in operands]
                 if signs[0] not in "+-":
                     return self._product(signs, made, expression)
                 terms = [-x if sign == "-" else x for sign, x in zip(signs, made, strict=True)]
                 return sympy.Add(*terms)
-            case Power(base=base, exponent=exponent):
+            case nodes.Power(base=base, exponent=exponent):
                 return self._power(self._node(base), sympy.Integer(exponent), expression)
-            case RealPower(base=base, exponent=exponent):
+            case nodes.RealPower(base=base, exponent=exponent):
                 fraction = rational(exponent_of(exponent, self.values))
                 return self._power(self._node(base), fraction, expression)
-            case Root(radicand=radicand, index=index):
+            case nodes.Root(radicand=radicand, index=index):
                 return self._root(self._node(radicand), index, expression)
-            case Call(function=function, argument=argument):
+            case nodes.Call(function=function, argument=argument):
                 made = getattr(sympy, function)(self._node(argument))
                 if not made.has(sympy.cot):
                     return made
@@ -123,7 +114,7 @@ class Translator(Frozen):
                 return made.replace(sympy.cot, lambda u: 1 / sympy.tan(u))
         raise TypeError(f"no expression: {expression!r}")
 
-    def _product(self, signs: str, factors: list[Expr], at: Expression) -> Expr:
+    def _product(self, signs: str, factors: list[Expr], at: nodes.Expression) -> Expr:
         import sympy
 
         if sum(map(_bits, factors)) > 2 * MAX_BITS:
@@ -133,7 +124,7 @@ class Translator(Frozen):
             made.append(1 / factor if sign == "/" else factor)
         return sympy.Mul(*made)
 
-    def _power(self, base: Expr, exponent: Expr, at: Expression) -> Expr:
+    def _power(self, base: Expr, exponent: Expr, at: nodes.Expression) -> Expr:
         if _bits(base) * abs(exponent) > 2 * MAX_BITS:
             raise too_many_bits(at)
         made = base**exponent
@@ -144,7 +135,7 @@ class Translator(Frozen):
             raise LimitExceeded(message, "use smaller ones", at.start, at.end, code="too-many")
         return _without_kinks(made, at)
 
-    def _root(self, radicand: Expr, index: int, at: Root) -> Expr:
+    def _root(self, radicand: Expr, index: int, at: nodes.Root) -> Expr:
         import sympy
 
         if index == 2:
@@ -160,7 +151,7 @@ class Translator(Frozen):
         return radicand**power
 
 
-def _without_kinks(made: Expr, at: Expression) -> Expr:
+def _without_kinks(made: Expr, at: nodes.Expression) -> Expr:
     """Refuses |x|, which sympy makes of sqrt(x**2)."""
     import sympy
 

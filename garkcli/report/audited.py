@@ -5,24 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import PurePath
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from garkcli.bridges.audit import Audited
+from garkcli.bridges.judging import Judged
+from garkcli.bridges.subject import TableSubject
 from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import Remark, counted
 from garkcli.frozen import replace
 from garkcli.page.look import PLAIN, Look
 from garkcli.report.remarks import OF_TABLE, annotation, commands_off, log_of, remark_rows
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT
 from garkcli.tell.parts import answer, part, parts, rows_of, shown
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.bridges.judging import Judged
-    from garkcli.bridges.subject import TableSubject
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 100

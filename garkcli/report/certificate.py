@@ -28,13 +28,13 @@ from garkcli.ntrees.kind import FIELDS
 from garkcli.ntrees.kind import VertexKind as VertexKind
 from garkcli.ntrees.notation import format_tree
 from garkcli.ntrees.tree import Tree
-from garkcli.order.certificate import Order, Proof
+from garkcli.order.certificate import Order, Proof, Witness
 from garkcli.order.hulls import Hull, hulls
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.reason import NO_REASON
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice, order_answer
@@ -44,8 +44,6 @@ from garkcli.version import __version__
 
 if TYPE_CHECKING:
     from garkcli.check.existing import ExistenceProof, PrintedNumber
-    from garkcli.order.certificate import Witness
-    from garkcli.tableau.tableau import Colour
 
 
 HEADLINE, USUAL, DETAIL, DATA = Level

@@ -6,18 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import filterfalse
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypedDict, TypeVar
 
-from garkcli.check.findings import (
-    BOUND,
-    SHARP_BOUND,
-    asides,
-    bound_numbers,
-    cure_of_lacks,
-    dense_witness_text,
-    order_of,
-    predictor_witness_text,
-    remarks,
-    sum_text,
-)
+from garkcli.check import findings
 from garkcli.check.pair_reasons import is_lost, pair_reason
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, plain_decimal, to_float, to_text
@@ -30,11 +19,11 @@ from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.lines import folded
 from garkcli.properties.registry import KEYS
 from garkcli.properties.subject import find
-from garkcli.properties.verdict import Size
+from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import NO_REASON, Place, Reason, joined
 from garkcli.report.remarks import FAULT, FINDING, fault_rows, remark_rows
 from garkcli.tell import kinds
-from garkcli.tell.dialect import Status
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.facts import (
     Answer,
     Json,
@@ -77,9 +66,7 @@ if TYPE_CHECKING:
     from garkcli.order.sums import WrongSum
     from garkcli.order.suspects import SuspectedNumber
     from garkcli.properties.pattern import Shape
-    from garkcli.properties.verdict import Verdict
     from garkcli.tableau.tableau import Colour, Tableau
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 V = TypeVar("V", bound="bool | int | Size")
@@ -207,7 +194,7 @@ def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analy
 
 def witnesses(a: Analysis) -> list[Failing]:
     claims = ("order", "conjugate-order", "pair-order", "embedded-order")
-    return each_once({claim: order_of(a, claim) for claim in claims})
+    return each_once({claim: findings.order_of(a, claim) for claim in claims})
 
 
 def drawn(found: Sequence[Failing], d: Plain) -> list[str]:
@@ -254,11 +241,11 @@ def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] 
         value = a.pair_sharp_bound if is_of_pair else a.sharp_bound
     if value is None or whose is None:
         return None
-    computed, formula = whose.bound, BOUND
+    computed, formula = whose.bound, findings.BOUND
     if is_sharp:
-        computed, formula = whose.sharp_bound, SHARP_BOUND
+        computed, formula = whose.sharp_bound, findings.SHARP_BOUND
     doubt = f"; {computed} is not decided within the tolerance" if computed != value else ""
-    reason = Reason(f"{formula} with {bound_numbers(whose)}{doubt}")
+    reason = Reason(f"{formula} with {findings.bound_numbers(whose)}{doubt}")
     return Answer(value, Status(a.tolerance, whose.is_open(computed)), reason)
 
 
@@ -322,7 +309,7 @@ def consistent(a: Analysis) -> Answer[bool]:
     if rows := a.wrong_rows:
         names = [colour.name for colour in a.tableau.colours]
         more = f"; and {len(rows) - MOST_ROWS} more" if len(rows) > MOST_ROWS else ""
-        sums = joined("; ", [sum_text(x, names) for x in rows[:MOST_ROWS]])
+        sums = joined("; ", [findings.sum_text(x, names) for x in rows[:MOST_ROWS]])
         answer = replace(answer, reason=Reason(f"{{}}: {{}}{more}", answer.reason, sums))
     return replace(answer, level=USUAL if a.inconsistent else DETAIL)
 
@@ -773,7 +760,7 @@ def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer[int
     status = Status(found.tolerance, found.is_lower_bound, is_open)
     if found.witness is None:
         return Answer(found.order, status)
-    reason = dense_witness_text(found.witness, colours)
+    reason = findings.dense_witness_text(found.witness, colours)
     return Answer(found.order, status, reason, witness=found.witness.witness)
 
 
@@ -798,7 +785,7 @@ def predictor_order(a: Analysis) -> Answer[int] | None:
     status = Status(None, missed is None, NO_REASON)
     if missed is None:
         return Answer(found.order, status)
-    reason = predictor_witness_text(found, equal_steps=False)
+    reason = findings.predictor_witness_text(found, equal_steps=False)
     return Answer(found.order, status, reason, witness=missed[1].witness)
 
 
@@ -943,7 +930,7 @@ def claim_rows(outcome: Outcome, d: Plain) -> list[tuple[str, str]]:
         place = f" ({outcome.file}:{c.line}:{c.column})"
         rows.append((kinds.claim_word(c.holds, d), d.prose(said) + why + d.prose(place)))
     if outcome.lacks:
-        cure = cure_of_lacks(outcome)
+        cure = findings.cure_of_lacks(outcome)
         missing = [cure] if outcome.makes_no_claim else [*outcome.lacks, cure]
         rows += [(d.bad("NO CLAIM"), d.prose(message)) for message in missing]
     held = [f"{c.claim}: {c.expected}" for c in outcome.claims if c.holds]
@@ -969,9 +956,9 @@ IN_BRIEF: Row[Outcome] = itself("claims_in_brief", told(_claims_cell), DATA, lab
 CLAIMS_IN_WORDS: Row[Outcome] = Row(
     "claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None
 )
-FINDINGS: Row[Outcome] = Row("findings", parts(FINDING), remarks, DATA)
+FINDINGS: Row[Outcome] = Row("findings", parts(FINDING), findings.remarks, DATA)
 """All remarks on a file."""
-ASIDES: Row[Outcome] = Row("asides", rows_of(remark_rows), lambda o: asides(o) or None)
+ASIDES: Row[Outcome] = Row("asides", rows_of(remark_rows), lambda o: findings.asides(o) or None)
 CLAIMS: Rows[Outcome] = (
     IN_BRIEF,
     Row("claims", parts(CLAIM), lambda o: o.claims, DATA),

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import ceil, floor
 from string import ascii_lowercase, ascii_uppercase
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from flint import arb, fmpq
 
@@ -21,15 +21,13 @@ from garkcli.plots.convergence import errors_scene
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report import convergence as alone
+from garkcli.report.problem import Stepped
 from garkcli.report.remarks import FAULT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Rows, Section, SectionChoice, itself, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
 from garkcli.tell.parts import SAID, answer, part, parts, plot, rows_of, shown, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.report.problem import Stepped
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 Tested: TypeAlias = Sequence[tuple[str, Convergence]]

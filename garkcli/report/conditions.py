@@ -25,30 +25,8 @@ from garkcli.page.lines import numbered
 from garkcli.report.other_methods import OF_NPRK_TREES, OF_NYSTROM_TREES
 from garkcli.report.trees import DATA, DETAIL, SIZES, SUBJECT, TREES, SymplecticSubject, picture
 from garkcli.tableau.tableau import Tableau
+from garkcli.tell import facts, kinds
 from garkcli.tell.dialect import LONG, Plain
-from garkcli.tell.facts import (
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Words,
-    itself,
-    maybe,
-    optional,
-    via,
-)
-from garkcli.tell.kinds import (
-    DERIVATION,
-    INDEX,
-    NUMERAL,
-    POSITION,
-    TEXTS,
-    TOLERANCE,
-    choice,
-    numeral_text,
-)
 from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
 
@@ -144,7 +122,7 @@ class ConditionTable(Mutable):
         return about.names if about else [str(l + 1) for l in range(self.coloured or 1)]
 
     @property
-    def form(self) -> Section[ConditionTable]:
+    def form(self) -> facts.Section[ConditionTable]:
         """The rows of the table, without keys that no condition has."""
         is_shapes = not (self.subject or self.valued or self.coloured)
         left_out = {"for_all": not is_shapes, "multiplicity": self.subject is not None}
@@ -225,7 +203,7 @@ def _number(condition: Condition, key: str, d: Plain) -> str:
     """A number of a condition, in decimals where one is long or these are requested."""
     x = getattr(condition, key)
     if d.places is not None:
-        return NUMERAL(x).words(d)
+        return kinds.NUMERAL(x).words(d)
     texts = [shortest(y) for y in (x, condition.residual)]
     is_long = any(len(text) > (MOST_DECIMALS if "." in text else LONG) for text in texts)
     if key == "required" or not x or not is_long or is_parametric(x):
@@ -237,12 +215,12 @@ def _number(condition: Condition, key: str, d: Plain) -> str:
     return d.formula(rf"\approx {decimal_latex(text)}", f"about {text}")
 
 
-def _numeral(key: str, level: Level) -> Row[Condition]:
-    kind: Kind[Condition] = Kind(
-        Json(S.NUMERAL, lambda x, d: numeral_text(getattr(x, key), d)),
-        Words(lambda x, d: _number(x, key, d)),
+def _numeral(key: str, level: facts.Level) -> facts.Row[Condition]:
+    kind: facts.Kind[Condition] = facts.Kind(
+        facts.Json(S.NUMERAL, lambda x, d: kinds.numeral_text(getattr(x, key), d)),
+        facts.Words(lambda x, d: _number(x, key, d)),
     )
-    return Row(key, kind, lambda x: x, level)
+    return facts.Row(key, kind, lambda x: x, level)
 
 
 def _state(condition: Condition, d: Plain) -> str:
@@ -300,58 +278,64 @@ def _for_all(letters: Sequence[str], d: Plain) -> str:
     return d.formula(rf"\forall\, {text}", text)
 
 
-TREE: Kind[ConditionRow] = Kind(
-    Json(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape)),
-    Words(lambda x, d: d.tree(x.tree)),
+TREE: facts.Kind[ConditionRow] = facts.Kind(
+    facts.Json(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape)),
+    facts.Words(lambda x, d: d.tree(x.tree)),
 )
-FORMULA: Kind[ConditionRow] = Kind(Json(S.TEXT, lambda x, _: x.text()), Words(_formula))
-FOR_ALL: Kind[Sequence[str]] = Kind(
-    Json(S.array(S.TEXT), lambda x, _: list(x), csv=lambda _: {}), Words(_for_all)
+FORMULA: facts.Kind[ConditionRow] = facts.Kind(
+    facts.Json(S.TEXT, lambda x, _: x.text()), facts.Words(_formula)
 )
-HOLDS: Kind[Condition] = Kind(Json(S.FLAG, lambda x, _: x.holds), Words(_state))
-_TREE: Rows[ConditionRow] = (
+FOR_ALL: facts.Kind[Sequence[str]] = facts.Kind(
+    facts.Json(S.array(S.TEXT), lambda x, _: list(x), csv=lambda _: {}), facts.Words(_for_all)
+)
+HOLDS: facts.Kind[Condition] = facts.Kind(
+    facts.Json(S.FLAG, lambda x, _: x.holds), facts.Words(_state)
+)
+_TREE: facts.Rows[ConditionRow] = (
     picture(lambda x: x.tree),
-    itself("tree", TREE),
-    maybe("root", INDEX, lambda x: None if x.is_shape else x.tree.root, DATA),
+    facts.itself("tree", TREE),
+    facts.maybe("root", kinds.INDEX, lambda x: None if x.is_shape else x.tree.root, DATA),
     *SIZES[1:],
-    itself("condition", FORMULA, DETAIL),
-    optional("for_all", FOR_ALL, lambda x: x.letters, DETAIL),
+    facts.itself("condition", FORMULA, DETAIL),
+    facts.optional("for_all", FOR_ALL, lambda x: x.letters, DETAIL),
 )
-_OF_CONDITION: Rows[Condition] = (
+_OF_CONDITION: facts.Rows[Condition] = (
     _numeral("value", DETAIL),
     _numeral("required", DATA),
     _numeral("residual", DETAIL),
-    itself("holds", HOLDS),
-    maybe("kind", choice("coupling", "diagonal"), _kind, DATA),
-    optional("multiplicity", POSITION, lambda x: len(x.trees), DATA),
+    facts.itself("holds", HOLDS),
+    facts.maybe("kind", kinds.choice("coupling", "diagonal"), _kind, DATA),
+    facts.optional("multiplicity", kinds.POSITION, lambda x: len(x.trees), DATA),
 )
-_VALUES: Rows[ConditionRow] = via(lambda x: x.condition, _OF_CONDITION)
-_CLASS: Rows[ConditionRow] = (
-    optional("stands_for", POSITION, lambda x: x.stands_for or None, DETAIL),
-    optional("members", TREES, lambda x: [format_tree(u) for u in x.members] or None, DATA),
-    itself("condition", told(_in_words), is_short=True),
+_VALUES: facts.Rows[ConditionRow] = facts.via(lambda x: x.condition, _OF_CONDITION)
+_CLASS: facts.Rows[ConditionRow] = (
+    facts.optional("stands_for", kinds.POSITION, lambda x: x.stands_for or None, DETAIL),
+    facts.optional("members", TREES, lambda x: [format_tree(u) for u in x.members] or None, DATA),
+    facts.itself("condition", told(_in_words), is_short=True),
 )
-_OF_METHOD: Rows[Valued] = (
-    Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
-    Row("colours", TEXTS, lambda x: x.names, DATA),
-    maybe("tolerance", TOLERANCE, lambda x: x.tolerance, DATA),
+_OF_METHOD: facts.Rows[Valued] = (
+    facts.Row("derivation", kinds.DERIVATION, lambda x: x.derivation, DATA),
+    facts.Row("colours", kinds.TEXTS, lambda x: x.names, DATA),
+    facts.maybe("tolerance", kinds.TOLERANCE, lambda x: x.tolerance, DATA),
 )
 
 
 @cache
-def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[ConditionRow]:
+def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> facts.Section[ConditionRow]:
     """A line of the table without the rows of some keys."""
     rows = (*_TREE, *(_VALUES if has_values else ()), *_CLASS)
-    return Section(row for row in rows if row.key not in left_out)
+    return facts.Section(row for row in rows if row.key not in left_out)
 
 
 @cache
-def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[ConditionTable]:
-    return Section(
-        via(lambda x: x.valued, _OF_METHOD if has_values else ()),
+def _form(
+    has_values: bool, left_out: frozenset[str] = frozenset()
+) -> facts.Section[ConditionTable]:
+    return facts.Section(
+        facts.via(lambda x: x.valued, _OF_METHOD if has_values else ()),
         sentence(lambda x: x.legend),
-        optional("symplectic", part(SUBJECT), lambda x: x.subject, DATA),
-        Row(
+        facts.optional("symplectic", part(SUBJECT), lambda x: x.subject, DATA),
+        facts.Row(
             "conditions",
             stream(row_of(has_values, left_out), lambda x, _: f"order {x.tree.order}"),
             lambda x: x.shown(),

@@ -7,15 +7,7 @@ from typing import Any, NamedTuple, get_args
 
 from flint import arb, fmpq
 
-from garkcli.convergence.result import (
-    CLOSE,
-    MAX_ORDER,
-    Convergence,
-    Cost,
-    Stiffness,
-    Verdict,
-    curve,
-)
+from garkcli.convergence import result as results
 from garkcli.convergence.result import StepSizeRow as Step
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
@@ -28,27 +20,13 @@ from garkcli.reason import Reason
 from garkcli.report.problem import STEPPED, Run
 from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of
+from garkcli.tell import facts
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    Json,
-    Kind,
-    Labels,
-    Level,
-    Row,
-    Rows,
-    Section,
-    SectionChoice,
-    Words,
-    maybe,
-    optional,
-    via,
-)
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import answer, part, plot, rows_of, table
 from garkcli.tell.report import Report
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 MOST_STEPS = 10
 """Rows of a usual table in a terminal."""
 _LONGEST_HEAD = 40  # characters of the name of an invariant above a column
@@ -58,7 +36,7 @@ NO_TIME = "no seconds where floats do not reach the error: the counts are for mo
 class ConvergenceReport(Frozen):
     """The test of one method; attributes as in ``Compared``."""
 
-    result: Convergence
+    result: results.Convergence
     name: str
     has_work: bool = False
     against: str = "h"
@@ -99,33 +77,38 @@ def _place(order: float) -> float:
     return round(order, 4) + 0.0
 
 
-STEP_SIZE: Kind[fmpq] = Kind(
-    Json(S.SIZE, lambda h, _: to_float(h)), Words(lambda h, d: d.number(h))
+STEP_SIZE: facts.Kind[fmpq] = facts.Kind(
+    facts.Json(S.SIZE, lambda h, _: to_float(h)), facts.Words(lambda h, d: d.number(h))
 )
-MEASURED: Kind[arb] = Kind(
-    Json(S.SIZE, lambda x, _: _number(x), csv=for_programs), Words(lambda x, d: d.prose(rounded(x)))
+MEASURED: facts.Kind[arb] = facts.Kind(
+    facts.Json(S.SIZE, lambda x, _: _number(x), csv=for_programs),
+    facts.Words(lambda x, d: d.prose(rounded(x))),
 )
-SLOPE: Kind[float] = Kind(Json(S.NUMBER, lambda x, _: _place(x)), Words(lambda x, _: f"{x:.3f}"))
-OBSERVED: Kind[float] = Kind(
-    Json(S.NUMBER, lambda x, _: _place(x)), Words(lambda x, _: order_text(x))
+SLOPE: facts.Kind[float] = facts.Kind(
+    facts.Json(S.NUMBER, lambda x, _: _place(x)), facts.Words(lambda x, _: f"{x:.3f}")
 )
-RESOLUTION: Kind[float] = Kind(Json(S.SIZE, lambda x, _: float(f"{x:.3g}")))
-SECONDS: Kind[float] = Kind(Json(S.SIZE), Words(lambda x, _: scientific(arb(x))))
+OBSERVED: facts.Kind[float] = facts.Kind(
+    facts.Json(S.NUMBER, lambda x, _: _place(x)), facts.Words(lambda x, _: order_text(x))
+)
+RESOLUTION: facts.Kind[float] = facts.Kind(facts.Json(S.SIZE, lambda x, _: float(f"{x:.3g}")))
+SECONDS: facts.Kind[float] = facts.Kind(
+    facts.Json(S.SIZE), facts.Words(lambda x, _: scientific(arb(x)))
+)
 
 
 def _short_name(name: str) -> str:
     return name if len(name) <= _LONGEST_HEAD else f"{name[:24]}…{name[-15:]}"
 
 
-INVARIANT_ERRORS: Kind[dict[str, arb]] = Kind(
-    Json(
+INVARIANT_ERRORS: facts.Kind[dict[str, arb]] = facts.Kind(
+    facts.Json(
         {"type": "object", "additionalProperties": S.SIZE},
         lambda errors, _: {name: _number(x) for name, x in errors.items()},
         csv=lambda errors: {
             f"{name.replace(' ', '_')}_error": for_programs(x) for name, x in errors.items()
         },
     ),
-    Labels(
+    facts.Labels(
         lambda errors, d: [
             (d.prose(f"{_short_name(name)} error"), d.prose(rounded(x)))
             for name, x in errors.items()
@@ -133,25 +116,27 @@ INVARIANT_ERRORS: Kind[dict[str, arb]] = Kind(
     ),
 )
 
-COST: Section[Cost] = Section(
-    Row("steps", COUNT, lambda x: x.steps),
-    Row("evaluations", COUNT, lambda x: x.evaluations),
-    Row("newton_iterations", COUNT, lambda x: x.iterations, label="iterations"),
-    Row("jacobians", COUNT, lambda x: x.jacobians, label="Jacobians"),
-    maybe("seconds", SECONDS, lambda x: x.seconds),
+COST: facts.Section[results.Cost] = facts.Section(
+    facts.Row("steps", COUNT, lambda x: x.steps),
+    facts.Row("evaluations", COUNT, lambda x: x.evaluations),
+    facts.Row("newton_iterations", COUNT, lambda x: x.iterations, label="iterations"),
+    facts.Row("jacobians", COUNT, lambda x: x.jacobians, label="Jacobians"),
+    facts.maybe("seconds", SECONDS, lambda x: x.seconds),
 )
-STEP: Section[StepTold] = Section(
-    Row("h", STEP_SIZE, lambda x: x.row.h),
-    Row("h_exact", EXACT, lambda x: x.row.h, DATA),
-    Row("error", MEASURED, lambda x: x.row.error),
-    maybe("slope", SLOPE, lambda x: x.row.slope),
-    maybe("energy_error", MEASURED, lambda x: x.row.energy_error),
-    Row("invariant_errors", INVARIANT_ERRORS, lambda x: x.invariant_errors),
-    maybe("digits", POSITION, lambda x: x.row.digits),
-    optional("below_round_off", TEXTS, lambda x: x.below_round_off, DATA),
+STEP: facts.Section[StepTold] = facts.Section(
+    facts.Row("h", STEP_SIZE, lambda x: x.row.h),
+    facts.Row("h_exact", EXACT, lambda x: x.row.h, DATA),
+    facts.Row("error", MEASURED, lambda x: x.row.error),
+    facts.maybe("slope", SLOPE, lambda x: x.row.slope),
+    facts.maybe("energy_error", MEASURED, lambda x: x.row.energy_error),
+    facts.Row("invariant_errors", INVARIANT_ERRORS, lambda x: x.invariant_errors),
+    facts.maybe("digits", POSITION, lambda x: x.row.digits),
+    facts.optional("below_round_off", TEXTS, lambda x: x.below_round_off, DATA),
 )
-WORKED: Section[StepTold] = Section(STEP.rows, maybe("work", part(COST), lambda x: x.row.cost))
-_STEPS: Section[StepTold] = SectionChoice(
+WORKED: facts.Section[StepTold] = facts.Section(
+    STEP.rows, facts.maybe("work", part(COST), lambda x: x.row.cost)
+)
+_STEPS: facts.Section[StepTold] = facts.SectionChoice(
     lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED
 )
 
@@ -160,34 +145,34 @@ def steps(test: ConvergenceReport) -> list[StepTold]:
     return [StepTold(row, test) for row in test.result.rows]
 
 
-def lines(x: ConvergenceReport | FailedRun) -> tuple[Section[StepTold], list[StepTold]]:
+def lines(x: ConvergenceReport | FailedRun) -> tuple[facts.Section[StepTold], list[StepTold]]:
     """The rows for CSV, without the column of energies if the problem has none."""
     if isinstance(x, FailedRun):
         return STEP, []
     section, found = WORKED if x.has_work else STEP, steps(x)
     if all(step.row.energy_error is not None for step in found):
         return section, found
-    return Section(row for row in section.rows if row.key != "energy_error"), found
+    return facts.Section(row for row in section.rows if row.key != "energy_error"), found
 
 
-def visible(x: Convergence) -> Answer[int]:
+def visible(x: results.Convergence) -> facts.Answer[int]:
     """The order to observe; a lower bound if the problem may hide some trees."""
-    return Answer(
+    return facts.Answer(
         x.visible_order, Status(at_least=not x.visible.is_sharp), Reason("{}", x.visible.trees)
     )
 
 
-def predicted(x: Convergence) -> Answer[int]:
+def predicted(x: results.Convergence) -> facts.Answer[int]:
     """The order of the method, with the part that the problem hides."""
     hidden = f"its failing trees of order {x.predicted_order + 1} are not seen here"
-    return Answer(
+    return facts.Answer(
         x.predicted_order,
-        Status(at_least=x.predicted_order >= MAX_ORDER),
+        Status(at_least=x.predicted_order >= results.MAX_ORDER),
         Reason(hidden if x.hides_failure else ""),
     )
 
 
-def verdict_words(x: Convergence, d: Plain) -> str:
+def verdict_words(x: results.Convergence, d: Plain) -> str:
     verdict = x.verdict
     if x.is_left_to_tiny_steps:
         return d.good("tiny steps agree")
@@ -198,7 +183,7 @@ def verdict_words(x: Convergence, d: Plain) -> str:
     return d.good("they agree") if verdict == "agree" else d.bad("THEY DISAGREE")
 
 
-def _answer(x: Convergence, d: Plain) -> str:
+def _answer(x: results.Convergence, d: Plain) -> str:
     seen = d.known(str(x.visible_order), visible(x).status)
     observed = f"order {order_text(x.observed_order)} observed"
     if x.observed_order is None:
@@ -206,7 +191,7 @@ def _answer(x: Convergence, d: Plain) -> str:
     return f"{observed}, {seen} visible: {verdict_words(x, d)}"
 
 
-def remarks(result: Convergence) -> list[str]:
+def remarks(result: results.Convergence) -> list[str]:
     """Remarks on the verdict."""
     said = []
     if result.plateau:
@@ -235,7 +220,7 @@ def remarks(result: Convergence) -> list[str]:
     return said
 
 
-def _stage_orders(stiff: Stiffness) -> str:
+def _stage_orders(stiff: results.Stiffness) -> str:
     if stiff.stage_order is None:
         return ""
     weak = stiff.weak_stage_order or 0
@@ -243,16 +228,16 @@ def _stage_orders(stiff: Stiffness) -> str:
     return f", stage order {stiff.stage_order}{weak_order}"
 
 
-def _of_short_time(result: Convergence) -> str:
+def _of_short_time(result: results.Convergence) -> str:
     observed, short = result.observed_order, result.short_order
     time = scientific(arb(result.short_time), 1)
     tiny = f"with tiny steps, to t = {time}, it is {order_text(short)}"
     if result.verdict == "reduced":
         return tiny
     if observed is not None and short is not None:
-        if abs(observed - short) <= CLOSE:
+        if abs(observed - short) <= results.CLOSE:
             return f"the problem hides the trees that fail, or their errors cancel: {tiny}"
-        if abs(observed - round(observed)) <= CLOSE and short < observed:
+        if abs(observed - round(observed)) <= results.CLOSE and short < observed:
             missed = f"conditions of order {round(short) + 1} are missed by little"
             return f"{missed}, which these step sizes do not show; {tiny}"
     return f"at these step sizes the order has not settled; {tiny}"
@@ -264,55 +249,55 @@ def notes(test: ConvergenceReport) -> list[str]:
     return [*remarks(test.result), *([NO_TIME] if test.has_work and not is_timed else [])]
 
 
-SHORT: Section[Convergence] = Section(
-    Row("t_end", EXACT, lambda x: x.short_time),
-    maybe("observed_order", OBSERVED, lambda x: x.short_order),
+SHORT: facts.Section[results.Convergence] = facts.Section(
+    facts.Row("t_end", EXACT, lambda x: x.short_time),
+    facts.maybe("observed_order", OBSERVED, lambda x: x.short_order),
 )
-OF_STIFFNESS: Rows[Stiffness] = (
-    maybe("stage_order", COUNT, lambda x: x.stage_order),
-    maybe("weak_stage_order", COUNT, lambda x: x.weak_stage_order),
+OF_STIFFNESS: facts.Rows[results.Stiffness] = (
+    facts.maybe("stage_order", COUNT, lambda x: x.stage_order),
+    facts.maybe("weak_stage_order", COUNT, lambda x: x.weak_stage_order),
 )
-STIFF: Section[Convergence] = Section(
-    maybe(
+STIFF: facts.Section[results.Convergence] = facts.Section(
+    facts.maybe(
         "least_h_times_norm", RESOLUTION, lambda x: None if x.stiff is None else x.stiff.resolution
     ),
-    Row("classical_order", COUNT, lambda x: x.predicted_order),
-    via(lambda x: x.stiff, OF_STIFFNESS),
-    maybe("slope", SLOPE, lambda x: x.observed_order),
+    facts.Row("classical_order", COUNT, lambda x: x.predicted_order),
+    facts.via(lambda x: x.stiff, OF_STIFFNESS),
+    facts.maybe("slope", SLOPE, lambda x: x.observed_order),
 )
-_RESULT: Rows[Convergence] = [
-    Row("t_end", EXACT, lambda x: x.t_end, DATA),
+_RESULT: facts.Rows[results.Convergence] = [
+    facts.Row("t_end", EXACT, lambda x: x.t_end, DATA),
     answer(_answer),
-    Row("visible_order", COUNT, visible),
-    Row("visible_order_is_exact", TRUTH, lambda x: x.visible.is_sharp, DATA),
-    Row("predicted_order", COUNT, predicted),
-    optional(
+    facts.Row("visible_order", COUNT, visible),
+    facts.Row("visible_order_is_exact", TRUTH, lambda x: x.visible.is_sharp, DATA),
+    facts.Row("predicted_order", COUNT, predicted),
+    facts.optional(
         "jacobian",
         choice("old", "diagonal"),
         lambda x: None if x.jacobian == "exact" else x.jacobian,
         label="Jacobian",
     ),
-    maybe("observed_order", OBSERVED, lambda x: x.observed_order, DATA),
-    Row("agrees", TRUTH, lambda x: x.agrees, DATA),
-    Row("verdict", choice(*get_args(Verdict)), lambda x: x.verdict, DATA),
-    Row("plateau", COUNT, lambda x: x.plateau, DATA),
-    optional("short", part(SHORT), lambda x: None if x.short_time is None else x, DATA),
-    optional("stiff", part(STIFF), lambda x: None if x.stiff is None else x, DATA),
-    Row("note", TEXT, lambda x: x.visible.trees, DATA),
+    facts.maybe("observed_order", OBSERVED, lambda x: x.observed_order, DATA),
+    facts.Row("agrees", TRUTH, lambda x: x.agrees, DATA),
+    facts.Row("verdict", choice(*get_args(results.Verdict)), lambda x: x.verdict, DATA),
+    facts.Row("plateau", COUNT, lambda x: x.plateau, DATA),
+    facts.optional("short", part(SHORT), lambda x: None if x.short_time is None else x, DATA),
+    facts.optional("stiff", part(STIFF), lambda x: None if x.stiff is None else x, DATA),
+    facts.Row("note", TEXT, lambda x: x.visible.trees, DATA),
 ]
 
 
-def _form(problem: Rows[Run]) -> Section[ConvergenceReport]:
-    return Section(
-        Row("name", TEXT, lambda x: x.name, DATA),
-        Row("derivation", DERIVATION, lambda x: derivation_of(x.result.method), DATA),
-        via(lambda x: x.result, problem),
-        via(lambda x: x.result, _RESULT),
-        Row("notes", rows_of(_notes_rows), notes),
-        Row("steps", table(_STEPS, MOST_STEPS), steps),
+def _form(problem: facts.Rows[Run]) -> facts.Section[ConvergenceReport]:
+    return facts.Section(
+        facts.Row("name", TEXT, lambda x: x.name, DATA),
+        facts.Row("derivation", DERIVATION, lambda x: derivation_of(x.result.method), DATA),
+        facts.via(lambda x: x.result, problem),
+        facts.via(lambda x: x.result, _RESULT),
+        facts.Row("notes", rows_of(_notes_rows), notes),
+        facts.Row("steps", table(_STEPS, MOST_STEPS), steps),
         plot(
             lambda x: errors_scene([(x.name, x.result)], x.against),
-            lambda x: len([*curve(x.result, x.against)]) > 1,
+            lambda x: len([*results.curve(x.result, x.against)]) > 1,
         ),
         title=lambda x, d: d.prose(x.name),
     )
@@ -326,7 +311,7 @@ FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
 """By the kind of the problem."""
 
 
-def form(x: ConvergenceReport | FailedRun) -> Section[Any]:
+def form(x: ConvergenceReport | FailedRun) -> facts.Section[Any]:
     return FAILURE if isinstance(x, FailedRun) else FORMS[type(x.result.problem)]
 
 
@@ -340,6 +325,6 @@ REPORT: Report[ConvergenceReport | FailedRun] = Report(
 )  # fmt: skip
 
 
-def whole(result: Convergence, name: str) -> ConvergenceReport:
+def whole(result: results.Convergence, name: str) -> ConvergenceReport:
     """A test under the name of its method if there is no other."""
     return ConvergenceReport(result, name or ("" if result.method is None else result.method.name))

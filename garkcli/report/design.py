@@ -7,6 +7,7 @@ from fractions import Fraction
 from itertools import chain, groupby
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast, get_args
 
+from garkcli.design import steps
 from garkcli.design.choices import Choice as Choices
 from garkcli.design.design import Design, estimates_nothing
 from garkcli.design.member import Whose
@@ -15,17 +16,6 @@ from garkcli.design.minimise.result import Candidate, Extent, Minimum, Objective
 from garkcli.design.minimise.smallest import DECIMALS
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
-from garkcli.design.steps import (
-    AllValues,
-    Decided,
-    Found,
-    Many,
-    NoValue,
-    Step,
-    Undecided,
-    Variety,
-    Zeros,
-)
 from garkcli.design.steps import Kind as Verdict
 from garkcli.errors import counted
 from garkcli.exact.parametric import Parameters, fraction, unknowns_of
@@ -38,21 +28,8 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
 from garkcli.report.design_values import conditions, equation, where, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
+from garkcli.tell import facts
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import (
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    SectionChoice,
-    Words,
-    itself,
-    maybe,
-    optional,
-    via,
-)
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
 from garkcli.tell.parts import answer, part, parts, rows_of, told
 from garkcli.tell.report import Report
@@ -60,7 +37,7 @@ from garkcli.tell.report import Report
 if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
 """Signs of polynomials in usual reports; with details there are all."""
@@ -92,17 +69,19 @@ class OrderDemand(NamedTuple):
     """The demands of an order."""
 
     design: Design
-    step: Step
+    step: steps.Step
 
     @property
     def zeros(self) -> list[str]:
         step = self.step
-        return zeros(self.design.family, step.polynomials) if isinstance(step, Decided) else []
+        return (
+            zeros(self.design.family, step.polynomials) if isinstance(step, steps.Decided) else []
+        )
 
     @property
     def conditions(self) -> list[Reason]:
         """Further restrictions on the values."""
-        nonzero = self.step.nonzero if isinstance(self.step, Decided) else ()
+        nonzero = self.step.nonzero if isinstance(self.step, steps.Decided) else ()
         return conditions(self.design.family, nonzero)
 
     @property
@@ -127,7 +106,7 @@ class ShownSolution(NamedTuple):
     """
 
     design: Design
-    found: Found
+    found: steps.Found
     number: int | None
 
     @property
@@ -181,7 +160,7 @@ LATE = "give it more; "
 """Advice where more seconds may decide; a limit of gark gets none."""
 
 
-def _undecided(design: Design, step: Undecided) -> Iterator[str]:
+def _undecided(design: Design, step: steps.Undecided) -> Iterator[str]:
     """Why an order is not decided, and what helps."""
     limits = "in the time of --seconds" if step.is_late else "within the limits of gark"
     yield f"not decided {limits}"
@@ -218,7 +197,7 @@ def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
     design, step = found.design, found.step
     is_of_real, criterion = design.is_of_real_values(step), design.criterion_of(step)
     match step:
-        case NoValue():
+        case steps.NoValue():
             which = "no real value" if is_of_real else "no value"
             if design.family.impossible:
                 yield d.prose(design.family.impossible[0])
@@ -234,20 +213,20 @@ def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
             if not is_of_real:
                 how = ", not even by complex values"
             yield f"{which}: {wish} cannot be met{how}"
-        case Undecided():
+        case steps.Undecided():
             yield from map(d.prose, _undecided(design, step))
-        case AllValues():
+        case steps.AllValues():
             yield f"every value{where(found.conditions, d)}"
             yield from _real(found, d)
-        case Decided():
+        case steps.Decided():
             what = counted(sum(x.solution.degree for x in step.found), "solution")
-            if isinstance(step, Variety):
+            if isinstance(step, steps.Variety):
                 what = f"a family of dimension {step.ideal.dimension}{where(found.conditions, d)}"
             which = f"real ones by {CRITERION}" if is_of_real else "real and complex"
             yield f"{what}: {_polynomials(found.zeros, d, which)}" if is_whole else what
-            if isinstance(step, Variety):
+            if isinstance(step, steps.Variety):
                 yield from _real(found, d)
-    if isinstance(step, Decided) and not step.is_all:
+    if isinstance(step, steps.Decided) and not step.is_all:
         yield "found by msolve: each is proved, that there are no others is not"
 
 
@@ -257,7 +236,7 @@ def certified(order: AnyOrder, whose: str) -> str:
     return f"order {'at least ' * order.is_lower_bound}{order.order} of the {of}"
 
 
-def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:
+def _further(found: steps.Found, root: RealRoot, d: Plain) -> list[str]:
     """The orders of a solution's embedded weights, with their error at the next order, of its
     dense output and of its predictor.
     """
@@ -328,7 +307,7 @@ def order_rows(x: DesignReport, d: Plain) -> Texts:
 def single_rows(design: Design, d: Plain) -> Texts:
     """The condition that stops a method without unknowns."""
     last = design.last
-    if not isinstance(last, NoValue) or last.witness is None:
+    if not isinstance(last, steps.NoValue) or last.witness is None:
         return []
     tree = _tree(design, last.witness, d)
     return [(f"order {last.order}", f"no: the condition of {tree} fails")]
@@ -351,7 +330,7 @@ def choice_rows(choices: Sequence[Choices], d: Plain) -> Texts:
     return rows
 
 
-def _best(design: Design) -> Step | None:
+def _best(design: Design) -> steps.Step | None:
     reached = [step for step in design.steps if step.may_have_methods]
     return reached[-1] if reached else None
 
@@ -384,7 +363,7 @@ def _answer(x: DesignReport, d: Plain) -> str:
     return "; ".join(texts)
 
 
-def _of_single(design: Design, best: Step | None) -> str:
+def _of_single(design: Design, best: steps.Step | None) -> str:
     """The answer for a method without unknowns."""
     last = design.last
     if best is not None and (best is last or last.kind == "none"):
@@ -396,11 +375,11 @@ def _of_single(design: Design, best: Step | None) -> str:
     return "the method does not meet the other requirements"
 
 
-def _briefly(step: Step) -> str:
+def _briefly(step: steps.Step) -> str:
     """``a family of dimension 2``; ``3 of 4 solutions``."""
-    if isinstance(step, AllValues):
+    if isinstance(step, steps.AllValues):
         return "every value"
-    if isinstance(step, Variety):
+    if isinstance(step, steps.Variety):
         return f"a family of dimension {step.ideal.dimension}"
     count = sum(found.solution.degree for found in step.found)
     real = sum(len(found.accepted) for found in step.found if found.order is not None)
@@ -412,7 +391,7 @@ def further_rows(x: DesignReport, d: Plain) -> Texts:
     further weights.
     """
     best, family = _best(x.design), x.design.family
-    if not isinstance(best, Decided):
+    if not isinstance(best, steps.Decided):
         return []
     if estimates_nothing(x.design, best):
         text = (
@@ -449,7 +428,7 @@ def stable_rows(x: DesignReport, d: Plain) -> Texts:
         found = f"P-stable for exactly {_listed(texts, d, 'equation')}"
         return [("stable", found)] if texts else []
     last = x.design.last
-    if kinds and not x.sets and isinstance(last, Many):
+    if kinds and not x.sets and isinstance(last, steps.Many):
         if last.found:  # all real ones, each with its verdict
             return []
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
@@ -556,16 +535,16 @@ def best_rows(minimum: Minimum, d: Plain) -> Texts:
     return rows
 
 
-VALUES_OF: Kind[dict[str, RealRoot]] = Kind(
-    Json(
+VALUES_OF: facts.Kind[dict[str, RealRoot]] = facts.Kind(
+    facts.Json(
         {"type": "object", "additionalProperties": ALGEBRAIC},
         lambda values, d: {name: root_data(x, d.digits) for name, x in values.items()},
     ),
-    Words(joined),
+    facts.Words(joined),
 )
-NO_VALUES: Kind[object] = Kind(Json(S.NULL))
-END: Kind[RealRoot | str] = Kind(
-    Json(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
+NO_VALUES: facts.Kind[object] = facts.Kind(facts.Json(S.NULL))
+END: facts.Kind[RealRoot | str] = facts.Kind(
+    facts.Json(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
 )
 
 
@@ -578,85 +557,96 @@ def _accepted(x: ShownSolution) -> bool | None:
     return True if x.number in x.found.accepted else None
 
 
-def _embedded_order(found: Found) -> int | None:
+def _embedded_order(found: steps.Found) -> int | None:
     return None if found.embedded is None else found.embedded[0].order
 
 
-def _dense_order(found: Found) -> int | None:
+def _dense_order(found: steps.Found) -> int | None:
     return None if found.dense is None else found.dense.order
 
 
-def _predictor_order(found: Found) -> int | None:
+def _predictor_order(found: steps.Found) -> int | None:
     return None if found.predictor is None else found.predictor.order
 
 
-def _embedded_error(found: Found, index: int | None) -> RealRoot | None:
+def _embedded_error(found: steps.Found, index: int | None) -> RealRoot | None:
     if found.embedded is None or index is None:
         return None
     return value_at(found.embedded[1], found.solution.real[index])
 
 
-OF_FOUND: Rows[Found] = (
-    Row("multiplicity", POSITION, lambda x: x.solution.multiplicity),
-    maybe("order", COUNT, lambda x: None if x.order is None else x.order.order),
+OF_FOUND: facts.Rows[steps.Found] = (
+    facts.Row("multiplicity", POSITION, lambda x: x.solution.multiplicity),
+    facts.maybe("order", COUNT, lambda x: None if x.order is None else x.order.order),
 )
-FURTHER: Rows[Found] = (
-    optional("embedded_order", COUNT, _embedded_order),
-    optional("dense_order", COUNT, _dense_order),
-    optional("predictor_order", COUNT, _predictor_order),
+FURTHER: facts.Rows[steps.Found] = (
+    facts.optional("embedded_order", COUNT, _embedded_order),
+    facts.optional("dense_order", COUNT, _dense_order),
+    facts.optional("predictor_order", COUNT, _predictor_order),
 )
-REAL: Section[ShownSolution] = Section(
-    Row("values", VALUES_OF, lambda x: x.values),
-    Row("real", constant(value=True), lambda _: True),
-    Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
-    maybe("stable", TRUTH, _accepted).but(is_optional=True),
-    via(lambda x: x.found, FURTHER[:1]),
-    optional("embedded_error", END, lambda x: _embedded_error(x.found, x.number)),
-    via(lambda x: x.found, FURTHER[1:]),
-    via(lambda x: x.found, OF_FOUND),
+REAL: facts.Section[ShownSolution] = facts.Section(
+    facts.Row("values", VALUES_OF, lambda x: x.values),
+    facts.Row("real", constant(value=True), lambda _: True),
+    facts.Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
+    facts.maybe("stable", TRUTH, _accepted).but(is_optional=True),
+    facts.via(lambda x: x.found, FURTHER[:1]),
+    facts.optional("embedded_error", END, lambda x: _embedded_error(x.found, x.number)),
+    facts.via(lambda x: x.found, FURTHER[1:]),
+    facts.via(lambda x: x.found, OF_FOUND),
 )
-NOT_REAL: Section[ShownSolution] = Section(
-    Row("values", NO_VALUES, lambda x: x.values),
-    Row("real", constant(value=False), lambda _: False),
-    Row("count", POSITION, lambda x: x.others),
-    via(lambda x: x.found, OF_FOUND),
+NOT_REAL: facts.Section[ShownSolution] = facts.Section(
+    facts.Row("values", NO_VALUES, lambda x: x.values),
+    facts.Row("real", constant(value=False), lambda _: False),
+    facts.Row("count", POSITION, lambda x: x.others),
+    facts.via(lambda x: x.found, OF_FOUND),
 )
-SOLUTION: Section[ShownSolution] = SectionChoice(
+SOLUTION: facts.Section[ShownSolution] = facts.SectionChoice(
     lambda x: NOT_REAL if x.number is None else REAL, REAL, NOT_REAL
 )
-CONDITIONS: Kind[Sequence[Reason]] = Kind(Json(S.array(S.TEXT), lambda xs, _: list(map(str, xs))))
+CONDITIONS: facts.Kind[Sequence[Reason]] = facts.Kind(
+    facts.Json(S.array(S.TEXT), lambda xs, _: list(map(str, xs)))
+)
 
 
-def _zeros(x: OrderDemand, found: Zeros | None) -> list[str] | None:
+def _zeros(x: OrderDemand, found: steps.Zeros | None) -> list[str] | None:
     return None if found is None else zeros(x.design.family, found.polynomials)
 
 
 def _dimension(x: OrderDemand) -> int | None:
-    return x.step.ideal.dimension if isinstance(x.step, Decided) else None
+    return x.step.ideal.dimension if isinstance(x.step, steps.Decided) else None
 
 
-STEP: Rows[OrderDemand] = [
-    Row("order", POSITION, lambda x: x.step.order, DATA),
-    Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
-    maybe("reached", TRUTH, lambda x: x.step.has_methods, DATA),
-    optional("ideal", TEXTS, lambda x: x.zeros if isinstance(x.step, Decided) else None, DATA),
-    Row("restrictions", CONDITIONS, lambda x: x.conditions, DATA),
-    optional("real_ideal", TEXTS, lambda x: _zeros(x, x.step.known.within), DATA),
-    optional("stable_ideal", TEXTS, lambda x: _zeros(x, x.step.known.of_stable), DATA),
-    optional("dimension", INTEGER, _dimension, DATA),
-    optional("complete", TRUTH, lambda x: None if x.step.ideal is None else x.step.is_all, DATA),
-    Row("solutions", parts(SOLUTION), lambda x: x.solutions, DATA),
-    maybe("witness", TREE, lambda x: x.step.witness if isinstance(x.step, NoValue) else None, DATA),
+STEP: facts.Rows[OrderDemand] = [
+    facts.Row("order", POSITION, lambda x: x.step.order, DATA),
+    facts.Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
+    facts.maybe("reached", TRUTH, lambda x: x.step.has_methods, DATA),
+    facts.optional(
+        "ideal", TEXTS, lambda x: x.zeros if isinstance(x.step, steps.Decided) else None, DATA
+    ),
+    facts.Row("restrictions", CONDITIONS, lambda x: x.conditions, DATA),
+    facts.optional("real_ideal", TEXTS, lambda x: _zeros(x, x.step.known.within), DATA),
+    facts.optional("stable_ideal", TEXTS, lambda x: _zeros(x, x.step.known.of_stable), DATA),
+    facts.optional("dimension", INTEGER, _dimension, DATA),
+    facts.optional(
+        "complete", TRUTH, lambda x: None if x.step.ideal is None else x.step.is_all, DATA
+    ),
+    facts.Row("solutions", parts(SOLUTION), lambda x: x.solutions, DATA),
+    facts.maybe(
+        "witness",
+        TREE,
+        lambda x: x.step.witness if isinstance(x.step, steps.NoValue) else None,
+        DATA,
+    ),
 ]
-CHOICE: Section[Choices] = Section(
-    Row("name", TEXT, lambda x: x.name),
-    Row("value", TEXT, lambda x: x.value),
-    Row("order", POSITION, lambda x: x.order),
-    Row("dimension_before", INTEGER, lambda x: x.before),
-    Row("dimension", INTEGER, lambda x: x.after),
+CHOICE: facts.Section[Choices] = facts.Section(
+    facts.Row("name", TEXT, lambda x: x.name),
+    facts.Row("value", TEXT, lambda x: x.value),
+    facts.Row("order", POSITION, lambda x: x.order),
+    facts.Row("dimension_before", INTEGER, lambda x: x.before),
+    facts.Row("dimension", INTEGER, lambda x: x.after),
 )
-DECIMAL: Kind[RealRoot | str] = Kind(
-    Json(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
+DECIMAL: facts.Kind[RealRoot | str] = facts.Kind(
+    facts.Json(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
 )
 
 
@@ -682,53 +672,55 @@ class Minimiser(NamedTuple):
     candidate: Candidate
 
 
-MINIMISER: Section[Minimiser] = Section(
-    Row("values", VALUES_OF, lambda x: _parameters(x.minimum, x.candidate)),
-    via(lambda x: x.candidate.found, OF_FOUND[1:]),
-    Row("proof", choice(*get_args(Proof)), lambda x: x.candidate.proof),
-    Row("constant", TRUTH, lambda x: x.candidate.is_constant),
-    via(lambda x: x.candidate.found, FURTHER[:1]),
-    optional(
+MINIMISER: facts.Section[Minimiser] = facts.Section(
+    facts.Row("values", VALUES_OF, lambda x: _parameters(x.minimum, x.candidate)),
+    facts.via(lambda x: x.candidate.found, OF_FOUND[1:]),
+    facts.Row("proof", choice(*get_args(Proof)), lambda x: x.candidate.proof),
+    facts.Row("constant", TRUTH, lambda x: x.candidate.is_constant),
+    facts.via(lambda x: x.candidate.found, FURTHER[:1]),
+    facts.optional(
         "embedded_error", END, lambda x: _embedded_error(x.candidate.found, x.candidate.index)
     ),
-    via(lambda x: x.candidate.found, FURTHER[1:]),
+    facts.via(lambda x: x.candidate.found, FURTHER[1:]),
 )
-LIMIT: Section[ObjectiveLimit] = Section(
-    Row("parameter", TEXT, lambda x: x.parameter), Row("toward", END, _end)
+LIMIT: facts.Section[ObjectiveLimit] = facts.Section(
+    facts.Row("parameter", TEXT, lambda x: x.parameter), facts.Row("toward", END, _end)
 )
-OBJECTIVE: Section[Minimum] = Section(
-    Row("name", TEXT, lambda x: x.objective.key),
-    Row("order", POSITION, lambda x: x.step.order),
-    maybe("value", DECIMAL, _value),
-    maybe("exact", END, _value),
-    Row("among", choice(*get_args(Extent)), lambda x: x.extent),
-    Row("compared", COUNT, lambda x: x.candidates),
-    optional("gradient", TEXT, _gradient),
-    Row("minimisers", parts(MINIMISER), lambda x: [Minimiser(x, one) for one in x.minimisers]),
-    Row("limits", parts(LIMIT), lambda x: x.limits),
+OBJECTIVE: facts.Section[Minimum] = facts.Section(
+    facts.Row("name", TEXT, lambda x: x.objective.key),
+    facts.Row("order", POSITION, lambda x: x.step.order),
+    facts.maybe("value", DECIMAL, _value),
+    facts.maybe("exact", END, _value),
+    facts.Row("among", choice(*get_args(Extent)), lambda x: x.extent),
+    facts.Row("compared", COUNT, lambda x: x.candidates),
+    facts.optional("gradient", TEXT, _gradient),
+    facts.Row(
+        "minimisers", parts(MINIMISER), lambda x: [Minimiser(x, one) for one in x.minimisers]
+    ),
+    facts.Row("limits", parts(LIMIT), lambda x: x.limits),
 )
-WHOLE: Section[DesignReport] = Section(
-    Row("file", TEXT, lambda x: x.file, DATA),
-    Row("name", TEXT, lambda x: x.design.family.name, DETAIL),
-    Row("of", choice(*get_args(Whose)), lambda x: x.design.whose, DATA),
+WHOLE: facts.Section[DesignReport] = facts.Section(
+    facts.Row("file", TEXT, lambda x: x.file, DATA),
+    facts.Row("name", TEXT, lambda x: x.design.family.name, DETAIL),
+    facts.Row("of", choice(*get_args(Whose)), lambda x: x.design.whose, DATA),
     answer(_answer),
-    Row("least", told(_least), lambda x: x.minimum, HEADLINE, label=""),
-    Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
-    Row("choices", parts(CHOICE), lambda x: x.choices, DATA),
-    Row("choices_in_words", rows_of(choice_rows), lambda x: x.choices),
-    via(lambda x: OrderDemand(x.design, x.design.last), STEP),
-    Row(
+    facts.Row("least", told(_least), lambda x: x.minimum, HEADLINE, label=""),
+    facts.Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
+    facts.Row("choices", parts(CHOICE), lambda x: x.choices, DATA),
+    facts.Row("choices_in_words", rows_of(choice_rows), lambda x: x.choices),
+    facts.via(lambda x: OrderDemand(x.design, x.design.last), STEP),
+    facts.Row(
         "orders",
-        parts(Section(STEP)),
+        parts(facts.Section(STEP)),
         lambda x: [OrderDemand(x.design, step) for step in x.design.steps],
         DATA,
     ),
-    itself("orders_in_words", rows_of(order_rows)),
-    itself("further_in_words", rows_of(further_rows)),
-    optional("objective", part(OBJECTIVE), lambda x: x.minimum, DATA),
-    Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
-    optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),
-    itself("stable_in_words", rows_of(stable_rows)),
+    facts.itself("orders_in_words", rows_of(order_rows)),
+    facts.itself("further_in_words", rows_of(further_rows)),
+    facts.optional("objective", part(OBJECTIVE), lambda x: x.minimum, DATA),
+    facts.Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
+    facts.optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),
+    facts.itself("stable_in_words", rows_of(stable_rows)),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[DesignReport] = Report.only(

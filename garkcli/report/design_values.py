@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
@@ -16,10 +16,8 @@ from garkcli.exact.polynomial import in_one
 from garkcli.exact.polynomial_text import root_text
 from garkcli.reason import Reason
 from garkcli.tableau.family import Family, Radical
+from garkcli.tell.dialect import Plain
 from garkcli.tell.kinds import EXPRESSION
-
-if TYPE_CHECKING:
-    from garkcli.tell.dialect import Plain
 
 AnyPolynomial: TypeAlias = "fmpq_mpoly | fmpz_mpoly"
 _NAME = re.compile(r"[A-Za-z_]\w*")

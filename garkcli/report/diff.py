@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from flint import arb, fmpq
 
@@ -15,6 +15,9 @@ from garkcli.constructions.derivatives import words_of
 from garkcli.constructions.nprk import is_nprk
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_text
+from garkcli.exact.field import Number
+from garkcli.order.conditions import Condition
+from garkcli.order.deciding import AnyOrder
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.properties.registry import KEYS
 from garkcli.properties.verdict import Size, Verdict
@@ -22,6 +25,7 @@ from garkcli.reason import Reason
 from garkcli.report.check import rounding, verdict_words
 from garkcli.report.other_methods import rosenbrock_words
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.pointwise import Cell
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Plain, Status
@@ -29,12 +33,6 @@ from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Wo
 from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.parts import told as told_kind
 from garkcli.tell.report import DialectSigns, Report
-
-if TYPE_CHECKING:
-    from garkcli.exact.field import Number
-    from garkcli.order.conditions import Condition
-    from garkcli.order.deciding import AnyOrder
-    from garkcli.tableau.pointwise import Cell
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 FORMS = {

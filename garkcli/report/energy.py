@@ -11,14 +11,7 @@ from flint import fmpq
 from garkcli.errors import counted
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.frozen import Frozen, replace
-from garkcli.longtime.history import (
-    WORDS,
-    Doubt,
-    InvariantHistory,
-    LongRun,
-    StepMapStability,
-    Verdict,
-)
+from garkcli.longtime import history as histories
 from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
@@ -29,25 +22,13 @@ from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.problem import STEPPED, Run
 from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of, word_for
+from garkcli.tell import facts
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import (
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Words,
-    itself,
-    maybe,
-    optional,
-    via,
-)
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
 from garkcli.tell.parts import SAID, answer, part, parts, plot, rows_of, table
 from garkcli.tell.report import Report
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 MOST_QUANTITIES = 10
 """Rows of a usual table in a terminal."""
 FATES = {
@@ -73,22 +54,22 @@ class EnergyReport(Frozen):
     """A long run; symplecticity is None if the problem is not Hamiltonian."""
 
     name: str
-    run: LongRun
+    run: histories.LongRun
     symplecticity: Symplecticity | None = None
     claims: tuple[RunClaim, ...] = ()
 
 
 class Quantity(NamedTuple):
-    history: InvariantHistory
-    run: LongRun
+    history: histories.InvariantHistory
+    run: histories.LongRun
 
 
-def _word(history: InvariantHistory, d: Plain) -> str:
-    news, word = WORDS[history.verdict]
+def _word(history: histories.InvariantHistory, d: Plain) -> str:
+    news, word = histories.WORDS[history.verdict]
     return str(getattr(d, news)(word))
 
 
-def _because(history: InvariantHistory, run: LongRun) -> str:
+def _because(history: histories.InvariantHistory, run: histories.LongRun) -> str:
     """The reason for a verdict, and how an undecided run can be decided."""
     match history.verdict:
         case "exact":
@@ -120,11 +101,11 @@ def _because(history: InvariantHistory, run: LongRun) -> str:
     return ": it moves to another level and stays there"
 
 
-def _verdicts(run: LongRun, d: Plain) -> list[tuple[str, str]]:
+def _verdicts(run: histories.LongRun, d: Plain) -> list[tuple[str, str]]:
     return [(d.prose(x.name), _word(x, d) + d.prose(_because(x, run))) for x in run.invariants]
 
 
-def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
+def _undecided(history: histories.InvariantHistory, run: histories.LongRun) -> tuple[str, str]:
     """Why a trend is undecided, and what would decide it."""
     longer = f"--t-end {history.longer}"
     can_tell = f"{longer} can tell"
@@ -160,14 +141,14 @@ def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
     return doubts.get(history.doubt or "", (level, can_tell if history.doubt else ""))
 
 
-def _direction(history: InvariantHistory) -> str:
+def _direction(history: histories.InvariantHistory) -> str:
     """Whether a trend rises or falls, by its slope or, without one, by its end."""
     drift = history.drift or 0.0
     went = drift if history.shape == "line" else history.errors[-1]
     return "rises" if went > 0 else "falls"
 
 
-def _times(history: InvariantHistory) -> str:
+def _times(history: histories.InvariantHistory) -> str:
     """The drift over its uncertainty, in one digit."""
     drift = history.drift or 0.0
     uncertainty = history.uncertainty or 1.0
@@ -176,24 +157,24 @@ def _times(history: InvariantHistory) -> str:
     return f"{digit:g}"
 
 
-def _determinant(stability: StepMapStability) -> str:
+def _determinant(stability: histories.StepMapStability) -> str:
     return to_decimal(stability.determinant - 1, 4)
 
 
-def _is_measured(history: InvariantHistory) -> bool:
+def _is_measured(history: histories.InvariantHistory) -> bool:
     return history.verdict != "exact" and history.doubt not in ("rest", "value")
 
 
-def _oscillates(history: InvariantHistory) -> bool:
+def _oscillates(history: histories.InvariantHistory) -> bool:
     is_noise = history.verdict in ("round-off", "unstable") or history.doubt == "round-off"
     return _is_measured(history) and not is_noise
 
 
-def _largest(history: InvariantHistory) -> str | None:
+def _largest(history: histories.InvariantHistory) -> str | None:
     return measured(history.max_error, history.round_off) if _is_measured(history) else None
 
 
-def _oscillation(history: InvariantHistory) -> str | None:
+def _oscillation(history: histories.InvariantHistory) -> str | None:
     if not _oscillates(history):
         return None
     return f"± {measured(history.amplitude, history.round_off, 3)}"
@@ -258,14 +239,14 @@ def _symplectic(report: EnergyReport) -> Iterator[str]:
     yield f"MᵀJM − J {size}, at t = {times}"
 
 
-def _steps(run: LongRun) -> str:
+def _steps(run: histories.LongRun) -> str:
     how = "exact" if run.digits is None else "in floats"
     if run.digits is not None and run.digits > FLOAT_DIGITS:
         how = f"{run.digits} digits"
     return f"{run.steps} of {run.step}, {how}"
 
 
-def _answer(run: LongRun, d: Plain) -> str:
+def _answer(run: histories.LongRun, d: Plain) -> str:
     return ", ".join(f"{d.prose(x.name)} {_word(x, d)}" for x in run.invariants)
 
 
@@ -276,101 +257,103 @@ def _claims(claims: tuple[RunClaim, ...], d: Plain) -> list[tuple[str, str]]:
     ]
 
 
-def _seen(run: LongRun) -> tuple[InvariantHistory, ...]:
+def _seen(run: histories.LongRun) -> tuple[histories.InvariantHistory, ...]:
     """The invariants whose errors exceed round-off, which is different on every machine."""
     return tuple(x for x in run.invariants if x.max_error > x.round_off)
 
 
-SIZE: Kind[float] = Kind(Json(S.SIZE))
-NUMBER: Kind[float] = Kind(Json(S.NUMBER))
-INITIAL: Kind[float] = Kind(Json(S.NUMBER), Words(lambda x, _: f"{x:.6g}"))
-TIME: Kind[fmpq] = Kind(Json(S.SIZE, lambda x, _: to_float(x)))
-QUANTITY: Section[Quantity] = Section(
-    Row("name", TEXT, lambda x: x.history.name, label=""),
-    Row("initial", INITIAL, lambda x: x.history.initial, label="at the start"),
-    Row("largest", SAID, lambda x: _largest(x.history), label="largest error"),
-    Row("oscillation_in_words", SAID, lambda x: _oscillation(x.history), label="oscillation"),
-    Row("drift_in_words", SAID, _drift, label="drift"),
-    Row("max_error", SIZE, lambda x: x.history.max_error, DATA),
-    Row("drift", NUMBER, lambda x: x.history.drift, DATA),
-    Row("drift_uncertainty", SIZE, lambda x: x.history.uncertainty, DATA),
-    Row(
+SIZE: facts.Kind[float] = facts.Kind(facts.Json(S.SIZE))
+NUMBER: facts.Kind[float] = facts.Kind(facts.Json(S.NUMBER))
+INITIAL: facts.Kind[float] = facts.Kind(facts.Json(S.NUMBER), facts.Words(lambda x, _: f"{x:.6g}"))
+TIME: facts.Kind[fmpq] = facts.Kind(facts.Json(S.SIZE, lambda x, _: to_float(x)))
+QUANTITY: facts.Section[Quantity] = facts.Section(
+    facts.Row("name", TEXT, lambda x: x.history.name, label=""),
+    facts.Row("initial", INITIAL, lambda x: x.history.initial, label="at the start"),
+    facts.Row("largest", SAID, lambda x: _largest(x.history), label="largest error"),
+    facts.Row("oscillation_in_words", SAID, lambda x: _oscillation(x.history), label="oscillation"),
+    facts.Row("drift_in_words", SAID, _drift, label="drift"),
+    facts.Row("max_error", SIZE, lambda x: x.history.max_error, DATA),
+    facts.Row("drift", NUMBER, lambda x: x.history.drift, DATA),
+    facts.Row("drift_uncertainty", SIZE, lambda x: x.history.uncertainty, DATA),
+    facts.Row(
         "drift_in_all",
         NUMBER,
         lambda x: None if x.history.drift is None else x.history.drift * x.run.end,
         DATA,
     ),
-    Row("oscillation", SIZE, lambda x: x.history.amplitude, DATA),
-    Row("round_off", SIZE, lambda x: x.history.round_off, DATA),
-    Row("rounded_coefficients", SIZE, lambda x: x.history.coefficients, DATA),
-    Row("verdict", choice(*get_args(Verdict)), lambda x: x.history.verdict, DATA),
-    Row("trend", choice(*get_args(Shape)), lambda x: x.history.shape, DATA),
-    Row("t_end_to_decide", TIME, lambda x: x.history.longer, DATA),
-    Row("doubt", choice(*get_args(Doubt), None), lambda x: x.history.doubt, DATA),
-    Row("no_value_at", TIME, lambda x: x.history.no_value_at, DATA),
+    facts.Row("oscillation", SIZE, lambda x: x.history.amplitude, DATA),
+    facts.Row("round_off", SIZE, lambda x: x.history.round_off, DATA),
+    facts.Row("rounded_coefficients", SIZE, lambda x: x.history.coefficients, DATA),
+    facts.Row("verdict", choice(*get_args(histories.Verdict)), lambda x: x.history.verdict, DATA),
+    facts.Row("trend", choice(*get_args(Shape)), lambda x: x.history.shape, DATA),
+    facts.Row("t_end_to_decide", TIME, lambda x: x.history.longer, DATA),
+    facts.Row("doubt", choice(*get_args(histories.Doubt), None), lambda x: x.history.doubt, DATA),
+    facts.Row("no_value_at", TIME, lambda x: x.history.no_value_at, DATA),
 )
-RUN: Rows[LongRun] = [
-    Row("steps_in_words", SAID, _steps, label="steps"),
-    Row("step", TIME, lambda x: x.step, DATA),
-    Row("step_exact", EXACT, lambda x: x.step, DATA),
-    Row("t_end", TIME, lambda x: x.t_end, DATA),
-    Row("t_end_exact", EXACT, lambda x: x.t_end, DATA),
-    Row("steps", COUNT, lambda x: x.steps, DATA),
-    maybe("digits", POSITION, lambda x: x.digits, DATA),
-    maybe("turns", COUNT, lambda x: None if x.digits is None else x.turns, DATA),
-    Row("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None, DATA),
-    Row("escaped_at", TIME, lambda x: x.escaped, DATA),
-    Row("drifts", TRUTH, lambda x: x.drifts, DATA),
+RUN: facts.Rows[histories.LongRun] = [
+    facts.Row("steps_in_words", SAID, _steps, label="steps"),
+    facts.Row("step", TIME, lambda x: x.step, DATA),
+    facts.Row("step_exact", EXACT, lambda x: x.step, DATA),
+    facts.Row("t_end", TIME, lambda x: x.t_end, DATA),
+    facts.Row("t_end_exact", EXACT, lambda x: x.t_end, DATA),
+    facts.Row("steps", COUNT, lambda x: x.steps, DATA),
+    facts.maybe("digits", POSITION, lambda x: x.digits, DATA),
+    facts.maybe("turns", COUNT, lambda x: None if x.digits is None else x.turns, DATA),
+    facts.Row("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None, DATA),
+    facts.Row("escaped_at", TIME, lambda x: x.escaped, DATA),
+    facts.Row("drifts", TRUTH, lambda x: x.drifts, DATA),
     answer(_answer),
-    itself("verdicts", rows_of(_verdicts)),
-    Row(
+    facts.itself("verdicts", rows_of(_verdicts)),
+    facts.Row(
         "quantities",
         table(QUANTITY, MOST_QUANTITIES),
         lambda run: [Quantity(x, run) for x in run.invariants],
         label="",
     ),
 ]
-DEFECT: Section[Defect] = Section(
-    Row("t", TIME, lambda x: x.time),
-    Row("size", SIZE, lambda x: x.size),
-    Row("good_to", SIZE, lambda x: x.error),
+DEFECT: facts.Section[Defect] = facts.Section(
+    facts.Row("t", TIME, lambda x: x.time),
+    facts.Row("size", SIZE, lambda x: x.size),
+    facts.Row("good_to", SIZE, lambda x: x.error),
 )
-OF_STEPS: Rows[Symplecticity] = (
-    Row("proved", TRUTH, lambda x: x.is_proved),
-    Row("defects", parts(DEFECT), lambda x: x.defects),
+OF_STEPS: facts.Rows[Symplecticity] = (
+    facts.Row("proved", TRUTH, lambda x: x.is_proved),
+    facts.Row("defects", parts(DEFECT), lambda x: x.defects),
 )
-SYMPLECTIC: Section[EnergyReport] = Section(
-    via(lambda x: x.symplecticity, OF_STEPS[:1]),
-    optional(
+SYMPLECTIC: facts.Section[EnergyReport] = facts.Section(
+    facts.via(lambda x: x.symplecticity, OF_STEPS[:1]),
+    facts.optional(
         "determinant_minus_1",
         TEXT,
         lambda x: None if x.run.stability is None else _determinant(x.run.stability),
     ),
-    via(lambda x: x.symplecticity, OF_STEPS[1:]),
+    facts.via(lambda x: x.symplecticity, OF_STEPS[1:]),
 )
-CLAIM: Section[RunClaim] = Section(
-    Row("claim", TEXT, lambda x: x.claim),
-    Row("found", TEXT, lambda x: x.found),
-    maybe("holds", TRUTH, lambda x: x.holds),
+CLAIM: facts.Section[RunClaim] = facts.Section(
+    facts.Row("claim", TEXT, lambda x: x.claim),
+    facts.Row("found", TEXT, lambda x: x.found),
+    facts.maybe("holds", TRUTH, lambda x: x.holds),
 )
 
 
-def _form(problem: Rows[Run]) -> Section[EnergyReport]:
-    return Section(
-        Row("name", TEXT, lambda x: x.name, DATA),
-        Row("derivation", DERIVATION, lambda x: derivation_of(x.run.method), DATA),
-        via(lambda x: x.run, problem),
-        via(lambda x: x.run, RUN),
-        Row("symplectic_in_words", SAID, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
-        Row("claims_in_words", rows_of(_claims), lambda x: x.claims),
+def _form(problem: facts.Rows[Run]) -> facts.Section[EnergyReport]:
+    return facts.Section(
+        facts.Row("name", TEXT, lambda x: x.name, DATA),
+        facts.Row("derivation", DERIVATION, lambda x: derivation_of(x.run.method), DATA),
+        facts.via(lambda x: x.run, problem),
+        facts.via(lambda x: x.run, RUN),
+        facts.Row(
+            "symplectic_in_words", SAID, lambda x: "; ".join(_symplectic(x)), label="symplectic"
+        ),
+        facts.Row("claims_in_words", rows_of(_claims), lambda x: x.claims),
         plot(
             lambda x: energy_scene(replace(x.run, invariants=_seen(x.run))),
             lambda x: bool(_seen(x.run)),
         ),
-        maybe(
+        facts.maybe(
             "symplectic", part(SYMPLECTIC), lambda x: None if x.symplecticity is None else x, DATA
         ),
-        Row("claims", parts(CLAIM), lambda x: x.claims, DATA),
+        facts.Row("claims", parts(CLAIM), lambda x: x.claims, DATA),
         title=lambda x, d: d.prose(x.name),
     )
 
@@ -386,8 +369,8 @@ class Moment(NamedTuple):
     errors: dict[str, float]
 
 
-ERRORS: Kind[dict[str, float]] = Kind(
-    Json(
+ERRORS: facts.Kind[dict[str, float]] = facts.Kind(
+    facts.Json(
         {"type": "object"},
         csv=lambda errors: {
             f"{name.replace(' ', '_')}_error": "" if isnan(x) else repr(x)
@@ -395,8 +378,8 @@ ERRORS: Kind[dict[str, float]] = Kind(
         },
     )
 )
-MOMENT: Section[Moment] = Section(
-    Row("t", SIZE, lambda x: x.t), Row("errors", ERRORS, lambda x: x.errors)
+MOMENT: facts.Section[Moment] = facts.Section(
+    facts.Row("t", SIZE, lambda x: x.t), facts.Row("errors", ERRORS, lambda x: x.errors)
 )
 
 
@@ -406,7 +389,7 @@ def _moments(report: EnergyReport) -> Iterator[Moment]:
         yield Moment(t, {x.name: x.errors[k] for x in invariants})
 
 
-def form(x: EnergyReport | FailedRun) -> Section[Any]:
+def form(x: EnergyReport | FailedRun) -> facts.Section[Any]:
     return FAILURE if isinstance(x, FailedRun) else FORMS[type(x.run.problem)]
 
 
@@ -420,6 +403,6 @@ REPORT: Report[EnergyReport | FailedRun] = Report(
 )
 
 
-def whole(run: LongRun, name: str) -> EnergyReport:
+def whole(run: histories.LongRun, name: str) -> EnergyReport:
     """A run under the name of its method if there is no other."""
     return EnergyReport(name or ("" if run.method is None else run.method.name), run)

@@ -11,7 +11,7 @@ from garkcli.check.every_facts import FamilyFact, exceptions, fact_reason, zeros
 from garkcli.check.every_facts import told as told_value
 from garkcli.check.every_family import EveryFamily
 from garkcli.check.every_properties import find_property
-from garkcli.design.stability_functions import FamilyFunction, family_functions
+from garkcli.design.stability_functions import Coefficients, FamilyFunction, family_functions
 from garkcli.exact.display import to_text
 from garkcli.exact.polynomial_text import power_text, sum_text
 from garkcli.frozen import Frozen, replace
@@ -22,7 +22,7 @@ from garkcli.reason import Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.report.design_values import conditions
 from garkcli.tell import kinds
-from garkcli.tell.dialect import Status
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.facts import (
     Answer,
     Json,
@@ -45,9 +45,7 @@ if TYPE_CHECKING:
     from garkcli.check.every_orders import EveryOrder
     from garkcli.check.every_value import EveryValue
     from garkcli.check.outcome import Outcome
-    from garkcli.design.stability_functions import Coefficients
     from garkcli.order.certificate import Witness
-    from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 V = TypeVar("V")

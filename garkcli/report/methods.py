@@ -20,25 +20,13 @@ from garkcli.report.citation import REFERENCE, short_name
 from garkcli.report.tableau import DOCUMENT, ShownTableau, drawn
 from garkcli.tableau.pointwise import Entries
 from garkcli.tableau.tableau import Tableau
+from garkcli.tell import facts
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Words,
-    itself,
-    maybe,
-    via,
-)
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import SAID, drawing, part, parts, shown, told
 from garkcli.tell.report import ListReport, Report
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 V = TypeVar("V")
 Entry: TypeAlias = dict[str, Any]
 ORDER = "order"
@@ -46,10 +34,10 @@ ORDER = "order"
 
 
 def _field(
-    key: str, kind: Kind[V], level: Level = DATA, has_null: bool = True, line: str = ""
-) -> Row[Entry]:
+    key: str, kind: facts.Kind[V], level: facts.Level = DATA, has_null: bool = True, line: str = ""
+) -> facts.Row[Entry]:
     """The field of that name; null if nobody knows it."""
-    row = maybe if has_null else Row
+    row = facts.maybe if has_null else facts.Row
     return row(key, kind, lambda entry: entry[key], level, line=line)
 
 
@@ -57,12 +45,12 @@ def rounding(entry: Entry) -> fmpq | None:
     return None if entry["tolerance"] is None else read_decimal(entry["tolerance"])
 
 
-def order(key: str) -> Callable[[Entry], Answer[int]]:
-    return lambda entry: Answer(entry[key], Status(rounding(entry)))
+def order(key: str) -> Callable[[Entry], facts.Answer[int]]:
+    return lambda entry: facts.Answer(entry[key], Status(rounding(entry)))
 
 
-def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Entry]:
-    return maybe(key, COUNT, order(key), level, line=ORDER, label=label)
+def _order(key: str, level: facts.Level = USUAL, label: str | None = None) -> facts.Row[Entry]:
+    return facts.maybe(key, COUNT, order(key), level, line=ORDER, label=label)
 
 
 def _size_words(text: str, d: Plain) -> str:
@@ -72,9 +60,9 @@ def _size_words(text: str, d: Plain) -> str:
     return d.prose(shortest(fmpq(int(over), int(under))) if is_fraction else text)
 
 
-SIZE: Kind[str] = Kind(TEXT.what, Words(_size_words))
-KINDS: dict[str, Kind[Never]] = {"truth": TRUTH, "count": COUNT, "number": SIZE}
-PROPERTIES: Rows[Entry] = [
+SIZE: facts.Kind[str] = facts.Kind(TEXT.what, facts.Words(_size_words))
+KINDS: dict[str, facts.Kind[Never]] = {"truth": TRUTH, "count": COUNT, "number": SIZE}
+PROPERTIES: facts.Rows[Entry] = [
     _field(
         x.field,
         KINDS[x.kind],
@@ -84,7 +72,9 @@ PROPERTIES: Rows[Entry] = [
     for x in every_property()
 ]
 TRUTHS = ["symplectic", *(x.field for x in every_property() if x.kind == "truth")]
-STAGES: Kind[list[int]] = Kind(Json(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs))))
+STAGES: facts.Kind[list[int]] = facts.Kind(
+    facts.Json(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs)))
+)
 BY_KIND = {
     "rk": "Runge-Kutta",
     "ark": "additive",
@@ -101,7 +91,7 @@ BY_KIND = {
 KEYS_OF_KINDS = {"rosenbrock": "row", "nystrom": "rkn", "derivatives": "mdrk", "multirate": "mri"}
 """Kinds by the keys of their files, where these differ."""
 _KIND = choice(*BY_KIND, None)
-METHOD: Rows[Entry] = [
+METHOD: facts.Rows[Entry] = [
     _field("name", TEXT, USUAL, has_null=False),
     _field("aliases", TEXTS, USUAL, has_null=False),
     _field("file", TEXT, DETAIL, has_null=False),
@@ -199,14 +189,14 @@ def _type(entry: Entry) -> str:
     return next((word for key, word in TYPES.items() if entry[key]), "")
 
 
-LINE: Section[Entry] = Section(
-    Row("name", TEXT, lambda x: x["name"], label=""),
-    itself("order", told(_order_words)),
-    itself("stages", told(_stages_words)),
-    Row("kind", TEXT, lambda x: x["kind"] or "unread"),
-    Row("explicit", TEXT, _type, label="type"),
-    itself("properties", told(_marks_words), label="is"),
-    itself("reference", told(_reference_words)),
+LINE: facts.Section[Entry] = facts.Section(
+    facts.Row("name", TEXT, lambda x: x["name"], label=""),
+    facts.itself("order", told(_order_words)),
+    facts.itself("stages", told(_stages_words)),
+    facts.Row("kind", TEXT, lambda x: x["kind"] or "unread"),
+    facts.Row("explicit", TEXT, _type, label="type"),
+    facts.itself("properties", told(_marks_words), label="is"),
+    facts.itself("reference", told(_reference_words)),
     is_cut=True,
 )
 """A method in a line."""
@@ -259,16 +249,16 @@ def by_kind(entries: Sequence[Entry], width: int) -> list[str]:
 REPORT: Report[Sequence[Entry]] = ListReport.only(
     "",
     "list of gark list methods",
-    Section(
-        itself("methods", parts(Section(METHOD)), DATA),
-        itself("name", shown(LINE, 0)),
+    facts.Section(
+        facts.itself("methods", parts(facts.Section(METHOD)), DATA),
+        facts.itself("name", shown(LINE, 0)),
         title=_title,
     ),
-    lines=lambda entries: (Section(METHOD), entries),
+    lines=lambda entries: (facts.Section(METHOD), entries),
 )
 
 
-DETAIL, DATA = Level.DETAIL, Level.DATA
+DETAIL, DATA = facts.Level.DETAIL, facts.Level.DATA
 
 
 class ShownMethod(Frozen):
@@ -324,23 +314,23 @@ def undecided(x: ShownMethod) -> str:
 SHOWN: Report[ShownMethod] = Report.only(
     "gark/show/1",
     "report of gark show",
-    Section(
-        Row("kind", SAID, kind),
-        Row("description", SAID, lambda x: " ".join(x.description.split())),
-        via(lambda x: x.entry, METHOD),
-        Row("description", TEXT, lambda x: x.description, DATA),
-        Row("it_is", SAID, lambda x: such(x, value=True), is_short=True),
-        Row("it_is_not", SAID, lambda x: such(x, value=False), is_short=True),
-        Row("undecided", SAID, undecided, label="not decided"),
-        Row("doi", SAID, lambda x: None if x.reference is None else x.reference.doi),
-        Row(
+    facts.Section(
+        facts.Row("kind", SAID, kind),
+        facts.Row("description", SAID, lambda x: " ".join(x.description.split())),
+        facts.via(lambda x: x.entry, METHOD),
+        facts.Row("description", TEXT, lambda x: x.description, DATA),
+        facts.Row("it_is", SAID, lambda x: such(x, value=True), is_short=True),
+        facts.Row("it_is_not", SAID, lambda x: such(x, value=False), is_short=True),
+        facts.Row("undecided", SAID, undecided, label="not decided"),
+        facts.Row("doi", SAID, lambda x: None if x.reference is None else x.reference.doi),
+        facts.Row(
             "coefficients",
             SAID,
             lambda x: None if x.reference is None else x.reference.coefficients,
         ),
-        maybe("publication", part(REFERENCE), lambda x: x.reference, DATA),
-        Row("tableau", part(DOCUMENT), lambda x: x.whole, DATA),
-        Row("tableau", drawing(drawn), lambda x: x.whole),
+        facts.maybe("publication", part(REFERENCE), lambda x: x.reference, DATA),
+        facts.Row("tableau", part(DOCUMENT), lambda x: x.whole, DATA),
+        facts.Row("tableau", drawing(drawn), lambda x: x.whole),
         title=lambda x, d: d.prose(x.title),
     ),
     letters=lambda x: x.tableau,

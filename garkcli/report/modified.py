@@ -16,37 +16,12 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.lines import numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import describe
+from garkcli.tell import facts, kinds
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    FieldBeside,
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Words,
-    maybe,
-    via,
-)
-from garkcli.tell.kinds import (
-    COUNT,
-    DERIVATION,
-    INDEX,
-    NUMERAL,
-    POSITION,
-    TEXT,
-    TEXTS,
-    TOLERANCE,
-    TREE,
-    TRUTH,
-    choice,
-)
 from garkcli.tell.parts import SAID, part, parts, rows_of, table, told
 from garkcli.tell.report import Report
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 MOST_TERMS = 10
 """Rows of a usual table in a terminal."""
 _FORMLESS = Reason("no Hamiltonian problem has its form")
@@ -86,21 +61,23 @@ def _size(factor: Number, d: Plain) -> str:
     return "" if d.breadth == "page" else to_decimal(factor, 4)
 
 
-TERM: Section[ModifiedTerm] = Section(
-    Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
-    Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
-    Row("tree", TREE, lambda x: x.tree),
-    Row("root", INDEX, lambda x: x.tree.root, DATA),
-    Row("order", POSITION, lambda x: x.tree.order, DATA),
-    Row("symmetry", POSITION, lambda x: x.symmetry),
-    Row("coefficient", NUMERAL, lambda x: x.coefficient),
-    Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
-    Row("value", told(_size), lambda x: x.coefficient / x.symmetry, Level.DETAIL),
+TERM: facts.Section[ModifiedTerm] = facts.Section(
+    facts.Row(
+        "power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1
+    ),
+    facts.Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
+    facts.Row("tree", kinds.TREE, lambda x: x.tree),
+    facts.Row("root", kinds.INDEX, lambda x: x.tree.root, DATA),
+    facts.Row("order", kinds.POSITION, lambda x: x.tree.order, DATA),
+    facts.Row("symmetry", kinds.POSITION, lambda x: x.symmetry),
+    facts.Row("coefficient", kinds.NUMERAL, lambda x: x.coefficient),
+    facts.Row("factor", kinds.NUMERAL, lambda x: x.coefficient / x.symmetry),
+    facts.Row("value", told(_size), lambda x: x.coefficient / x.symmetry, facts.Level.DETAIL),
 )
 """A term of Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 
 
-def _equation(report: ModifiedReport) -> Answer[list[ModifiedTerm]]:
+def _equation(report: ModifiedReport) -> facts.Answer[list[ModifiedTerm]]:
     """The nonzero coefficients b(u); usual if there is no Hamiltonian.
 
     A rounded method has those of its orders above 1 left out: they are zero within the tolerance.
@@ -114,17 +91,17 @@ def _equation(report: ModifiedReport) -> Answer[list[ModifiedTerm]]:
         for tree, coefficient in found.equation.terms(n)
     ]
     is_told = report.formula is None and (found.hamiltonian is None or report.with_equation)
-    return Answer(terms, level=USUAL if is_told else DATA)
+    return facts.Answer(terms, level=USUAL if is_told else DATA)
 
 
-def _hamiltonian(report: ModifiedReport) -> Answer[list[ModifiedTerm]]:
+def _hamiltonian(report: ModifiedReport) -> facts.Answer[list[ModifiedTerm]]:
     found = report.found.hamiltonian
     terms = (
         None
         if found is None
         else [ModifiedTerm(x.tree.representative, x.tree.symmetry, x.coefficient) for x in found]
     )
-    return Answer(terms, level=USUAL if report.formula is None else DATA)
+    return facts.Answer(terms, level=USUAL if report.formula is None else DATA)
 
 
 def unknowns_of(formula: ModifiedFormula) -> list[str]:
@@ -173,24 +150,24 @@ def _row(left: str, terms: Sequence[PowerTerm], component: int) -> str:
     return f"  {left} &= {joined}"
 
 
-POWER: Section[PowerTerm] = Section(
-    Row("power", COUNT, lambda x: x.power),
-    Row("formulas", TEXTS, lambda x: [_text(y) for y in x.formulas]),
+POWER: facts.Section[PowerTerm] = facts.Section(
+    facts.Row("power", kinds.COUNT, lambda x: x.power),
+    facts.Row("formulas", kinds.TEXTS, lambda x: [_text(y) for y in x.formulas]),
 )
-FORMULA: Section[ModifiedFormula] = Section(
-    Row("problem", TEXT, lambda x: x.problem.name),
-    Row("of", choice("hamiltonian", "equation"), lambda x: x.of),
-    Row("unknowns", TEXTS, unknowns_of),
-    Row("max_power", COUNT, lambda x: x.max_order - 1),
-    Row("terms", parts(POWER), lambda x: x.terms),
+FORMULA: facts.Section[ModifiedFormula] = facts.Section(
+    facts.Row("problem", kinds.TEXT, lambda x: x.problem.name),
+    facts.Row("of", kinds.choice("hamiltonian", "equation"), lambda x: x.of),
+    facts.Row("unknowns", kinds.TEXTS, unknowns_of),
+    facts.Row("max_power", kinds.COUNT, lambda x: x.max_order - 1),
+    facts.Row("terms", parts(POWER), lambda x: x.terms),
 )
 
 
-REACHED: Kind[int] = Kind(
-    Json(
+REACHED: facts.Kind[int] = facts.Kind(
+    facts.Json(
         S.COUNT,
         beside=(
-            FieldBeside(
+            facts.FieldBeside(
                 "*order_is_lower_bound",
                 S.nullable(S.FLAG),
                 lambda a, _: a.status.at_least,
@@ -198,26 +175,26 @@ REACHED: Kind[int] = Kind(
             ),
         ),
     ),
-    Words(lambda x, _: str(x)),
+    facts.Words(lambda x, _: str(x)),
 )
 
 
 def _order(
-    key: str, get: Callable[[BackwardAnalysis], Reached | None], level: Level = HEADLINE
-) -> Row[BackwardAnalysis]:
-    def answer(x: BackwardAnalysis) -> Answer[int]:
+    key: str, get: Callable[[BackwardAnalysis], Reached | None], level: facts.Level = HEADLINE
+) -> facts.Row[BackwardAnalysis]:
+    def answer(x: BackwardAnalysis) -> facts.Answer[int]:
         reached = get(x)
         if reached is None:
-            return Answer(None, reason=_FORMLESS)
-        return Answer(reached.order, Status(x.tolerance, reached.is_lower_bound))
+            return facts.Answer(None, reason=_FORMLESS)
+        return facts.Answer(reached.order, Status(x.tolerance, reached.is_lower_bound))
 
-    return maybe(key, REACHED, answer, level)
+    return facts.maybe(key, REACHED, answer, level)
 
 
-def _symplectic(x: BackwardAnalysis) -> Answer[bool]:
+def _symplectic(x: BackwardAnalysis) -> facts.Answer[bool]:
     is_formless = x.structure is None and x.tolerance is None
     status = Status(x.tolerance if x.is_symplectic else None)
-    return Answer(x.is_symplectic, status, _FORMLESS if is_formless else NO_REASON)
+    return facts.Answer(x.is_symplectic, status, _FORMLESS if is_formless else NO_REASON)
 
 
 def _vertices(report: ModifiedReport) -> str:
@@ -231,38 +208,38 @@ def _note(report: ModifiedReport) -> str:
     return "coefficients of one method within the rounding" if is_rounded else ""
 
 
-OF_ANALYSIS: Rows[BackwardAnalysis] = (
+OF_ANALYSIS: facts.Rows[BackwardAnalysis] = (
     _order("order", lambda x: x.order),
-    Row("symplectic", TRUTH, _symplectic, HEADLINE),
+    facts.Row("symplectic", kinds.TRUTH, _symplectic, HEADLINE),
     _order("symplectic_order", lambda x: x.symplectic, USUAL),
     _order("energy_order", lambda x: x.energy),
     _order("effective_order", lambda x: x.effective),
 )
-MODIFIED: Section[ModifiedReport] = Section(
-    Row("file", TEXT, lambda x: x.file, DATA),
-    Row("name", TEXT, lambda x: x.name, DATA),
-    Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
-    maybe("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA),
-    via(lambda x: x.found, OF_ANALYSIS),
-    Row("trees", SAID, _vertices),
-    Row("colours_in_words", SAID, lambda x: numbered(x.names), label="colours"),
-    Row("colours", TEXTS, lambda x: x.names, DATA),
-    Row("max_order", POSITION, lambda x: x.found.equation.max_order, DATA),
-    Row("note", SAID, _note),
-    Row("formula_in_words", rows_of(_formula_rows), lambda x: x.formula),
-    maybe(
+MODIFIED: facts.Section[ModifiedReport] = facts.Section(
+    facts.Row("file", kinds.TEXT, lambda x: x.file, DATA),
+    facts.Row("name", kinds.TEXT, lambda x: x.name, DATA),
+    facts.Row("derivation", kinds.DERIVATION, lambda x: x.derivation, DATA),
+    facts.maybe("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA),
+    facts.via(lambda x: x.found, OF_ANALYSIS),
+    facts.Row("trees", SAID, _vertices),
+    facts.Row("colours_in_words", SAID, lambda x: numbered(x.names), label="colours"),
+    facts.Row("colours", kinds.TEXTS, lambda x: x.names, DATA),
+    facts.Row("max_order", kinds.POSITION, lambda x: x.found.equation.max_order, DATA),
+    facts.Row("note", SAID, _note),
+    facts.Row("formula_in_words", rows_of(_formula_rows), lambda x: x.formula),
+    facts.maybe(
         "hamiltonian",
         table(TERM, MOST_TERMS),
         _hamiltonian,
         label="modified Hamiltonian: Σ h^(ρ−1) b(u)/|Aut| H(u)",
     ),
-    Row(
+    facts.Row(
         "equation",
         table(TERM, MOST_TERMS),
         _equation,
         label="modified equation: Σ h^(ρ−1) b(u)/σ F(u)",
     ),
-    maybe("formula", part(FORMULA), lambda x: x.formula, DATA),
+    facts.maybe("formula", part(FORMULA), lambda x: x.formula, DATA),
     title=lambda x, d: d.prose(x.name or x.file),
 )
 REPORT: Report[ModifiedReport] = Report.only(

@@ -13,9 +13,8 @@ from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.errors import counted
 from garkcli.frozen import replace
 from garkcli.report import check as c
-from garkcli.tell import kinds
-from garkcli.tell.dialect import Status
-from garkcli.tell.facts import Answer, Level, Row, Rows, Section, itself, maybe, optional, via
+from garkcli.tell import facts, kinds
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.parts import SAID, part, parts, picture, told
 
 if TYPE_CHECKING:
@@ -26,10 +25,8 @@ if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder
     from garkcli.tableau.tableau import Tableau
-    from garkcli.tell.dialect import Plain
-    from garkcli.tell.facts import Wording
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 A = TypeVar("A", bound="OtherAnalysis")
 Linear: TypeAlias = "RosenbrockAnalysis | DerivativesAnalysis"
 """Analyses of methods that are Runge–Kutta methods on linear problems."""
@@ -39,49 +36,55 @@ def _names(a: OtherAnalysis) -> list[str]:
     return [colour.name for colour in a.tableau.colours]
 
 
-def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row[OtherAnalysis]:
+def _order(
+    key: str, level: facts.Level = USUAL, label: str | None = None
+) -> facts.Row[OtherAnalysis]:
     """The order that the claim of that name is on."""
     claim = key.replace("_", "-")
 
-    def get(a: OtherAnalysis) -> Answer[AnyOrder]:
+    def get(a: OtherAnalysis) -> facts.Answer[AnyOrder]:
         view = a.view(claim)
         if view is None:
-            return Answer(None)
+            return facts.Answer(None)
         order, tableau = view
         names = [x.name for x in tableau.colours] if tableau.size > 1 else []
         return replace(kinds.order_answer(order), names=names)
 
-    row = Row if key == "order" else maybe
+    row = facts.Row if key == "order" else facts.maybe
     return row(key, kinds.ORDER, get, level, label=label)
 
 
-def _trees_that_fail(*claims: str) -> Row[OtherAnalysis]:
+def _trees_that_fail(*claims: str) -> facts.Row[OtherAnalysis]:
     def get(a: OtherAnalysis) -> list[c.Failing]:
         return c.each_once({claim: a.view(claim) for claim in claims})
 
-    return Row("trees_that_fail", picture(c.drawn), get, DETAIL)
+    return facts.Row("trees_that_fail", picture(c.drawn), get, DETAIL)
 
 
-ERROR_ESTIMATE: Row[OtherAnalysis] = maybe(
+ERROR_ESTIMATE: facts.Row[OtherAnalysis] = facts.maybe(
     "error_estimate",
     part(c.ESTIMATE, c.estimate_phrase),
     lambda a: None if a.embedded is None else a.embedded.estimator,
 )
-EXACT_TO: Row[OtherAnalysis] = Row("exact_to", kinds.POSITION, lambda a: a.tableau.exact_to, DATA)
-DENSE: Row[OtherAnalysis] = maybe(
+EXACT_TO: facts.Row[OtherAnalysis] = facts.Row(
+    "exact_to", kinds.POSITION, lambda a: a.tableau.exact_to, DATA
+)
+DENSE: facts.Row[OtherAnalysis] = facts.maybe(
     "dense", part(c.DENSE, c.dense_words), lambda a: a.dense, label="dense output"
 )
 
 
-def _truth(key: str) -> Row[Linear]:
+def _truth(key: str) -> facts.Row[Linear]:
     """A property that R(z) decides."""
 
-    def get(a: Linear) -> Answer[bool]:
+    def get(a: Linear) -> facts.Answer[bool]:
         v = a.subject.verdict(key)
         assert v.value is None or isinstance(v.value, bool)
-        return Answer(v.value, Status(open=v.reason) if v.is_undecided else Status(), v.reason)
+        return facts.Answer(
+            v.value, Status(open=v.reason) if v.is_undecided else Status(), v.reason
+        )
 
-    return maybe(key.replace("-", "_"), kinds.TRUTH, get, DATA)
+    return facts.maybe(key.replace("-", "_"), kinds.TRUTH, get, DATA)
 
 
 def _stability_words(a: Linear, d: Plain) -> str:
@@ -102,12 +105,12 @@ def _stability_words(a: Linear, d: Plain) -> str:
     return ", ".join(words)
 
 
-STABILITY: Rows[Linear] = (
-    itself("stability", told(_stability_words)),
+STABILITY: facts.Rows[Linear] = (
+    facts.itself("stability", told(_stability_words)),
     _truth("a-stable"),
     _truth("l-stable"),
-    maybe("R_infinity", kinds.EXACT, lambda a: a.subject.at_infinity, DATA),
-    optional(
+    facts.maybe("R_infinity", kinds.EXACT, lambda a: a.subject.at_infinity, DATA),
+    facts.optional(
         "R",
         kinds.ratio("z"),
         lambda a: None if a.tolerance else a.subject.on_linear_problems.linear,
@@ -118,21 +121,23 @@ STABILITY: Rows[Linear] = (
 
 
 def _form(
-    get: Callable[[Outcome], A | None], flag: str, words: Wording[A], analysis: Rows[A]
-) -> Section[Outcome]:
+    get: Callable[[Outcome], A | None], flag: str, words: facts.Wording[A], analysis: facts.Rows[A]
+) -> facts.Section[Outcome]:
     """The rows of a kind of method; ``flag`` is the field of JSON that names the kind."""
 
     def method(a: A, d: Plain) -> str:
         return c.with_arithmetic(words(a, d), a)
 
-    return Section(
+    return facts.Section(
         kinds.FILE_AND_NAME,
         c.IS_OK,
-        Row(flag, kinds.TRUE, lambda _: True, DATA),
-        via(get, [itself("method", told(method)), *c.OF_ALL_KINDS, c.COLOURS_OF, *analysis]),
+        facts.Row(flag, kinds.TRUE, lambda _: True, DATA),
+        facts.via(
+            get, [facts.itself("method", told(method)), *c.OF_ALL_KINDS, c.COLOURS_OF, *analysis]
+        ),
         c.LEFT_BEHIND,
         c.IN_FULL,
-        Row("misprints", parts(c.MISPRINT), lambda o: o.misprints, DATA),
+        facts.Row("misprints", parts(c.MISPRINT), lambda o: o.misprints, DATA),
         c.CLAIMS,
         title=c.title,
         columns=c.COLUMNS,
@@ -158,7 +163,7 @@ OF_ROSENBROCK_TREES = (
     "f' is f with one branch; W the matrix, with one; E the error of the Jacobian, with one, which "
     "counts two orders; t time; g with several branches, which counts none"
 )
-OF_ROSENBROCK: Rows[RosenbrockAnalysis] = (
+OF_ROSENBROCK: facts.Rows[RosenbrockAnalysis] = (
     _order("order", HEADLINE),
     _order("w_order", label="with any matrix W"),
     _order("old_jacobian_order", label="old Jacobian f' + hE"),
@@ -172,7 +177,7 @@ OF_ROSENBROCK: Rows[RosenbrockAnalysis] = (
     _order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
     _order("embedded_index_1_order", DETAIL, "embedded, index 1"),
     ERROR_ESTIMATE,
-    maybe(
+    facts.maybe(
         "dense_order",
         kinds.COUNT,
         lambda a: None if a.dense is None else c.dense_answer(a.dense.order, _names(a)),
@@ -180,7 +185,7 @@ OF_ROSENBROCK: Rows[RosenbrockAnalysis] = (
     DENSE,
     *STABILITY,
     _trees_that_fail("order", "w-order", "index-1-order", "embedded-order"),
-    Row("in the trees", SAID, lambda _: OF_ROSENBROCK_TREES, DETAIL),
+    facts.Row("in the trees", SAID, lambda _: OF_ROSENBROCK_TREES, DETAIL),
 )
 ROSENBROCK = _form(lambda o: o.rosenbrock, "rosenbrock", _with_gamma, OF_ROSENBROCK)
 
@@ -196,16 +201,16 @@ def _nystrom_words(a: NystromAnalysis, d: Plain) -> str:
 def _dense(
     key: str,
     of: Callable[[NystromDense], DenseOrder],
-    level: Level = USUAL,
+    level: facts.Level = USUAL,
     label: str | None = None,
-) -> Row[NystromAnalysis]:
-    def get(a: NystromAnalysis) -> Answer[int] | None:
+) -> facts.Row[NystromAnalysis]:
+    def get(a: NystromAnalysis) -> facts.Answer[int] | None:
         return None if a.dense is None else c.dense_answer(of(a.dense), _names(a))
 
-    return maybe(key, kinds.COUNT, get, level, label=label)
+    return facts.maybe(key, kinds.COUNT, get, level, label=label)
 
 
-OF_NYSTROM: Rows[NystromAnalysis] = (
+OF_NYSTROM: facts.Rows[NystromAnalysis] = (
     _order("order", HEADLINE),
     _order("position_order", label="order of q"),
     _order("velocity_order", label="order of q′"),
@@ -217,7 +222,7 @@ OF_NYSTROM: Rows[NystromAnalysis] = (
     _dense("dense_position_order", lambda x: x.position_order, label="dense, q"),
     _dense("dense_velocity_order", lambda x: x.velocity_order, label="dense, q′"),
     DENSE,
-    Row("in the trees", SAID, lambda _: OF_NYSTROM_TREES, DETAIL),
+    facts.Row("in the trees", SAID, lambda _: OF_NYSTROM_TREES, DETAIL),
     _trees_that_fail("order", "position-order", "velocity-order", "embedded-order"),
 )
 NYSTROM = _form(lambda o: o.nystrom, "nystrom", _nystrom_words, OF_NYSTROM)
@@ -226,11 +231,11 @@ NYSTROM = _form(lambda o: o.nystrom, "nystrom", _nystrom_words, OF_NYSTROM)
 OF_NPRK_TREES = "1 and 2 are the arguments of F that branches are in"
 
 
-OF_NPRK: Rows[NprkAnalysis] = (
+OF_NPRK: facts.Rows[NprkAnalysis] = (
     _order("order", HEADLINE),
     _order("embedded_order"),
     ERROR_ESTIMATE,
-    Row("in the trees", SAID, lambda _: OF_NPRK_TREES),
+    facts.Row("in the trees", SAID, lambda _: OF_NPRK_TREES),
     _trees_that_fail("order", "embedded-order"),
 )
 NPRK = _form(
@@ -243,7 +248,7 @@ NPRK = _form(
 )
 
 
-OF_DERIVATIVES: Rows[DerivativesAnalysis] = (
+OF_DERIVATIVES: facts.Rows[DerivativesAnalysis] = (
     EXACT_TO,
     _order("order", HEADLINE),
     _order("nonautonomous_order", label="order for f(t, y)"),
@@ -264,7 +269,7 @@ def _multirate_words(a: InfinitesimalAnalysis, _: Plain) -> str:
     return f"{text}{f' of {slow} slow parts' if slow > 1 else ''}, fast part exact"
 
 
-OF_MULTIRATE: Rows[InfinitesimalAnalysis] = (
+OF_MULTIRATE: facts.Rows[InfinitesimalAnalysis] = (
     EXACT_TO,
     _order("order", HEADLINE),
     _order("slow_order", label="slow method"),
@@ -275,7 +280,7 @@ OF_MULTIRATE: Rows[InfinitesimalAnalysis] = (
     _trees_that_fail("order", "embedded-order"),
 )
 MULTIRATE = _form(lambda o: o.infinitesimal, "multirate", _multirate_words, OF_MULTIRATE)
-TOLD_BY: dict[str, tuple[Section[Outcome], Rows[Never]]] = {
+TOLD_BY: dict[str, tuple[facts.Section[Outcome], facts.Rows[Never]]] = {
     "RosenbrockAnalysis": (ROSENBROCK, OF_ROSENBROCK),
     "NystromAnalysis": (NYSTROM, OF_NYSTROM),
     "NprkAnalysis": (NPRK, OF_NPRK),

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from garkcli.bridges.finding import CODES
-from garkcli.check.findings import Aside
+from garkcli.check.findings import Aside, Finding
 from garkcli.errors import Remark, excerpt, printable
 from garkcli.frozen import replace
 from garkcli.glossary.faults import findings_of
 from garkcli.page.json_text import to_json
+from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Row, Rows, Section, maybe
 from garkcli.tell.kinds import POSITION, TEXT, choice
 from garkcli.tell.parts import parts
 from garkcli.version import __version__
-
-if TYPE_CHECKING:
-    from garkcli.check.findings import Finding
-    from garkcli.tell.dialect import Plain
 
 MESSAGE: Row[Remark] = Row("message", TEXT, lambda x: x.message)
 HELP: Row[Remark] = Row("help", TEXT, lambda x: x.help)

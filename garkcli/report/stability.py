@@ -9,21 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Never, TypeAlias, TypeVar
 
 from flint import arb, ctx, fmpq
 
+from garkcli.exact import polynomial_text as polynomials
 from garkcli.exact.display import BITS_OF_A_DIGIT, plain_decimal, to_ball, to_text
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import (
-    ball_decimal,
-    has_long_coefficients,
-    integral,
-    integral_scale,
-    is_long,
-    multivariate_decimals,
-    multivariate_text,
-    polynomial_decimals,
-    polynomial_text,
-)
 from garkcli.exact.roots import RealRoot, sign
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -31,14 +21,14 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, multivariate_latex, polynom
 from garkcli.plots.regions import stability_scene
 from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.ball_polynomials import OPEN, Bounds
-from garkcli.stability.damping import Ray, explicit_colour
+from garkcli.stability.damping import ImexPair, Ray, explicit_colour
 from garkcli.stability.fraction import MOST_LINES, Fraction
 from garkcli.stability.linear import poles_are_right
 from garkcli.stability.summary import AtPoint, Colours, LinearStability, Stability
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell import kinds
-from garkcli.tell.dialect import Status
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.facts import (
     Answer,
     Json,
@@ -48,6 +38,7 @@ from garkcli.tell.facts import (
     Rows,
     Section,
     Several,
+    Wording,
     Words,
     itself,
     maybe,
@@ -59,12 +50,9 @@ from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
-    from garkcli.stability.damping import ImexPair
     from garkcli.stability.oscillator import OscillatorStability
     from garkcli.stability.springs_plane import SpringsPlane
     from garkcli.stability.ssp import AdditiveRadius, SspCoefficient
-    from garkcli.tell.dialect import Plain
-    from garkcli.tell.facts import Wording
 
 T = TypeVar("T")
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -98,7 +86,7 @@ def _decimals(value: Callable[[int], arb], digits: int) -> str:
     bits, before = int(digits * BITS_OF_A_DIGIT) + 64, ctx.prec
     try:
         ctx.prec = bits
-        return ball_decimal(value(bits), digits)
+        return polynomials.ball_decimal(value(bits), digits)
     finally:
         ctx.prec = before
 
@@ -176,14 +164,15 @@ SECTOR: Kind[RealRoot] = Kind(
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
     """Numerator and denominator, with whole coefficients if these are rational."""
     P, Q = R.numerator, R.denominator
-    scale = integral_scale([coefficient for _, coefficient in (*P.terms, *Q.terms)])
+    scale = polynomials.integral_scale([coefficient for _, coefficient in (*P.terms, *Q.terms)])
     constant_term = Multivariate.of(P.variables, {(0,) * P.variables: scale})
     return P * constant_term, Q * constant_term
 
 
 def _fraction_data(R: Fraction, _: Plain) -> dict[str, object]:
     over, under = (
-        multivariate_text(p, [f"z{k + 1}" for k in range(p.variables)]) for p in integral_parts(R)
+        polynomials.multivariate_text(p, [f"z{k + 1}" for k in range(p.variables)])
+        for p in integral_parts(R)
     )
     return {"numerator": over, "denominator": under, "lowest_terms": R.is_reduced}
 
@@ -201,7 +190,7 @@ FRACTION: Kind[Fraction] = Kind(
 
 def _conserved_words(form: Form, d: Plain) -> str:
     terms = []
-    for p, name in zip(integral(form), ("(ωq)²", "ωq p", "p²"), strict=True):
+    for p, name in zip(polynomials.integral(form), ("(ωq)²", "ωq p", "p²"), strict=True):
         factor = d.polynomial(p, "z")
         if len(p.coefficients) > 1:
             terms.append(f"({factor}) {d.prose(name)}")
@@ -214,7 +203,11 @@ CONSERVED: Kind[Form] = Kind(
     Json(
         kinds.record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
         lambda form, _: dict(
-            zip(("qq", "qp", "pp"), (polynomial_text(p, "z") for p in integral(form)), strict=True)
+            zip(
+                ("qq", "qp", "pp"),
+                (polynomials.polynomial_text(p, "z") for p in polynomials.integral(form)),
+                strict=True,
+            )
         ),
     ),
     Words(_conserved_words),
@@ -320,7 +313,7 @@ def _points_words(points: Sequence[AtPoint], d: Plain) -> str:
 
 
 def _decimals_of(x: Number, digits: int) -> str:
-    return ball_decimal(to_ball(x, digits + 4), digits)
+    return polynomials.ball_decimal(to_ball(x, digits + 4), digits)
 
 
 def _modulus(squared: Number, digits: int) -> str:
@@ -893,17 +886,19 @@ def formulas(found: Stability) -> Iterator[tuple[str, str]]:
 def _fraction(R: Fraction) -> str:
     whole = integral_parts(R)
     colours = range(1, whole[0].variables + 1)
-    if any(is_long(a) for p in whole for _, a in p.terms):
+    if any(polynomials.is_long(a) for p in whole for _, a in p.terms):
         names = [f"z{k}" for k in colours]
-        return _in_decimals([multivariate_decimals(p, names) for p in (R.numerator, R.denominator)])
+        return _in_decimals(
+            [polynomials.multivariate_decimals(p, names) for p in (R.numerator, R.denominator)]
+        )
     return _over(*(multivariate_latex(p, [f"z_{{{k}}}" for k in colours]) for p in whole))
 
 
 def _quotient(x: kinds.Quotient, variable: str) -> str:
     given = x.numerator, x.denominator
-    whole = integral(given)
-    if has_long_coefficients(*whole):
-        return _in_decimals([polynomial_decimals(p, variable) for p in given])
+    whole = polynomials.integral(given)
+    if polynomials.has_long_coefficients(*whole):
+        return _in_decimals([polynomials.polynomial_decimals(p, variable) for p in given])
     return _over(*(polynomial_latex(p, variable) for p in whole))
 
 

@@ -8,17 +8,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 from flint import arb, fmpq
 
 from garkcli.constructions.derivatives import Derivatives, embedded_of, is_derivatives
-from garkcli.constructions.infinitesimal import slow_part
+from garkcli.constructions.infinitesimal import Coupling, slow_part
 from garkcli.constructions.multirate import SLOW
 from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
 from garkcli.exact.display import shortest, to_ball, to_float, to_text
-from garkcli.exact.field import Algebraic
+from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.matrix import Vector
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
 from garkcli.order.meant import as_meant, printed
@@ -39,11 +40,6 @@ from garkcli.tell.kinds import DERIVATION, TEXT, TRUTH, constant
 from garkcli.tell.outputs import labelled
 from garkcli.tell.parts import SAID, drawing, part, parts, rows_of, sentence, told
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.constructions.infinitesimal import Coupling
-    from garkcli.exact.field import Number
-    from garkcli.exact.matrix import Vector
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
 Grid: TypeAlias = "Sequence[Sequence[Cell]]"

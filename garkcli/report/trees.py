@@ -8,17 +8,11 @@ from typing import NamedTuple, Protocol, TypeAlias, TypeVar
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen, Mutable
+from garkcli.ntrees import symplectic
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.free import Structure
 from garkcli.ntrees.notation import format_tree, parse_tree
-from garkcli.ntrees.symplectic import (
-    KINDS,
-    ConditionClass,
-    count_classes,
-    independent_classes,
-    structure_of,
-)
 from garkcli.ntrees.symplectic import Kind as Symplectic
 from garkcli.ntrees.tree import Tree
 from garkcli.order.meant import AnyTableau, printed
@@ -256,7 +250,7 @@ class SymplecticSubject(Frozen):
             if lacks_blocks:
                 independent = sum(1 for _ in self._of_order(n))
             else:
-                independent = count_classes(self.structure, n)
+                independent = symplectic.count_classes(self.structure, n)
             found.append((n, independent, sum(every[n - 1])))
         return tuple(found)
 
@@ -270,12 +264,12 @@ class SymplecticSubject(Frozen):
         tableau = printed(self.method)
         return coupling_graph(tableau)
 
-    def classes(self) -> Iterator[ConditionClass]:
+    def classes(self) -> Iterator[symplectic.ConditionClass]:
         for n in self.orders:
             yield from self._of_order(n)
 
-    def _of_order(self, order: int) -> Iterator[ConditionClass]:
-        classes = independent_classes(self.structure, order)
+    def _of_order(self, order: int) -> Iterator[symplectic.ConditionClass]:
+        classes = symplectic.independent_classes(self.structure, order)
         if self.method is None:
             return classes
         from garkcli.order.admissible import is_admissible
@@ -292,7 +286,7 @@ class SymplecticSubject(Frozen):
         """Whether trees are written with their colours."""
         return len(self.names) > 1
 
-    def members(self, tree: ConditionClass) -> list[str]:
+    def members(self, tree: symplectic.ConditionClass) -> list[str]:
         return [format_tree(u, self.has_colours) for u in tree.members]
 
     @property
@@ -328,7 +322,7 @@ class SymplecticSubject(Frozen):
 
 
 SUBJECT: Section[SymplecticSubject] = Section(
-    Row("kind", choice(*KINDS), lambda x: x.kind, Level.DATA),
+    Row("kind", choice(*symplectic.KINDS), lambda x: x.kind, Level.DATA),
     Row("terms", POSITION, lambda x: len(x.structure.leaders), Level.DATA),
     Row("colours", TEXTS, lambda x: x.names, Level.DATA),
     Row("count", COUNT, lambda x: x.independent, Level.DATA),
@@ -345,7 +339,7 @@ def subject_of_kind(kind: Symplectic, terms: int | None, orders: range) -> Sympl
     if terms is None:
         terms = 2 if kind in _PROBLEMS else 1
     try:
-        structure = structure_of(kind, terms)
+        structure = symplectic.structure_of(kind, terms)
     except ValueError as error:
         cure = "leave out --colours, or choose another --kind"
         raise UsageProblem(f"--colours {terms}: {error}", cure, code="option-value") from None
@@ -390,8 +384,8 @@ def subject_of_method(method: AnyTableau, orders: range) -> SymplecticSubject:
 def _kind(structure: Structure) -> Symplectic:
     if not structure.is_directed:
         return "self-conjugate"
-    for kind in KINDS:
-        if kind in _PROBLEMS and structure_of(kind) == structure:
+    for kind in symplectic.KINDS:
+        if kind in _PROBLEMS and symplectic.structure_of(kind) == structure:
             return kind
     return "pair"
 
@@ -412,7 +406,7 @@ class FreeList(Frozen):
     """Free trees, a class of conditions each; None if they are only counted."""
 
     subject: SymplecticSubject
-    classes: Iterable[ConditionClass] | None
+    classes: Iterable[symplectic.ConditionClass] | None
     with_members: bool = False
 
 
@@ -420,7 +414,7 @@ class ListedClass(NamedTuple):
     """A class among those of a subject."""
 
     subject: SymplecticSubject
-    found: ConditionClass
+    found: symplectic.ConditionClass
 
     @property
     def tree(self) -> Tree:
@@ -460,7 +454,7 @@ def _listing(*members: Row[ListedClass]) -> Section[FreeList]:
     """A class in a line, with its members if they are requested."""
     part: Section[ListedClass] = Section(
         picture(lambda x: x.tree),
-        Row("kind", choice(*KINDS), lambda x: x.subject.kind, DATA),
+        Row("kind", choice(*symplectic.KINDS), lambda x: x.subject.kind, DATA),
         Row("representative", BRACKETS, lambda x: x.tree, label="tree"),
         SIZES,
         Row("stands_for", POSITION, lambda x: len(x.found.members)),
@@ -488,7 +482,7 @@ FREE_COUNTS: Section[FreeList] = Section(
     END,
 )
 FREE_COUNTED: Section[ClassCount] = Section(
-    Row("kind", choice(*KINDS), lambda x: x.kind),
+    Row("kind", choice(*symplectic.KINDS), lambda x: x.kind),
     Row("order", COUNT, lambda x: x.order),
     Row("count", COUNT, lambda x: x.count),
     Row("instead_of", COUNT, lambda x: x.instead_of),

@@ -19,18 +19,11 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen, replace
 from garkcli.order.meant import AnyTableau, meant, printed
+from garkcli.stability import linear as linear_problems
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
 from garkcli.stability.damping import ImexPair, Ray, explicit_colour, imex_pair
 from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
-from garkcli.stability.linear import (
-    Complex,
-    StabilityFunction,
-    e_polynomial,
-    imaginary_set,
-    is_a_stable,
-    real_set,
-    stability_function,
-)
+from garkcli.stability.linear import e_polynomial
 from garkcli.stability.oscillator import OscillatorStability, usual_oscillator
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import AdditiveRadius, SspCoefficient, additive_radius, ssp_coefficient
@@ -64,7 +57,7 @@ class Colours(Frozen):
     lines: int
     radii: tuple[AdditiveRadius, ...]
     pair: ImexPair | None
-    explicit_alone: StabilityFunction
+    explicit_alone: linear_problems.StabilityFunction
     real: Ray | None
     imaginary: Ray | None
     late: frozenset[str] = frozenset()
@@ -81,7 +74,7 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
     """
     late: set[str] = set()
     size = tableau.size
-    alone = [stability_function(tableau, _unit(size, l)) for l in range(size)]
+    alone = [linear_problems.stability_function(tableau, _unit(size, l)) for l in range(size)]
     directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
     directions.append([ONE] * size)
     directions += [[ONE, ratio] for ratio in ratios]
@@ -128,8 +121,8 @@ def _word(word: str, is_so: bool | None) -> str:
 class AtPoint(Frozen):
     """The value of R at a point z; None at a pole."""
 
-    z: Complex
-    value: Complex | None
+    z: linear_problems.Complex
+    value: linear_problems.Complex | None
 
     @property
     def squared(self) -> Number | None:
@@ -167,7 +160,7 @@ class LinearStability(Frozen):
     """
 
     name: str
-    R: StabilityFunction
+    R: linear_problems.StabilityFunction
     e_polynomial: Polynomial
     a_stable: bool | None
     l_stable: bool | None
@@ -180,7 +173,7 @@ class LinearStability(Frozen):
     is_linear_alone: bool = False
     points: tuple[AtPoint, ...] = ()
 
-    def at(self, points: Sequence[Complex]) -> LinearStability:
+    def at(self, points: Sequence[linear_problems.Complex]) -> LinearStability:
         """Returns the result with R at further points."""
         return replace(self, points=tuple(AtPoint(z, self.R.at(z)) for z in points))
 
@@ -230,7 +223,7 @@ class Stability(Shown, Frozen):
     is_linear_alone: bool = False
     embedded: LinearStability | None = None
 
-    def at(self, points: Sequence[Complex]) -> Stability:
+    def at(self, points: Sequence[linear_problems.Complex]) -> Stability:
         """Returns the result with R at further points."""
         linear = tuple(x.at(points) for x in self.linear)
         return replace(self, linear=linear, embedded=self.embedded and self.embedded.at(points))
@@ -340,7 +333,7 @@ def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> 
     decided = stability_within(method.near, shares, method.grain)
     if not (decided.a_stable and decided.l_stable):
         decided = _unless_another(decided, method, shares)
-    R = stability_function(printed(method), shares)
+    R = linear_problems.stability_function(printed(method), shares)
     return LinearStability(
         name=name,
         R=R,
@@ -385,9 +378,9 @@ def linear_stability(
     tableau: Tableau, name: str, shares: Sequence[Number], is_linear_alone: bool = False
 ) -> LinearStability:
     """Linear stability in one direction of (λ_1, …, λ_N), without the sector."""
-    R = stability_function(tableau, shares)
+    R = linear_problems.stability_function(tableau, shares)
     late: set[str] = set()
-    a_stable = _in_time(late, "a_stable", lambda: is_a_stable(R))
+    a_stable = _in_time(late, "a_stable", lambda: linear_problems.is_a_stable(R))
     l_stable = R.at_infinity() == 0 and a_stable
     return LinearStability(
         name=name,
@@ -396,8 +389,8 @@ def linear_stability(
         a_stable=a_stable,
         l_stable=l_stable,
         sector=None,
-        real=_in_time(late, "real", lambda: real_set(R)),
-        imaginary=_in_time(late, "imaginary", lambda: imaginary_set(R)),
+        real=_in_time(late, "real", lambda: linear_problems.real_set(R)),
+        imaginary=_in_time(late, "imaginary", lambda: linear_problems.imaginary_set(R)),
         ssp=None
         if is_linear_alone
         else _in_time(late, "ssp", lambda: ssp_coefficient(tableau, shares)),

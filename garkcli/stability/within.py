@@ -19,19 +19,8 @@ from garkcli.exact.polynomial import squared_on_axis
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
+from garkcli.stability import ball_polynomials
 from garkcli.stability.algebraic import rounded_balls, snapped
-from garkcli.stability.ball_polynomials import (
-    UNLIMITED,
-    Bounds,
-    are_coprime,
-    both,
-    difference,
-    first_failure,
-    is_positive,
-    least,
-    mirrored,
-    poles_are_right,
-)
 from garkcli.stability.ssp import driven_part, stacked
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
@@ -113,7 +102,9 @@ def _series(W: list[list[arb]], b: list[arb], initial: list[arb]) -> list[arb]:
     return series
 
 
-def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> Bounds:
+def ssp_within(
+    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
+) -> ball_polynomials.Bounds:
     """Brackets the first failure of any condition of ``garkcli.stability.ssp``.
 
     ``shares`` are as for ``ssp_coefficient``.
@@ -132,9 +123,11 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
     conditions = [[denominator[k] for k in range(len(denominator))]]
     for vector in vectors:
         conditions += _numerators(denominator, whole, vector)
-    found = UNLIMITED
+    found = ball_polynomials.UNLIMITED
     for condition in conditions:
-        found = least([found, first_failure(condition, found.high)])
+        found = ball_polynomials.least(
+            [found, ball_polynomials.first_failure(condition, found.high)]
+        )
     return found
 
 
@@ -163,9 +156,9 @@ class StabilityWithin(Frozen):
 
     a_stable: bool | None
     l_stable: bool | None
-    real: Bounds
-    imaginary: Bounds
-    ssp: Bounds
+    real: ball_polynomials.Bounds
+    imaginary: ball_polynomials.Bounds
+    ssp: ball_polynomials.Bounds
 
 
 def stability_within(
@@ -183,7 +176,7 @@ def stability_within(
             a_stable=a_stable,
             l_stable=l_stable,
             real=_real_end(R),
-            imaginary=first_failure(E),
+            imaginary=ball_polynomials.first_failure(E),
             ssp=ssp_within(tableau, shares, tolerance),
         )
 
@@ -196,12 +189,14 @@ def stiff_stability_within(
     """
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
-        a_stable = both(_is_bounded(_margin(R)), _poles_are_right(R))
-        return a_stable, both(a_stable, len(R.P) < len(R.Q) or R.P[len(R.Q) - 1].is_zero())
+        a_stable = ball_polynomials.both(_is_bounded(_margin(R)), _poles_are_right(R))
+        return a_stable, ball_polynomials.both(
+            a_stable, len(R.P) < len(R.Q) or R.P[len(R.Q) - 1].is_zero()
+        )
 
 
 def _margin(R: BallFraction) -> list[arb]:
-    return [*map(snapped, difference(squared_on_axis(R.Q), squared_on_axis(R.P)))]
+    return [*map(snapped, ball_polynomials.difference(squared_on_axis(R.Q), squared_on_axis(R.P)))]
 
 
 def _is_bounded(E: Sequence[arb]) -> bool | None:
@@ -214,21 +209,23 @@ def _is_bounded(E: Sequence[arb]) -> bool | None:
         return True
     if rest[0] < 0 or rest[-1] < 0:
         return False
-    return is_positive(rest)
+    return ball_polynomials.is_positive(rest)
 
 
 def _poles_are_right(R: BallFraction) -> bool | None:
     """Whether all poles have positive real parts."""
-    found = poles_are_right(R.Q)
-    if found is False and not are_coprime(R.P, R.Q):
+    found = ball_polynomials.poles_are_right(R.Q)
+    if found is False and not ball_polynomials.are_coprime(R.P, R.Q):
         return None  # the root on the left may cancel and be no pole
     return found
 
 
-def _real_end(R: BallFraction) -> Bounds:
+def _real_end(R: BallFraction) -> ball_polynomials.Bounds:
     """The end of the interval of −z on which |R| ≤ 1."""
-    P = arb_poly(mirrored(R.P))
-    Q = arb_poly(mirrored(R.Q))
+    P = arb_poly(ball_polynomials.mirrored(R.P))
+    Q = arb_poly(ball_polynomials.mirrored(R.Q))
     margin = Q * Q - P * P
     # the constants of P and Q are 1: that of the margin is zero
-    return first_failure([arb(0), *(snapped(margin[k]) for k in range(1, len(margin)))])
+    return ball_polynomials.first_failure(
+        [arb(0), *(snapped(margin[k]) for k in range(1, len(margin)))]
+    )

@@ -19,15 +19,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import Matrix, Vector, add, subtract
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import (
-    ERROR_OF_MATRIX,
-    LEAF,
-    MATRIX,
-    NOT_ONE,
-    ONE_BRANCH,
-    PLAIN,
-    VertexKind,
-)
+from garkcli.ntrees import kind
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, StateLayout
@@ -38,10 +30,10 @@ Numbers: TypeAlias = "list[Any]"
 Fields: TypeAlias = "Callable[..., Numbers]"
 Taken: TypeAlias = Literal["exact", "old", "diagonal"]
 """The matrix that a step uses for the Jacobian."""
-_TAKEN: dict[tuple[VertexKind, ...], Taken] = {
-    (NOT_ONE, ONE_BRANCH): "exact",
-    (NOT_ONE, ONE_BRANCH, ERROR_OF_MATRIX): "old",
-    (PLAIN, MATRIX): "diagonal",
+_TAKEN: dict[tuple[kind.VertexKind, ...], Taken] = {
+    (kind.NOT_ONE, kind.ONE_BRANCH): "exact",
+    (kind.NOT_ONE, kind.ONE_BRANCH, kind.ERROR_OF_MATRIX): "old",
+    (kind.PLAIN, kind.MATRIX): "diagonal",
 }
 """The matrix by the kinds of vertices of one vector field."""
 
@@ -68,7 +60,7 @@ class LinearlyImplicit(Frozen):
         Raises:
             MethodError: the method has several colours, or a stage needs a later one.
         """
-        kinds = tuple(x.kind for x in tableau.colours if x.kind != LEAF)
+        kinds = tuple(x.kind for x in tableau.colours if x.kind != kind.LEAF)
         taken = _TAKEN.get(tuple(dict.fromkeys(kinds)))
         if taken is None:
             return None

@@ -9,16 +9,8 @@ from collections.abc import Iterator
 from itertools import chain
 
 from garkcli.errors import ZeroWeight
+from garkcli.exact import matrix
 from garkcli.exact.field import ONE, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    SingularMatrixError,
-    Vector,
-    add,
-    outer,
-    subtract,
-    transpose,
-)
 from garkcli.frozen import replace
 from garkcli.reason import Reason
 from garkcli.tableau.stages import StageSpace
@@ -26,8 +18,12 @@ from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 
 def conjugate_block(
-    block: Matrix, here: StageSpace, b: Vector, other: StageSpace, b_other: Vector
-) -> Matrix:
+    block: matrix.Matrix,
+    here: StageSpace,
+    b: matrix.Vector,
+    other: StageSpace,
+    b_other: matrix.Vector,
+) -> matrix.Matrix:
     """Returns Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}.
 
     ``here`` is the stage space of l and ``other`` that of m. Raises ZeroWeight if b^{l} has a zero
@@ -35,12 +31,12 @@ def conjugate_block(
     """
     try:
         adjoint = other.adjoint(block, b_other, here, b)
-    except SingularMatrixError:
+    except matrix.SingularMatrixError:
         raise ZeroWeight(
             Reason("the symplectic conjugate divides by the weights b, {}", here.zero_weights(b)),
             "a conjugate exists for nonzero weights only",
         ) from None
-    return subtract(outer(here.one, b_other), adjoint)
+    return matrix.subtract(matrix.outer(here.one, b_other), adjoint)
 
 
 def conjugate(tableau: Tableau) -> Tableau:
@@ -55,7 +51,9 @@ def conjugate(tableau: Tableau) -> Tableau:
     """
     tableau.demand_fields("the symplectic conjugate")
     if tableau.is_partitioned:
-        exchanged: dict[Edge, Matrix] = {}  # blocks of positions from those of momenta, and back
+        exchanged: dict[
+            Edge, matrix.Matrix
+        ] = {}  # blocks of positions from those of momenta, and back
         for m, l in tableau.edges():
             here = tableau.colours[l]
             if are_opposite(here, tableau.colours[m]):
@@ -66,11 +64,13 @@ def conjugate(tableau: Tableau) -> Tableau:
     for l, colour in enumerate(tableau.colours):
         spaces.append(tableau.space(l))
         colours.append(replace(colour, space=l))
-    blocks: dict[Edge, Matrix] = {(l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()}
+    blocks: dict[Edge, matrix.Matrix] = {
+        (l, m): conjugate_of(tableau, l, m) for m, l in tableau.edges()
+    }
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
+def conjugate_of(tableau: Tableau, l: int, m: int) -> matrix.Matrix:
     """Â^{l,m} of a tableau with a block A^{m,l}."""
     block = tableau.block(m, l)
     if block is None:
@@ -106,7 +106,7 @@ def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
                 yield from chain.from_iterable(symplectic_defect(tableau, l, m))
 
 
-def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
+def symplectic_defect(tableau: Tableau, l: int, m: int) -> matrix.Matrix:
     """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both
     blocks must exist.
     """
@@ -116,5 +116,7 @@ def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
         raise KeyError((l, m))
     b_l = tableau.colours[l].b
     b_m = tableau.colours[m].b
-    both = add(tableau.space(l).form(b_l, forth), transpose(tableau.space(m).form(b_m, back)))
-    return subtract(both, outer(b_l, b_m))
+    both = matrix.add(
+        tableau.space(l).form(b_l, forth), matrix.transpose(tableau.space(m).form(b_m, back))
+    )
+    return matrix.subtract(both, matrix.outer(b_l, b_m))

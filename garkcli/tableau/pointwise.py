@@ -20,14 +20,9 @@ from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
 from garkcli.exact.nodes import Expression
 from garkcli.frozen import Frozen, replace
+from garkcli.tableau import polynomial_space
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.gauss_points import gauss_rows, is_gauss
-from garkcli.tableau.polynomial_space import (
-    PolynomialSpace,
-    coordinates_at_nodes,
-    powers_of_nodes,
-    simple_nodes,
-)
 from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Edge, Method, Tableau
 
@@ -153,8 +148,8 @@ def nodes_in_radicals(tableau: Tableau) -> dict[int, tuple[Expression, ...]] | N
     """The nodes of the polynomial stage spaces; None if they have no simple radicals."""
     nodes: dict[int, tuple[Expression, ...]] = {}
     for k, space in enumerate(tableau.spaces):
-        if isinstance(space, PolynomialSpace):
-            simple = simple_nodes(space)
+        if isinstance(space, polynomial_space.PolynomialSpace):
+            simple = polynomial_space.simple_nodes(space)
             if simple is None:
                 return None
             nodes[k] = simple
@@ -269,10 +264,10 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
 
 def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
     """The maps from coordinates to stage values and back."""
-    if not isinstance(space, PolynomialSpace):
+    if not isinstance(space, polynomial_space.PolynomialSpace):
         unit = _to_arb(identity(space.stages))
         return unit, unit
-    return powers_of_nodes(space), coordinates_at_nodes(space)
+    return polynomial_space.powers_of_nodes(space), polynomial_space.coordinates_at_nodes(space)
 
 
 def _to_arb(rows: Sequence[Sequence[Number]]) -> arb_mat:

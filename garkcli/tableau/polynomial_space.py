@@ -12,22 +12,10 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq, fmpq_mat, fmpq_poly
 
+from garkcli.exact import matrix
 from garkcli.exact.domain import square_free
 from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    Vector,
-    apply,
-    apply_left,
-    dot,
-    identity,
-    is_rational,
-    multiply,
-    solve,
-    to_flint,
-    transpose,
-)
 from garkcli.exact.nodes import Chain, Expression, Literal, Root
 from garkcli.reason import Formula, Reason
 from garkcli.tableau.stages import StageSpace, in_flint
@@ -54,45 +42,45 @@ class PolynomialSpace(StageSpace):
         return int(self.modulus.degree())
 
     @property
-    def one(self) -> Vector:
+    def one(self) -> matrix.Vector:
         return self._vector(fmpq_poly([1]))
 
     @property
-    def nodes(self) -> Vector:
+    def nodes(self) -> matrix.Vector:
         return self._vector(fmpq_poly([0, 1]) % self.modulus)
 
-    def _vector(self, poly: fmpq_poly) -> Vector:
+    def _vector(self, poly: fmpq_poly) -> matrix.Vector:
         return tuple(poly[k] for k in range(self.stages))
 
-    def product(self, u: Vector, v: Vector) -> Vector:
-        if is_rational((u, v)):
+    def product(self, u: matrix.Vector, v: matrix.Vector) -> matrix.Vector:
+        if matrix.is_rational((u, v)):
             f, g = in_flint(u), in_flint(v)
             return self._vector(f * g % self.modulus)
-        return apply(self._higher, convolution(u, v))
+        return matrix.apply(self._higher, convolution(u, v))
 
     @cached_property
-    def _higher(self) -> Matrix:
+    def _higher(self) -> matrix.Matrix:
         return self.reductions(2 * self.stages - 1)
 
     @cached_property
     def _higher_in_flint(self) -> fmpq_mat:
-        return to_flint(self._higher, 2 * self.stages - 1)
+        return matrix.to_flint(self._higher, 2 * self.stages - 1)
 
-    def times(self, functional: Vector, v: Vector) -> Vector:
+    def times(self, functional: matrix.Vector, v: matrix.Vector) -> matrix.Vector:
         s = self.stages
         moments = self._moments(functional)
-        if is_rational((moments, v)):
+        if matrix.is_rational((moments, v)):
             # Σ_i v_i m_{i+j} are coefficients of the product with v turned round.
             product = in_flint(v[::-1]) * in_flint(moments)
             return tuple(product[s - 1 + j] for j in range(s))
-        return tuple(dot(v, moments[j : j + s]) for j in range(s))
+        return tuple(matrix.dot(v, moments[j : j + s]) for j in range(s))
 
-    def gram(self, weights: Vector) -> Matrix:
+    def gram(self, weights: matrix.Vector) -> matrix.Matrix:
         s = self.stages
         moments = self._moments(weights)
         return tuple(moments[i : i + s] for i in range(s))
 
-    def _moments(self, functional: Vector) -> Vector:
+    def _moments(self, functional: matrix.Vector) -> matrix.Vector:
         """The functional on 1, x, …, x^(2s−2), cached, as weights are requested again."""
         known = self._known_moments
         # compared, not hashed: flint hashes fractions by Python's, which takes longer
@@ -106,73 +94,75 @@ class PolynomialSpace(StageSpace):
         return moments
 
     @cached_property
-    def _known_moments(self) -> list[tuple[Vector, Vector]]:
+    def _known_moments(self) -> list[tuple[matrix.Vector, matrix.Vector]]:
         return []
 
-    def _new_moments(self, functional: Vector) -> Vector:
-        if is_rational((functional,)):
-            return tuple((to_flint((functional,), self.stages) * self._higher_in_flint).entries())
-        return apply_left(functional, self._higher)
+    def _new_moments(self, functional: matrix.Vector) -> matrix.Vector:
+        if matrix.is_rational((functional,)):
+            return tuple(
+                (matrix.to_flint((functional,), self.stages) * self._higher_in_flint).entries()
+            )
+        return matrix.apply_left(functional, self._higher)
 
-    def reductions(self, count: int) -> Matrix:
+    def reductions(self, count: int) -> matrix.Matrix:
         x = fmpq_poly([0, 1])
         power = fmpq_poly([1]) % self.modulus
         columns = []
         for _ in range(count):
             columns.append(self._vector(power))
             power = x * power % self.modulus
-        return transpose(tuple(columns))
+        return matrix.transpose(tuple(columns))
 
-    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
-        if is_rational((coefficients,)):
+    def of_polynomial(self, coefficients: Sequence[Number]) -> matrix.Vector:
+        if matrix.is_rational((coefficients,)):
             return self._vector(in_flint(coefficients) % self.modulus)
-        return apply(self.reductions(len(coefficients)), coefficients)
+        return matrix.apply(self.reductions(len(coefficients)), coefficients)
 
-    def basis_polynomials(self) -> Iterator[Vector]:
-        yield from identity(self.stages)
+    def basis_polynomials(self) -> Iterator[matrix.Vector]:
+        yield from matrix.identity(self.stages)
 
-    def lifts(self) -> Matrix:
-        return identity(self.stages)
+    def lifts(self) -> matrix.Matrix:
+        return matrix.identity(self.stages)
 
-    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+    def divide_by_weights(self, weights: matrix.Vector, right: matrix.Matrix) -> matrix.Matrix:
         # Elimination puts each row of right over one denominator. Where a row holds entries of many
         # stages whose denominators have nothing in common, the inverse is used instead.
         if not any(_has_long_denominators(row) for row in right):
-            return solve(self.gram(weights), right)
-        return multiply(_inverse_gram(self, weights), right)
+            return matrix.solve(self.gram(weights), right)
+        return matrix.multiply(_inverse_gram(self, weights), right)
 
-    def zero_weights(self, weights: Vector) -> Reason:
-        if not is_rational((weights,)):
+    def zero_weights(self, weights: matrix.Vector) -> Reason:
+        if not matrix.is_rational((weights,)):
             return Reason("one of which is 0")
         nodes = self.modulus // self._nodes_with_weight(weights)
         if nodes.degree() == 1:
             return Reason("which is 0 at the node {}", Formula(str(-nodes[0])))
         return Reason("which are 0 at the nodes where {} = 0", Formula(str(nodes)))
 
-    def _nodes_with_weight(self, weights: Vector) -> fmpq_poly:
+    def _nodes_with_weight(self, weights: matrix.Vector) -> fmpq_poly:
         """The monic polynomial g whose roots are the nodes with nonzero weight: b(x^i g) = 0 for
         all i.
         """
         gram = self.gram(weights)
-        degree = to_flint(gram, self.stages).rank()
+        degree = matrix.to_flint(gram, self.stages).rank()
         rows = gram[:degree]
-        square = to_flint([row[:degree] for row in rows], degree)
+        square = matrix.to_flint([row[:degree] for row in rows], degree)
         last = [(-row[degree],) for row in rows]
-        lower = square.solve(to_flint(last, 1)).entries()
+        lower = square.solve(matrix.to_flint(last, 1)).entries()
         return fmpq_poly([*lower, fmpq(1)])
 
 
 @lru_cache(maxsize=32)
-def _inverse_gram(space: PolynomialSpace, weights: Vector) -> Matrix:
+def _inverse_gram(space: PolynomialSpace, weights: matrix.Vector) -> matrix.Matrix:
     """G⁻¹ of the weights, which the conjugation of all blocks to one colour needs."""
-    return solve(space.gram(weights), identity(space.stages))
+    return matrix.solve(space.gram(weights), matrix.identity(space.stages))
 
 
-def _has_long_denominators(row: Vector) -> bool:
+def _has_long_denominators(row: matrix.Vector) -> bool:
     return sum(int(x.q).bit_length() for x in row if isinstance(x, fmpq)) > MAX_BITS_OF_ROW
 
 
-def convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
+def convolution(u: Sequence[Number], v: Sequence[Number]) -> matrix.Vector:
     """The product of two polynomials, lowest coefficients first."""
     out: list[Number] = [ZERO] * (len(u) + len(v) - 1)
     for i, x in enumerate(u):
@@ -182,12 +172,12 @@ def convolution(u: Sequence[Number], v: Sequence[Number]) -> Vector:
     return tuple(out)
 
 
-def integral(moments: int) -> Vector:
+def integral(moments: int) -> matrix.Vector:
     """∫_0^1 on 1, x, …, x^(moments−1)."""
     return tuple(fmpq(1, k) for k in range(1, moments + 1))
 
 
-def antiderivative(coefficients: Sequence[Number]) -> Vector:
+def antiderivative(coefficients: Sequence[Number]) -> matrix.Vector:
     """∫_0^x of a polynomial, lowest coefficient first.
 
     >>> antiderivative((fmpq(1), fmpq(1)))
@@ -199,12 +189,12 @@ def antiderivative(coefficients: Sequence[Number]) -> Vector:
     return tuple(integrated)
 
 
-def integration(degree: int) -> Matrix:
+def integration(degree: int) -> matrix.Matrix:
     """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
     columns = [
         antiderivative((ZERO,) * j + (ONE,)) + (ZERO,) * (degree - 1 - j) for j in range(degree)
     ]
-    return transpose(tuple(columns))
+    return matrix.transpose(tuple(columns))
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:

@@ -21,16 +21,8 @@ from typing import ClassVar, cast
 from flint import fmpq, fmpq_poly, fmpz
 
 from garkcli.errors import CoincidingNodes
+from garkcli.exact import matrix
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
-from garkcli.exact.matrix import (
-    Matrix,
-    SingularMatrixError,
-    Vector,
-    identity,
-    is_rational,
-    multiply,
-    transpose,
-)
 from garkcli.frozen import Frozen
 from garkcli.reason import Formula, Reason
 
@@ -45,35 +37,35 @@ class StageSpace(Frozen):
 
     @property
     @abstractmethod
-    def one(self) -> Vector:
+    def one(self) -> matrix.Vector:
         """𝟙."""
 
     @property
     @abstractmethod
-    def nodes(self) -> Vector:
+    def nodes(self) -> matrix.Vector:
         """The nodes as an element of the algebra."""
 
     @abstractmethod
-    def product(self, u: Vector, v: Vector) -> Vector:
+    def product(self, u: matrix.Vector, v: matrix.Vector) -> matrix.Vector:
         """The product u ⊙ v."""
 
     @abstractmethod
-    def times(self, functional: Vector, v: Vector) -> Vector:
+    def times(self, functional: matrix.Vector, v: matrix.Vector) -> matrix.Vector:
         """The functional g ↦ functional(v ⊙ g)."""
 
     @abstractmethod
-    def reductions(self, count: int) -> Matrix:
+    def reductions(self, count: int) -> matrix.Matrix:
         """The classes of 1, x, …, x^(count−1) as columns, shape (s, count)."""
 
     @abstractmethod
-    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
+    def of_polynomial(self, coefficients: Sequence[Number]) -> matrix.Vector:
         """The class of a polynomial with coefficients from the lowest to the highest.
 
         At points these are its values at the nodes.
         """
 
     @abstractmethod
-    def basis_polynomials(self) -> Iterator[Vector]:
+    def basis_polynomials(self) -> Iterator[matrix.Vector]:
         """The polynomial of degree < s of each basis vector, lowest coefficient first.
 
         At points these are the Lagrange polynomials of the nodes. They are made one at a time:
@@ -84,7 +76,7 @@ class StageSpace(Frozen):
         """
 
     @abstractmethod
-    def lifts(self) -> Matrix:
+    def lifts(self) -> matrix.Matrix:
         """Maps coordinates to the polynomial of degree < s, shape (s, s).
 
         The columns are the ``basis_polynomials``.
@@ -93,29 +85,33 @@ class StageSpace(Frozen):
             CoincidingNodes: two nodes are equal.
         """
 
-    def power(self, v: Vector, exponent: int) -> Vector:
+    def power(self, v: matrix.Vector, exponent: int) -> matrix.Vector:
         result = self.one
         for _ in range(exponent):
             result = self.product(result, v)
         return result
 
-    def gram(self, weights: Vector) -> Matrix:
+    def gram(self, weights: matrix.Vector) -> matrix.Matrix:
         """G with entries weights(e_i ⊙ e_j): the bilinear form of B^{l} in the paper."""
-        return tuple(self.times(weights, e) for e in identity(self.stages))
+        return tuple(self.times(weights, e) for e in matrix.identity(self.stages))
 
     @abstractmethod
-    def zero_weights(self, weights: Vector) -> Reason:
+    def zero_weights(self, weights: matrix.Vector) -> Reason:
         """Says which of the weights are zero; at least one must be."""
 
-    def form(self, weights: Vector, block: Matrix) -> Matrix:
+    def form(self, weights: matrix.Vector, block: matrix.Matrix) -> matrix.Matrix:
         """The bilinear form (f, g) ↦ weights(f ⊙ A g), one row for each f, of a block A into this
         space; B A for point stages.
         """
-        return multiply(self.gram(weights), block)
+        return matrix.multiply(self.gram(weights), block)
 
     def adjoint(
-        self, block: Matrix, weights: Vector, source: StageSpace, source_weights: Vector
-    ) -> Matrix:
+        self,
+        block: matrix.Matrix,
+        weights: matrix.Vector,
+        source: StageSpace,
+        source_weights: matrix.Vector,
+    ) -> matrix.Matrix:
         """The map A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from
         ``source`` to here.
 
@@ -124,10 +120,10 @@ class StageSpace(Frozen):
         Raises:
             SingularMatrixError: a weight of ``source`` is zero.
         """
-        return source.divide_by_weights(source_weights, transpose(self.form(weights, block)))
+        return source.divide_by_weights(source_weights, matrix.transpose(self.form(weights, block)))
 
     @abstractmethod
-    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+    def divide_by_weights(self, weights: matrix.Vector, right: matrix.Matrix) -> matrix.Matrix:
         """The matrix X with G X = ``right``, where G is the ``gram`` of the weights.
 
         At points this is B⁻¹ ``right``.
@@ -148,31 +144,31 @@ MAX_BITS_COMPARED = 5_000_000
 class PointSpace(StageSpace):
     """K^s: one coordinate per stage, in the order of the file. ``points`` are the nodes."""
 
-    points: Vector
+    points: matrix.Vector
 
     @property
     def stages(self) -> int:
         return len(self.points)
 
     @property
-    def one(self) -> Vector:
+    def one(self) -> matrix.Vector:
         return (ONE,) * self.stages
 
     @property
-    def nodes(self) -> Vector:
+    def nodes(self) -> matrix.Vector:
         return self.points
 
-    def product(self, u: Vector, v: Vector) -> Vector:
+    def product(self, u: matrix.Vector, v: matrix.Vector) -> matrix.Vector:
         return tuple(x * y for x, y in zip(u, v, strict=True))
 
-    def times(self, functional: Vector, v: Vector) -> Vector:
+    def times(self, functional: matrix.Vector, v: matrix.Vector) -> matrix.Vector:
         return self.product(functional, v)
 
-    def reductions(self, count: int) -> Matrix:
+    def reductions(self, count: int) -> matrix.Matrix:
         return tuple(_powers(c, count) for c in self.points)
 
-    def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
-        if is_rational((coefficients, self.points)):
+    def of_polynomial(self, coefficients: Sequence[Number]) -> matrix.Vector:
+        if matrix.is_rational((coefficients, self.points)):
             polynomial = in_flint(coefficients)
             return tuple(polynomial(c) for c in cast("tuple[fmpq, ...]", self.points))
         return tuple(_value(coefficients, c) for c in self.points)
@@ -187,11 +183,11 @@ class PointSpace(StageSpace):
         bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
         if bound <= enough or bound > MAX_BITS_COMPARED:
             return bound
-        if not is_rational((self.points,)):
+        if not matrix.is_rational((self.points,)):
             return bound
         return _common_denominator(cast("tuple[fmpq, ...]", self.points)).bit_length()
 
-    def basis_polynomials(self) -> Iterator[Vector]:
+    def basis_polynomials(self) -> Iterator[matrix.Vector]:
         first: dict[Number, int] = {}
         for j, c in enumerate(self.points, start=1):
             i = first.setdefault(c, j)
@@ -199,19 +195,19 @@ class PointSpace(StageSpace):
                 message = f"nodes c_{i} and c_{j} are both {c}: no interpolation through them"
                 cure = "spell the blocks out, or choose a method with distinct nodes"
                 raise CoincidingNodes(message, cure)
-        if is_rational((self.points,)):
+        if matrix.is_rational((self.points,)):
             yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
         else:
             yield from _lagrange(self.points)
 
-    def lifts(self) -> Matrix:
+    def lifts(self) -> matrix.Matrix:
         return self._lifts
 
     @cached_property
-    def _lifts(self) -> Matrix:
-        return transpose(tuple(self.basis_polynomials()))
+    def _lifts(self) -> matrix.Matrix:
+        return matrix.transpose(tuple(self.basis_polynomials()))
 
-    def zero_weights(self, weights: Vector) -> Reason:
+    def zero_weights(self, weights: matrix.Vector) -> Reason:
         numbers = [i for i, weight in enumerate(weights, start=1) if not weight]
         shown = numbers[:3] if len(numbers) > 4 else numbers
         end = "0" if shown == numbers else "… = 0"
@@ -219,12 +215,12 @@ class PointSpace(StageSpace):
         latex = " = ".join([*(f"b_{{{i}}}" for i in shown), end.replace("…", r"\dots")])
         return Reason("{}", Formula(text, latex))
 
-    def form(self, weights: Vector, block: Matrix) -> Matrix:
+    def form(self, weights: matrix.Vector, block: matrix.Matrix) -> matrix.Matrix:
         return _scaled_rows(weights, block)
 
-    def divide_by_weights(self, weights: Vector, right: Matrix) -> Matrix:
+    def divide_by_weights(self, weights: matrix.Vector, right: matrix.Matrix) -> matrix.Matrix:
         if not all(weights):
-            raise SingularMatrixError
+            raise matrix.SingularMatrixError
         # One inverse a row: of irrational weights they take the time.
         return _scaled_rows(tuple(ONE / b for b in weights), right)
 
@@ -260,7 +256,7 @@ class Jets(Flow):
     cure: ClassVar[str] = OF_OTHERS
 
 
-def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
+def _scaled_rows(factors: matrix.Vector, rows: matrix.Matrix) -> matrix.Matrix:
     return tuple(tuple(factor * x for x in row) for factor, row in zip(factors, rows, strict=True))
 
 
@@ -292,7 +288,7 @@ def _value(coefficients: Sequence[Number], x: Number) -> Number:
     return total
 
 
-def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[Vector]:
+def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[matrix.Vector]:
     """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator.
 
     Elimination in the Vandermonde matrix would carry the common denominator of all of them.
@@ -307,7 +303,7 @@ def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[Vector]:
         yield tuple(polynomial[k] for k in range(len(nodes)))
 
 
-def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
+def _lagrange(nodes: Sequence[Number]) -> Iterator[matrix.Vector]:
     """The L_j over any domain, dividing w by x − c_j with Horner's scheme."""
     w: list[Number] = [ONE]
     for c in nodes:
@@ -323,7 +319,7 @@ def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
         yield tuple(factor * coefficient for coefficient in others)
 
 
-def _powers(x: Number, count: int) -> Vector:
+def _powers(x: Number, count: int) -> matrix.Vector:
     powers: list[Number] = [ONE]
     while len(powers) < count:
         powers.append(powers[-1] * x)

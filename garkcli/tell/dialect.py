@@ -14,21 +14,11 @@ from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, Self, TypeAlias
 from flint import arb, fmpq
 
 from garkcli.errors import printable
+from garkcli.exact import polynomial_text as polynomials
 from garkcli.exact.display import decimal, shortest, to_decimal, to_text
-from garkcli.exact.field import Algebraic
+from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.letters import DIAGONAL
-from garkcli.exact.polynomial_text import (
-    LONG_COEFFICIENT,
-    has_long_coefficients,
-    integral,
-    is_long,
-    multivariate_decimals,
-    multivariate_text,
-    polynomial_decimals,
-    polynomial_text,
-    root_decimal,
-    root_text,
-)
+from garkcli.exact.polynomial_text import is_long
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.ntrees.notation import format_tree
 from garkcli.page.lines import folded, indented, shown_width
@@ -39,7 +29,6 @@ from garkcli.reason import NO_REASON, Place, Reason
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
-    from garkcli.exact.field import Number
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
@@ -222,9 +211,9 @@ class Plain(Mutable):
 
     def root(self, root: RealRoot) -> str:
         """A real algebraic number."""
-        simple = root_text(root) if root.exact is None else shortest(root.exact)
-        decimals = root_decimal(root, self.digits)
-        longest = LONG if root.exact is None else LONG_COEFFICIENT
+        simple = polynomials.root_text(root) if root.exact is None else shortest(root.exact)
+        decimals = polynomials.root_decimal(root, self.digits)
+        longest = LONG if root.exact is None else polynomials.LONG_COEFFICIENT
         if len(simple or "") > (longest if self.is_brief else LONG_POLYNOMIAL):
             simple = None
         if simple is None:
@@ -244,10 +233,10 @@ class Plain(Mutable):
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
         """A polynomial; a long one is described, one with long coefficients has decimals."""
-        text, about = polynomial_text(p, variable), ""
+        text, about = polynomials.polynomial_text(p, variable), ""
         is_wide = max(map(len, text.split()), default=0) > LONG
-        if is_wide or (self.is_brief and has_long_coefficients(p)):
-            text, about = polynomial_decimals(p, variable), "about "
+        if is_wide or (self.is_brief and polynomials.has_long_coefficients(p)):
+            text, about = polynomials.polynomial_decimals(p, variable), "about "
         if len(about + text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
             return f"a polynomial of degree {p.degree}, in --format json"
         return about + self.expression(text)
@@ -260,18 +249,24 @@ class Plain(Mutable):
 
     def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
         """A rational function with whole coefficients, in decimals where these are long."""
-        if self.is_brief and has_long_coefficients(*integral([p, q])):
-            decimals = Plain.over(self, *(polynomial_decimals(x, variable) for x in (p, q)))
+        if self.is_brief and polynomials.has_long_coefficients(*polynomials.integral([p, q])):
+            decimals = Plain.over(
+                self, *(polynomials.polynomial_decimals(x, variable) for x in (p, q))
+            )
             return f"about {self.expression(decimals)}"
-        return self.over(*(self.polynomial(x, variable) for x in integral([p, q])))
+        return self.over(*(self.polynomial(x, variable) for x in polynomials.integral([p, q])))
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:
         names = [f"z{k + 1}" for k in range(p.variables)]
-        text = self.over(multivariate_text(p, names), multivariate_text(q, names))
+        text = self.over(
+            polynomials.multivariate_text(p, names), polynomials.multivariate_text(q, names)
+        )
         has_long = any(is_long(a) for x in (p, q) for _, a in x.terms)
         if len(text) <= 2 * LONG_POLYNOMIAL and not (has_long and self.is_brief):
             return self.expression(text)
-        text = self.over(multivariate_decimals(p, names), multivariate_decimals(q, names))
+        text = self.over(
+            polynomials.multivariate_decimals(p, names), polynomials.multivariate_decimals(q, names)
+        )
         if not has_long or len(text) > 2 * LONG_POLYNOMIAL:
             return f"{len(p.terms)} terms over {len(q.terms)}, in --format json and latex"
         return f"about {text}"

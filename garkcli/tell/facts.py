@@ -16,12 +16,11 @@ from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypedDict, 
 from garkcli.frozen import Frozen
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.dialect import SURE, Status
+from garkcli.tell.dialect import SURE, Plain, Status
 
 if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
     from garkcli.plots.scene import Scene
-    from garkcli.tell.dialect import Plain
 
 
 T = TypeVar("T")

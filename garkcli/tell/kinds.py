@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.exact.display import decimal, plain_decimal, to_decimal, to_text
 from garkcli.exact.polynomial import Polynomial
@@ -18,7 +18,7 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.safety import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.dialect import Status
+from garkcli.tell.dialect import Plain, Status
 from garkcli.tell.facts import (
     Answer,
     FieldBeside,
@@ -34,8 +34,6 @@ from garkcli.tell.facts import (
 )
 
 if TYPE_CHECKING:
-    from flint import arb
-
     from garkcli.exact.cells import Interval
     from garkcli.exact.field import Number
     from garkcli.exact.roots import RealRoot
@@ -46,7 +44,6 @@ if TYPE_CHECKING:
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.oscillator import Ratio
     from garkcli.stability.ssp import SspCoefficient
-    from garkcli.tell.dialect import Plain
 
 
 def record(**fields: Schema) -> Schema:

@@ -6,19 +6,17 @@ from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
+from typing import Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
 
 from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
 from garkcli.page.look import PLAIN, Look
 from garkcli.page.schema import Schema, array, one_of, published
 from garkcli.tableau.letters import Defined, with_letters
+from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Plot, Section, Stream
 from garkcli.tell.outputs import body, labelled, many, one
-
-if TYPE_CHECKING:
-    from garkcli.tableau.tableau import Tableau
 
 Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"

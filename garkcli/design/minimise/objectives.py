@@ -9,16 +9,8 @@ from typing import Any
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
 from garkcli.design.family_step import Flat, family_step
+from garkcli.design.minimise import objective as aims
 from garkcli.design.minimise.measures import MEASURES
-from garkcli.design.minimise.objective import (
-    Either,
-    LevelObjective,
-    LevelSigns,
-    Objective,
-    ObjectiveSubject,
-    SearchMeasure,
-    Size,
-)
 from garkcli.design.minimise.sector import Angle, angle_of
 from garkcli.design.minimise.squared_error import (
     Quotient,
@@ -92,12 +84,12 @@ def refuse_one_colour(tableau: Tableau) -> None:
         raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
 
 
-def _coupling_error(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
+def _coupling_error(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quotient:
     refuse_one_colour(subject.tableau)
     return squared_coupling_error(subject.tableau, subject.order + 1, ring)
 
 
-def _dense_error(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
+def _dense_error(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quotient:
     dense, order = subject.further.dense, subject.dense_order
     if dense is None or order is None:
         message = "dense-error is that of dense output with an order: the file wants none"
@@ -106,7 +98,7 @@ def _dense_error(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient
     return squared_dense_error(subject.tableau, dense, order + 1, ring)
 
 
-def _squared_coefficients(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
+def _squared_coefficients(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quotient:
     """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
 
     On point stages T is the identity; in a polynomial space it makes the sum rational even for
@@ -157,7 +149,7 @@ def _product(left: Any, matrix: Matrix, right: Any) -> Any:
     return total
 
 
-def _ssp(tableau: Tableau) -> Size:
+def _ssp(tableau: Tableau) -> aims.Size:
     tableau.demand_fields("the SSP coefficient")
     coefficient = ssp_coefficient(tableau)
     if coefficient is None:
@@ -166,41 +158,41 @@ def _ssp(tableau: Tableau) -> Size:
     return coefficient.value
 
 
-def _ssp_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
+def _ssp_signs(tableau: Tableau, ring: Parameters) -> aims.LevelSigns:
     """det(I + rK) and det(I + rK) (I + rK)⁻¹ v are of degree one in each row of K."""
     tableau.demand_fields("the SSP coefficient")
     if not all(isinstance(x, PointSpace) for x in tableau.spaces):
         message = "-ssp: families by name have no rational entries"
         raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
     size = 2 + sum(space.stages for space in tableau.spaces)
-    return LevelSigns([p for p in Flat(tableau, ring).polynomials(size, conditions_at) if p])
+    return aims.LevelSigns([p for p in Flat(tableau, ring).polynomials(size, conditions_at) if p])
 
 
-def _real(tableau: Tableau) -> Size:
+def _real(tableau: Tableau) -> aims.Size:
     refuse_partitioned(tableau)
     return first_end(real_set(stability_function(on_linear_problems(tableau))))
 
 
-def _real_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
+def _real_signs(tableau: Tableau, ring: Parameters) -> aims.LevelSigns:
     """Q² − P² at −y; it is negative at a pole."""
     P, Q = fraction_in_plane(tableau, ring)
     y, t = PLANE.gens()
     P, Q = P.compose(-y, t), Q.compose(-y, t)
-    return LevelSigns([(Q - P) * (Q + P)])
+    return aims.LevelSigns([(Q - P) * (Q + P)])
 
 
-def _imaginary(tableau: Tableau) -> Size:
+def _imaginary(tableau: Tableau) -> aims.Size:
     refuse_partitioned(tableau)
     return first_end(imaginary_set(stability_function(on_linear_problems(tableau))))
 
 
-def _imaginary_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
+def _imaginary_signs(tableau: Tableau, ring: Parameters) -> aims.LevelSigns:
     """|Q|² − |P|² in the square of the imaginary part; it is negative at a pole."""
     P, Q = fraction_in_plane(tableau, ring)
-    return LevelSigns([squared_modulus(Q) - squared_modulus(P)])
+    return aims.LevelSigns([squared_modulus(Q) - squared_modulus(P)])
 
 
-def _sector(tableau: Tableau) -> Size:
+def _sector(tableau: Tableau) -> aims.Size:
     refuse_partitioned(tableau)
     return angle_of(stability_function(on_linear_problems(tableau)))
 
@@ -212,17 +204,17 @@ def oscillator_of(tableau: Tableau) -> Oscillator:
     return problem
 
 
-def _oscillator(tableau: Tableau) -> Size:
+def _oscillator(tableau: Tableau) -> aims.Size:
     return first_end(oscillator_stability(tableau, oscillator_of(tableau)).stable)
 
 
-def _oscillator_signs(tableau: Tableau, ring: Parameters) -> LevelSigns:
+def _oscillator_signs(tableau: Tableau, ring: Parameters) -> aims.LevelSigns:
     """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
     problem = oscillator_of(tableau)
     fields = [problem.matrix(colour) for colour in tableau.colours]
     conditions, others = oscillator_curves(family_step(Flat(tableau, ring), fields))
     poles, _, _, upper, lower = others
-    return LevelSigns(
+    return aims.LevelSigns(
         [poles, *conditions, upper, lower], _is_bounded, is_closed=False, common=others
     )
 
@@ -238,7 +230,7 @@ def _is_bounded(signs: Sequence[int]) -> bool:
     return not is_double or upper == lower == 0
 
 
-OSCILLATOR_INTERVAL = LevelObjective(
+OSCILLATOR_INTERVAL = aims.LevelObjective(
     "-oscillator-interval",
     "the z such that all powers of the step are bounded on the oscillator for hω ≤ z",
     _oscillator,
@@ -246,7 +238,7 @@ OSCILLATOR_INTERVAL = LevelObjective(
     is_square=True,
 )
 """E. Hairer, C. Lubich, G. Wanner, *Geometric Numerical Integration*, section I.5.2."""
-REAL_INTERVAL = LevelObjective(
+REAL_INTERVAL = aims.LevelObjective(
     "-real-interval",
     "the x with |R| ≤ 1 on [−x, 0], the vector fields all equal",
     _real,
@@ -255,42 +247,44 @@ REAL_INTERVAL = LevelObjective(
 )
 """E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2."""
 
-OBJECTIVES: dict[str, Objective | LevelObjective | SearchMeasure | Either] = {
+OBJECTIVES: dict[str, aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.Either] = {
     objective.key: objective
     for objective in (
         # E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.3
-        Objective(
+        aims.Objective(
             "error",
             "Σ e(u)² over the trees of order {next}, e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u)",
             lambda x, ring: squared_error(x.tableau, x.order + 1, ring),
         ),
-        Objective(
+        aims.Objective(
             "error-coupling",
             "Σ e(u)² over the trees of order {next} with more than one colour,"
             " e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u)",
             _coupling_error,
         ),
-        Objective(
+        aims.Objective(
             "dense-error",
             "∫ Σ e_θ(u)² dθ over the trees of order q + 1 and θ from 0 to 1, q the dense order, e_θ"
             " the errors of the dense output",
             _dense_error,
         ),
-        Objective(
+        aims.Objective(
             "coefficients",
             "Σ a² + Σ b² over all coefficients of all blocks and weights",
             _squared_coefficients,
             lambda tableau: tableau.entries,
         ),
         # J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991
-        LevelObjective("-ssp", "the SSP coefficient", _ssp, _ssp_signs, claim="ssp-coefficient"),
-        Either(
+        aims.LevelObjective(
+            "-ssp", "the SSP coefficient", _ssp, _ssp_signs, claim="ssp-coefficient"
+        ),
+        aims.Either(
             "-stability-interval",
             lambda tableau: REAL_INTERVAL if is_linear(tableau) else OSCILLATOR_INTERVAL,
         ),
         REAL_INTERVAL,
         # E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2
-        LevelObjective(
+        aims.LevelObjective(
             "-imaginary-interval",
             "the y with |R| ≤ 1 on [−iy, iy], the vector fields all equal",
             _imaginary,

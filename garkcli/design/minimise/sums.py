@@ -7,14 +7,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.design.minimise.objective import (
-    Either,
-    LevelObjective,
-    Objective,
-    ObjectiveSubject,
-    SearchMeasure,
-    WeightedSum,
-)
+from garkcli.design.minimise import objective as aims
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.squared_error import Quotient
 from garkcli.errors import ExpressionError, UsageProblem, did_you_mean
@@ -22,7 +15,9 @@ from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Chain, Expression, Literal, Name
 from garkcli.exact.parametric import Parameters
 
-Wanted: TypeAlias = Objective | LevelObjective | SearchMeasure | Either | WeightedSum
+Wanted: TypeAlias = (
+    aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.Either | aims.WeightedSum
+)
 """Anything that can be minimised."""
 CURE = "write a name, or a sum such as '2*A + largest' or 'A - ssp/10'"
 _KEYS = {key.removeprefix("-"): key for key in OBJECTIVES}
@@ -52,7 +47,7 @@ def objective_of(text: str) -> Wanted:
     if "" in form or not form:
         message = "what to minimise: numbers alone are not made small"
         raise UsageProblem(message, CURE, code="option-value")
-    return WeightedSum(
+    return aims.WeightedSum(
         text, tuple(_term(name.replace("_", "-"), weight) for name, weight in form.items())
     )
 
@@ -68,21 +63,23 @@ def refuse(text: str, is_search: bool = False) -> None:
         UsageProblem: it is no objective, or only a search minimises it.
     """
     objective = objective_of(text)
-    if not is_search and not isinstance(objective, Either):
+    if not is_search and not isinstance(objective, aims.Either):
         exactly(objective)
 
 
-def _term(name: str, weight: fmpq) -> tuple[fmpq, Objective | LevelObjective | SearchMeasure]:
+def _term(
+    name: str, weight: fmpq
+) -> tuple[fmpq, aims.Objective | aims.LevelObjective | aims.SearchMeasure]:
     if name not in _KEYS:
         message = f"no objective {name!r}"
         raise UsageProblem(message, did_you_mean(name, list(_KEYS)), code="unknown-word")
     objective = OBJECTIVES[_KEYS[name]]
-    if isinstance(objective, Either):
+    if isinstance(objective, aims.Either):
         message = f"{name} means one of two intervals, and a sum needs one"
         raise UsageProblem(
             message, "write real-interval or oscillator-interval", code="option-value"
         )
-    if isinstance(objective, LevelObjective) == (weight > 0):
+    if isinstance(objective, aims.LevelObjective) == (weight > 0):
         size = "large, and has a minus sign" if weight > 0 else "small, and has no minus sign"
         raise UsageProblem(f"{name} is made {size}", CURE, code="option-value")
     return weight, objective
@@ -129,27 +126,27 @@ def _added(signs: str, forms: list[dict[str, fmpq]]) -> dict[str, fmpq]:
 
 
 def exactly(
-    objective: Objective | LevelObjective | SearchMeasure | WeightedSum,
-) -> Objective | LevelObjective:
+    objective: aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.WeightedSum,
+) -> aims.Objective | aims.LevelObjective:
     """An objective for the exact engines.
 
     Raises:
         UsageProblem: it is no rational function of the coefficients.
     """
-    if isinstance(objective, Objective) or (
-        isinstance(objective, LevelObjective) and objective.signs
+    if isinstance(objective, aims.Objective) or (
+        isinstance(objective, aims.LevelObjective) and objective.signs
     ):
         return objective
-    terms = objective.terms if isinstance(objective, WeightedSum) else ((fmpq(1), objective),)
+    terms = objective.terms if isinstance(objective, aims.WeightedSum) else ((fmpq(1), objective),)
     formulas = []
     for weight, one in terms:
-        if not isinstance(one, Objective):
+        if not isinstance(one, aims.Objective):
             name = one.key.removeprefix("-")
             message = f"{name} is minimised by a search alone"
             raise UsageProblem(message, f"add --search N{_instead(name)}", code="option-alone")
         formulas.append((weight, one.formula))
 
-    def formula(subject: ObjectiveSubject, ring: Parameters | None) -> Quotient:
+    def formula(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quotient:
         total = Quotient(fmpq(0), fmpq(1))
         for weight, one in formulas:
             part = one(subject, ring)
@@ -159,7 +156,7 @@ def exactly(
             total = Quotient(numerator, total.denominator * part.denominator)
         return total
 
-    return Objective(objective.key, objective.summary, formula)
+    return aims.Objective(objective.key, objective.summary, formula)
 
 
 def _instead(name: str) -> str:

@@ -4,27 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.constructions.infinitesimal import (
-    CollocationPlan,
-    Coupling,
-    Powers,
-    check_ends,
-    following,
-    generalized,
-    infinitesimal,
-    interpolation,
-    mis_coupling,
-    of_step_time,
-    plan_for_flow,
-    plan_for_method,
-    plan_for_predictor,
-    predicted,
-    restarted,
-)
+from garkcli.constructions import infinitesimal as mri
 from garkcli.constructions.multirate import Blocks, by_blocks, by_rule, slowest_first
 from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
@@ -33,6 +17,7 @@ from garkcli.exact.rewriting import Expanded
 from garkcli.frozen import Frozen, replace
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode
+from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.load import NO_SETTINGS, built, described
@@ -43,9 +28,6 @@ from garkcli.tableau.embedded import Further
 from garkcli.tableau.forms import one_field
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
-
-if TYPE_CHECKING:
-    from garkcli.methodfile.build import MethodFile
 
 TableauOf: TypeAlias = Callable[[PartText], Tableau]
 
@@ -58,16 +40,16 @@ class Infinitesimal(Frozen):
     """
 
     fast: PartText | None
-    coupling: Callable[[TableauOf, Values], Coupling]
+    coupling: Callable[[TableauOf, Values], mri.Coupling]
     steps: int
 
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
         coupling = self.coupling(tableau_of, values)
-        values.once(("ends", id(self)), lambda: check_ends(coupling))
-        plan_for = plan_for_flow if self.fast is None else plan_for_method
-        plan: CollocationPlan = values.once(("plan", id(self)), lambda: plan_for(coupling))
+        values.once(("ends", id(self)), lambda: mri.check_ends(coupling))
+        plan_for = mri.plan_for_flow if self.fast is None else mri.plan_for_method
+        plan: mri.CollocationPlan = values.once(("plan", id(self)), lambda: plan_for(coupling))
         fast = None if self.fast is None else method_of_part(tableau_of, self.fast, "fast")
-        return infinitesimal(coupling, plan, fast, self.steps)
+        return mri.infinitesimal(coupling, plan, fast, self.steps)
 
 
 def method_of_part(tableau_of: TableauOf, part: PartText, key: str) -> Method:
@@ -288,24 +270,24 @@ class StepPredictor(Frozen):
 
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
         slow = method_of_part(tableau_of, self.slow, "slow")
-        forcing = tuple(map(values.matrix, self.forcing.values())) or (interpolation(slow),)
+        forcing = tuple(map(values.matrix, self.forcing.values())) or (mri.interpolation(slow),)
         for key, rows in zip(self.forcing, forcing, strict=False):
             if len(rows[0]) != slow.stages:
                 message = f"{key} has {counted(len(rows[0]), 'column')}, and the slow method "
                 message += f"{counted(slow.stages, 'stage')}"
                 raise MethodError(message, "give a column a slow stage", code="wrong-size")
         fast = None if self.fast is None else method_of_part(tableau_of, self.fast, "fast")
-        plan = values.once(("plan", id(self)), lambda: plan_for_predictor(slow, forcing, fast))
-        return predicted(slow, forcing, plan, fast, self.steps)
+        plan = values.once(("plan", id(self)), lambda: mri.plan_for_predictor(slow, forcing, fast))
+        return mri.predicted(slow, forcing, plan, fast, self.steps)
 
 
-def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
+def _mis(part: PartText) -> Callable[[TableauOf, Values], mri.Coupling]:
     """Returns the coupling by a constant forcing."""
 
-    def coupling(tableau_of: TableauOf, values: Values) -> Coupling:
+    def coupling(tableau_of: TableauOf, values: Values) -> mri.Coupling:
         row = _embedded_of(part)
         embedded = None if row is None else values.vector(row)
-        return mis_coupling(method_of_part(tableau_of, part, "mis"), embedded)
+        return mri.mis_coupling(method_of_part(tableau_of, part, "mis"), embedded)
 
     return coupling
 
@@ -316,19 +298,21 @@ def _embedded_of(part: PartText) -> Row | None:
     return texts[0].embedded if len(texts) == 1 else None
 
 
-def _generalized(at: PartReader, entries: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
+def _generalized(
+    at: PartReader, entries: g.ReadMapping
+) -> Callable[[TableauOf, Values], mri.Coupling]:
     """Returns the coupling by α, β and γ."""
     stages = len(entries["beta"])
     parts = [
         _whole(at, entries[key], entries.nodes[key], key, stages + 1)
         for key in ("alpha", "beta", "gamma")
     ]
-    return lambda _, values: generalized(*map(values.matrix, parts))
+    return lambda _, values: mri.generalized(*map(values.matrix, parts))
 
 
 def _coupling_by_name(
     at: PartReader, entries: g.ReadMapping
-) -> Callable[[TableauOf, Values], Coupling]:
+) -> Callable[[TableauOf, Values], mri.Coupling]:
     """Returns the coupling of another multirate infinitesimal method."""
     part: PartText = entries["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
@@ -340,7 +324,7 @@ def _coupling_by_name(
     message = "multirate, mri: no coupling of slow stages is in this method"
     cure = "name a method of gark list methods --kind mri, or write mis: NAME"
     at.source.fault(entries.nodes["mri"], message, cure, code="wrong-value")
-    return lambda *_: following((), ())
+    return lambda *_: mri.following((), ())
 
 
 def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText | None:
@@ -440,7 +424,9 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
             numbers.define(name, value)
 
 
-def _polynomials(at: PartReader, entries: g.ReadMapping) -> Callable[[TableauOf, Values], Coupling]:
+def _polynomials(
+    at: PartReader, entries: g.ReadMapping
+) -> Callable[[TableauOf, Values], mri.Coupling]:
     """Returns the polynomial couplings between nodes, the explicit part before the implicit one."""
     c: Row = entries["c"]
     restart = entries.get("restart")
@@ -453,19 +439,19 @@ def _polynomials(at: PartReader, entries: g.ReadMapping) -> Callable[[TableauOf,
     if restart:
         _check_restart(at, entries, matrices)
 
-    def coupling(_: TableauOf, values: Values) -> Coupling:
+    def coupling(_: TableauOf, values: Values) -> mri.Coupling:
         nodes = values.vector(c)
         powers = {key: tuple(map(values.matrix, x)) for key, x in matrices.items()}
-        embedded: dict[str, Powers] | None = None
+        embedded: dict[str, mri.Powers] | None = None
         if rows is not None:
             embedded = {key: tuple(map(values.vector, rows.get(key, ()))) for key in powers}
         if restart is None:
             last = None if embedded is None else tuple(embedded.values())
-            return following(nodes, tuple(powers.values()), last)
+            return mri.following(nodes, tuple(powers.values()), last)
         if restart == "merk":
             (forcing,) = powers.values()
             last = None if embedded is None else tuple(embedded.values())
-            made = restarted(nodes, (of_step_time(nodes[1:], forcing),), last)
+            made = mri.restarted(nodes, (mri.of_step_time(nodes[1:], forcing),), last)
         else:
             parts = max(len(powers), 1)
             forcing = powers.get("omega", powers.get("gamma", ()))
@@ -474,7 +460,7 @@ def _polynomials(at: PartReader, entries: g.ReadMapping) -> Callable[[TableauOf,
             if embedded is not None:
                 last = (embedded["omega"],) * parts
                 row = embedded["gamma"][0] if parts > 1 and embedded["gamma"] else None
-            made = restarted(nodes, (forcing,) * parts, last, after, row)
+            made = mri.restarted(nodes, (forcing,) * parts, last, after, row)
         return replace(made, matrices=tuple(powers.values()), restart=restart)
 
     return coupling
@@ -565,7 +551,7 @@ def _is_nonzero(entry: Coefficient) -> bool:
 KIND = _KEYS.then(_read)
 
 
-def coupling_of(method: MethodFile) -> Coupling | None:
+def coupling_of(method: MethodFile) -> mri.Coupling | None:
     """Returns the coupling of the slow stages in a file with ``multirate: {mis: …}`` or ``{mri:
     …}``.
 

@@ -13,29 +13,21 @@ from flint import arb, ctx, fmpq
 from garkcli.errors import NoLegendreTransform
 from garkcli.frozen import replace
 from garkcli.problems.expr import Place, Vector
+from garkcli.problems.files import formulas as texts
 from garkcli.problems.files.expansion import too_long
-from garkcli.problems.files.formulas import (
-    BITS,
-    PLACES,
-    FormulaReader,
-    FormulaTerm,
-    Maker,
-    named,
-    nearby,
-)
 from garkcli.problems.files.keys import ProblemText
 
 if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
 _NUMBER = "a number, such as {}: 1/2"
-_GOOD = 10.0**-PLACES  # the radius of momenta that may count as the start
+_GOOD = 10.0**-texts.PLACES  # the radius of momenta that may count as the start
 
 
-class HamiltonianMaker(Maker):
+class HamiltonianMaker(texts.Maker):
     """Makes the problem of a file with ``hamiltonian`` or ``lagrangian``."""
 
-    def __init__(self, formulas: FormulaReader, text: ProblemText) -> None:
+    def __init__(self, formulas: texts.FormulaReader, text: ProblemText) -> None:
         from garkcli.problems.mass import velocities
         from garkcli.problems.vectorfield import symbols
 
@@ -81,7 +73,7 @@ class HamiltonianMaker(Maker):
             tuple(x.made for x in terms),
             tuple(at.values()),
             self.text.t_end,
-            named(invariants),
+            texts.named(invariants),
         )
 
     def _initial(self) -> dict[str, fmpq] | None:
@@ -112,8 +104,8 @@ class HamiltonianMaker(Maker):
         return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
 
     def _transformed(
-        self, lagrangians: list[FormulaTerm], start: dict[str, fmpq]
-    ) -> tuple[list[FormulaTerm], dict[str, fmpq]]:
+        self, lagrangians: list[texts.FormulaTerm], start: dict[str, fmpq]
+    ) -> tuple[list[texts.FormulaTerm], dict[str, fmpq]]:
         """Returns the Hamiltonian terms, and the initial values with momenta."""
         velocities = set(self.v)
         moving = [x for x in lagrangians if x.made.free_symbols & velocities]
@@ -123,7 +115,7 @@ class HamiltonianMaker(Maker):
             self.source.fault(lagrangians[0].node, message, cure, code="missing-key")
         has_velocities = str(self.v[0]) in start
         every = (*self.q, *self.p, *self.v)
-        with ctx.workprec(BITS):
+        with ctx.workprec(texts.BITS):
             at = {x: arb(start[str(x)]) for x in every if str(x) in start}
         # with several moving terms the velocity of each is not q̇(0), only their sum is
         is_one = len(moving) == 1 or not has_velocities
@@ -138,7 +130,7 @@ class HamiltonianMaker(Maker):
             start = start | self._momenta(lagrangians, terms, at, moving[0])
         return terms, start
 
-    def _transform(self, term: FormulaTerm, known: Place) -> FormulaTerm | None:
+    def _transform(self, term: texts.FormulaTerm, known: Place) -> texts.FormulaTerm | None:
         """Returns the Hamiltonian of a term; None, with a fault, if it is not found."""
         from garkcli.problems.lagrangian import legendre_transform
         from garkcli.problems.mass import WRITE_HAMILTONIAN
@@ -158,10 +150,10 @@ class HamiltonianMaker(Maker):
 
     def _momenta(
         self,
-        lagrangians: Sequence[FormulaTerm],
-        hamiltonians: Sequence[FormulaTerm],
+        lagrangians: Sequence[texts.FormulaTerm],
+        hamiltonians: Sequence[texts.FormulaTerm],
         at: Place,
-        moving: FormulaTerm,
+        moving: texts.FormulaTerm,
     ) -> dict[str, fmpq]:
         """Returns the momenta that belong to the initial velocities, by name."""
         from garkcli.problems.lagrangian import initial_momenta
@@ -180,11 +172,11 @@ class HamiltonianMaker(Maker):
                 message = f"{moving.where}: the momenta do not exist at the initial values"
                 self.source.fault(moving.node, message, "start elsewhere", code="no-formula")
                 self.source.close()
-            by_name[str(p)] = nearby(value)
+            by_name[str(p)] = texts.nearby(value)
         return by_name
 
     def _refuse_constants(
-        self, terms: Sequence[FormulaTerm], invariants: Sequence[FormulaTerm]
+        self, terms: Sequence[texts.FormulaTerm], invariants: Sequence[texts.FormulaTerm]
     ) -> None:
         """Reports a Hamiltonian without motion, and constant invariants."""
         from garkcli.problems.vectorfield import is_constant

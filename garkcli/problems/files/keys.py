@@ -6,19 +6,16 @@ The schema constrains single values; the names in formulas are left to the loade
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from flint import fmpq
 
 from garkcli.exact.formula import RESERVED
 from garkcli.frozen import Frozen, replace
+from garkcli.glossary.key import FileKind, KeyMeaning
 from garkcli.grammar import keys as g
 from garkcli.grammar.nodes import Node
 from garkcli.problems.vectorfield import TIME
-
-if TYPE_CHECKING:
-    from garkcli.glossary.key import FileKind, KeyMeaning
-
 
 DEFAULT_T_END = fmpq(2)
 """The default final time of a convergence test."""

@@ -18,19 +18,9 @@ from garkcli.grammar.keys import FILE, entries_in
 from garkcli.grammar.nodes import MappingNode, Node, ScalarNode, SequenceNode, one_line, shortened
 from garkcli.grammar.reading import read_text
 from garkcli.grammar.source import Entries, Source
+from garkcli.problems.files import keys
 from garkcli.problems.files.formulas import FormulaReader, bad_name
 from garkcli.problems.files.hamiltonians import HamiltonianMaker
-from garkcli.problems.files.keys import (
-    DEFAULT_T_END,
-    FORM,
-    KEYS,
-    MAX_INVARIANTS,
-    SOLUTION,
-    START,
-    STIFFNESS,
-    ProblemText,
-    Side,
-)
 from garkcli.problems.files.sides import SidesMaker
 from garkcli.problems.vectorfield import TIME
 
@@ -127,30 +117,34 @@ class _ProblemReader:
 
     def __init__(self, source: Source, stiffness: fmpq | None) -> None:
         self.source, self.stiffness = source, stiffness
-        self.formulas = FormulaReader(source, {} if stiffness is None else {STIFFNESS: stiffness})
+        self.formulas = FormulaReader(
+            source, {} if stiffness is None else {keys.STIFFNESS: stiffness}
+        )
 
-    def read(self) -> ProblemText | None:
+    def read(self) -> keys.ProblemText | None:
         source = self.source
         root = source.compose()
         if root is None:
             return None
-        entries = entries_in(source, root, FILE, KEYS)
+        entries = entries_in(source, root, FILE, keys.KEYS)
         for key in ("gark", "description", "reference"):
             self._value(key, entries)
-        form = next(iter(FORM.given(entries)), None)
+        form = next(iter(keys.FORM.given(entries)), None)
         before = len(source.faults)
         places = self._places(root, entries)
         variables = _Variables(source, places, form or "hamiltonian")
-        FORM.refuse(source, root, FILE, entries)
+        keys.FORM.refuse(source, root, FILE, entries)
         variables.refuse_clashes()
         are_named = len(source.faults) == before
         parameters = entries.get("parameters")
         self.formulas.read_parameters(parameters)
         variables.refuse_taken(parameters)
         if form is not None:
-            SOLUTION.refuse(source, root, FILE, entries, form)
+            keys.SOLUTION.refuse(source, root, FILE, entries, form)
         start = {key: x for key, x in entries.items() if key != "exact" or form == "rhs"}
-        replace(START, cure=f"write {variables.example_start()}").refuse(source, root, FILE, start)
+        replace(keys.START, cure=f"write {variables.example_start()}").refuse(
+            source, root, FILE, start
+        )
         self._check_stiffness(root, form)
         if form is None:
             return None
@@ -163,7 +157,7 @@ class _ProblemReader:
         known = tuple(places) if are_named else ()
         node = entries.get("name")
         text = None if node is None else self.source.scalar(node, "name")
-        return ProblemText(
+        return keys.ProblemText(
             name=_shown_name(text or Path(self.source.name).stem),
             variables=tuple(places),
             are_named=are_named,
@@ -201,31 +195,31 @@ class _ProblemReader:
         if form is not None and form != "rhs":
             message = f"--stiffness is for rhs, and this is a {form}"
             self.source.fault(root, message, "leave it out", code="other-problem")
-        elif STIFFNESS not in self.formulas.values:
-            cure = f"write parameters: {{{STIFFNESS}: 1}} and use it in rhs"
-            message = f"--stiffness, but no parameter called {STIFFNESS}"
+        elif keys.STIFFNESS not in self.formulas.values:
+            cure = f"write parameters: {{{keys.STIFFNESS}: 1}} and use it in rhs"
+            message = f"--stiffness, but no parameter called {keys.STIFFNESS}"
             self.source.fault(root, message, cure, code="other-problem")
 
     def _value(self, key: str, entries: Entries) -> Any:
-        return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
+        return keys.KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _t_end(self, node: Node | None) -> fmpq:
         constant = None if node is None else self.formulas.constant(node, "t_end")
         if constant is None:
-            return DEFAULT_T_END
+            return keys.DEFAULT_T_END
         _, value = constant
         if isinstance(value, fmpq) and value > 0:
             return value
         message = "t_end: a positive rational number is expected"
         self.source.fault(node, message, "such as 2 or 5/2", code="wrong-value")
-        return DEFAULT_T_END
+        return keys.DEFAULT_T_END
 
     def _invariants(self, entries: Entries, form: str) -> list[tuple[str, Node]]:
         """Returns the first integrals of the file and their formulas."""
         node = entries.get("invariants")
         formulas = {} if node is None else self.source.mapping(node, "invariants", ())
-        if len(formulas) > MAX_INVARIANTS:
-            message = f"{len(formulas)} invariants (limit {MAX_INVARIANTS})"
+        if len(formulas) > keys.MAX_INVARIANTS:
+            message = f"{len(formulas)} invariants (limit {keys.MAX_INVARIANTS})"
             self.source.fault(node, message, "use fewer", code="too-many")
             return []
         for name, formula in formulas.items():
@@ -235,7 +229,7 @@ class _ProblemReader:
         return [(_shown_name(name), x) for name, x in formulas.items()]
 
 
-def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> Side:
+def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> keys.Side:
     """Returns the right-hand sides of a term: variables, formulas, and their names in messages.
 
     A single formula belongs to the only variable. Without ``names`` all are allowed.

@@ -10,12 +10,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.roots import sign
 from garkcli.frozen import replace
 from garkcli.order.weak_stages import weak_stage_order as weak_order
-from garkcli.properties.last_stage import (
-    first_same_as_last,
-    is_stiffly_accurate,
-    missed_entries,
-    new_value,
-)
+from garkcli.properties import last_stage
 from garkcli.properties.naming import entry, entry_is, number_words, place, stages_name
 from garkcli.properties.pattern import spaces_that_matter
 from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes, stages_that_matter
@@ -84,7 +79,7 @@ def stiffly_accurate(subject: Subject) -> Verdict:
     tableau = subject.tableau
     if not subject.is_complete:
         return Verdict.meaningless(MISSING_BLOCKS)
-    if is_stiffly_accurate(tableau, subject.tolerance):
+    if last_stage.is_stiffly_accurate(tableau, subject.tolerance):
         return Verdict(True)
     return Verdict(False, _missed(tableau))
 
@@ -96,7 +91,7 @@ def _missed(tableau: Tableau) -> Reason:
         return Reason("at no node the stage has the weights as its rows")
     k = len(tableau.spaces) - 1
     i = space.stages - 1
-    (m, j), *_ = missed_entries(tableau, k, i, new_value(tableau))
+    (m, j), *_ = last_stage.missed_entries(tableau, k, i, last_stage.new_value(tableau))
     of_entry = entry_is(entry(tableau, k, m, i, j), tableau.blocks[k, m][i][j])
     of_weight = entry_is(place("b", tableau, [m], j), tableau.colours[m].b[j])
     return Reason("{}, {}", of_entry, of_weight)
@@ -116,7 +111,7 @@ def fsal(subject: Subject) -> Verdict:
     tableau = subject.tableau
     if not subject.is_complete:
         return Verdict.meaningless(MISSING_BLOCKS)
-    found = first_same_as_last(tableau, subject.tolerance)
+    found = last_stage.first_same_as_last(tableau, subject.tolerance)
     if found.not_first is not None:
         stage = stages_name(tableau, [(found.not_first, 0)])
         return Verdict(False, Reason("{} is not the old value", stage))
