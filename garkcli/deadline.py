@@ -78,9 +78,7 @@ def processor_time() -> float:
 
 @contextmanager
 def only_small() -> Iterator[None]:
-    """Does only small work inside: work that would need a process of its own raises
-    ``NotDecided``.
-    """
+    """Does only small work inside: work for another process raises ``NotDecided``."""
     token = _is_small.set(True)
     try:
         yield

@@ -254,9 +254,7 @@ class Remark(Frozen):
 
 
 MANY_WORDS = 50
-"""Beyond so many known words a misspelt one is compared only with those of the same first
-letter.
-"""
+"""Beyond so many words a misspelt one is compared only with those of its first letter."""
 MOST_WORDS = 8 * MANY_WORDS
 """Most words of the same first letter; the catalogue has hundreds."""
 WORDS_SHOWN = 20
@@ -315,9 +313,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def _that_begin_like(word: str, known: list[str]) -> list[str]:
-    """The known words that are worth a comparison: all, or of very many those of one first
-    letter.
-    """
+    """The known words that are worth a comparison."""
     if len(known) <= MANY_WORDS:
         return known
     first, own = word[:1].lower(), _pieces(word)

@@ -67,9 +67,7 @@ def solving_order(needs: Edges[T], places: Mapping[T, int]) -> list[T]:
 
 
 def _visit(root: T, after: Edges[T], seen: set[T], finish: Callable[[T], None]) -> None:
-    """Visits depth first from ``root``, without recursion; ``finish`` is called with each vertex
-    after its successors.
-    """
+    """Visits depth first, without recursion; ``finish`` is called after all successors."""
     if root in seen:
         return
     seen.add(root)

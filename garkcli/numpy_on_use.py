@@ -1,6 +1,4 @@
-"""numpy, imported when one of its names is first used: exact answers do without it, and so do
-places that lack it, such as a browser.
-"""
+"""numpy, imported when one of its names is first used."""
 
 from __future__ import annotations
 

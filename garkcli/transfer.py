@@ -185,9 +185,7 @@ def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> M
 
 
 def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
-    """The colour that a ``symplectic-`` rule builds on: that of smaller order, of fewer stages, or
-    the first.
-    """
+    """The colour of smaller order, of fewer stages, or the first."""
 
     def size(k: int) -> tuple[int, int, int]:
         return orders[k], methods[k].stages, k

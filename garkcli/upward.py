@@ -17,9 +17,7 @@ _handed_down: list[Answering] = []
 
 
 def hand_down(answering: Answering) -> None:
-    """Installs the function that finds answers from the names of a class and a question; it returns
-    None if there is none.
-    """
+    """Installs the function that finds answers by the names of a class and a question."""
     _handed_down[:] = [answering]
 
 

@@ -1,3 +1,1 @@
-"""Backward error analysis: the equation that a method solves exactly
-(docs/modified-equation.md).
-"""
+"""Backward error analysis: the equation that a method solves exactly."""

@@ -102,9 +102,7 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
 def _bracket_with_delta(
     forest: Forest, order: int, sides: Sequence[Sequence[fmpq]] = ()
 ) -> fmpz_mat:
-    """The matrix of χ ↦ [χ, δ] from trees of an order to those of the next, and right-hand sides,
-    each multiplied by its common denominator.
-    """
+    """The matrices of χ ↦ [χ, δ] to the next order, and right-hand sides, without denominators."""
     rows = forest.of_order(order + 1)
     columns = forest.of_order(order)
     matrix = fmpz_mat(len(rows), len(columns) + len(sides))

@@ -60,9 +60,7 @@ class Meter(Mutable):
     digits: int = _DIGITS
 
     def choose_digits(self, first: int, order: int) -> None:
-        """Sets the digits such that the smallest error, which falls with h^order, is far above
-        rounding.
-        """
+        """Sets the digits such that the smallest error, about h^order, is far above rounding."""
         while True:
             smallest = self.errors(first)[-1]
             is_seen = not smallest.contains(0)
@@ -92,9 +90,7 @@ class Meter(Mutable):
         return table
 
     def errors(self, count: int) -> list[arb]:
-        """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
-        truncation, with ``count`` steps.
-        """
+        """The root mean square over time of H̃(y_n) − H̃(y_0) for each truncation."""
         integrator = self.bound.at(self.digits)
         h = self.t_end / count
         variables = self.bound.problem.variables

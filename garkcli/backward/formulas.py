@@ -70,9 +70,7 @@ class Differentials:
         return self._along(term, (), [self.field(u) for u in tree.branches])
 
     def _along(self, term: int, taken: tuple[int, ...], along: Sequence[FormulaVector]) -> Formula:
-        """A derivative of H^{l} by some unknowns, taken further along vectors that are not
-        differentiated.
-        """
+        """A derivative of H^{l} by some unknowns, along vectors that are held fixed."""
         value = self._derivative(term, tuple(sorted(taken)))
         if value == 0 or not along:
             return value

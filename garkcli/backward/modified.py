@@ -21,9 +21,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class ModifiedEquation(Frozen):
-    """The coefficients b(u) of a method up to an order, by the indices of the trees in
-    ``forest``.
-    """
+    """The coefficients b(u) of a method up to an order, by the indices of ``forest``."""
 
     tableau: Tableau
     forest: Forest

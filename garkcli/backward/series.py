@@ -37,9 +37,7 @@ MAX_TREES = 40_000
 
 
 class Cut(Frozen):
-    """An edge of a tree: the part with the root, the part below the edge, and the number of edges
-    that are alike.
-    """
+    """An edge of a tree: the parts above and below it, and the number of edges that are alike."""
 
     rest: int
     branch: int

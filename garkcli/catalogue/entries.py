@@ -1,6 +1,4 @@
-"""The entries of all named methods: from the index of the package, and for the user's own files
-from their claims or an analysis.
-"""
+"""The entries of all named methods: from the index, and for the user's own from their files."""
 
 from __future__ import annotations
 

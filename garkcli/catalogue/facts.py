@@ -233,9 +233,7 @@ def made(data: Path, before: str, tell: Tell) -> str:
 
 
 def _known(before: str) -> dict[tuple[str, str], Entry]:
-    """Returns the entries of an index by file and hash, without those that lack a property of
-    today.
-    """
+    """Returns the entries of an index by file and hash that have every property."""
     index: dict[str, Any] = json.loads(before) if before else {}
     if index.get("facts") != VERSION:
         return {}

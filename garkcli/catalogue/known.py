@@ -94,9 +94,7 @@ def find_known(analysis: Analysis, file: str, text: str) -> Known | None:
 
 
 def known_of(method: GarkMethod, text: str = "") -> Known | None:
-    """Returns the method of the catalogue that a method equals, or one next to it; None if there is
-    none.
-    """
+    """Returns the method of the catalogue equal or next to a method; None if there is none."""
     from garkcli.methodfile.shelves import package
 
     tableau = method.tableau

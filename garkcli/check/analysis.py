@@ -1,6 +1,4 @@
-"""The analysis of a method, exactly or within the tolerance of its file, and the proofs of its
-orders.
-"""
+"""The analysis of a method, exactly or within its tolerance, and the proofs of its orders."""
 
 from __future__ import annotations
 
@@ -116,9 +114,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def nearness(self) -> Nearness | None:
-        """The distance of the exact method that a rounded one stands for from its printed
-        coefficients; None for an exact method.
-        """
+        """The distance of the method that rounded coefficients stand for from their print."""
         method = meant(self.tableau, self.tolerance)
         if isinstance(method, Tableau):
             return None
@@ -138,9 +134,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def wrong_weights(self) -> tuple[WrongSum, ...]:
-        """The weights whose sum differs from 1 by more than rounding explains, the embedded ones
-        last.
-        """
+        """The weights whose sum is wrong beyond rounding, the embedded ones last."""
         wrong: list[WrongSum] = []
         method = meant(self.tableau, self.tolerance)
         asked = [(method, self.order, False)]
@@ -291,9 +285,7 @@ def analyse(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> Analysis:
-    """Decides all that ``gark check`` reports, with orders up to ``limit``; ``tolerance`` is None
-    for exact coefficients.
-    """
+    """Decides all that ``gark check`` reports; ``tolerance`` is None for exact coefficients."""
     tableau.demand_fields("this analysis")
     if any(isinstance(x, PolynomialSpace) and x.stages > MAX_STAGES for x in tableau.spaces):
         message = f"this analysis of a family is for at most {MAX_STAGES} stages"
@@ -359,9 +351,7 @@ def analyse(
 
 
 def looks_rounded(method: MethodFile) -> RoundingHint | None:
-    """Returns the remark on the missing tolerance of a file; None if it has one, is exact or has a
-    misprint.
-    """
+    """Returns the remark on a missing tolerance; None if no tolerance is missing."""
     if method.tolerance is not None:
         return None
     order = order_of(method.tableau)

@@ -122,9 +122,7 @@ _OF_OTHERS = frozenset({*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL})
 
 
 def found_value(key: str, analysis: AnyAnalysis) -> object:
-    """Returns the value found for an order, a table of orders, or symplecticity; None if not
-    applicable.
-    """
+    """Returns the value found for an order, orders, or symplecticity; None if not applicable."""
     value: Any = analysis
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)

@@ -46,9 +46,7 @@ def culprit(
     limit: int,
     remark: RoundingHint | None = None,
 ) -> Blame | None:
-    """Returns the likely cause of the first order below its claim, or of the order of a method
-    without one.
-    """
+    """Returns the likely cause of the first order below its claim, or of an unclaimed order."""
     blame = _of_claims(method, analysis, remark)
     if blame is None or not blame.repairs:
         claimed = {claim.key for claim in method.claims} - ({blame.of} if blame else set())
@@ -57,9 +55,7 @@ def culprit(
 
 
 def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | None) -> Blame | None:
-    """Returns the cause of the first order below its claim; None if the next order is not known to
-    fail, or rounding explains the failure.
-    """
+    """Returns the cause of the first order below its claim; None if rounding explains it."""
     for key, tableau, actual in _orders(method, analysis):
         claimed = highest_order(method.claims, [key])
         if actual.order >= claimed:
@@ -138,9 +134,7 @@ def _ways(
 
 
 def _rounded(method: MethodFile, remark: RoundingHint | None) -> AnyTableau | None:
-    """Returns the method as if its decimals were rounded; None if a remark says which one is
-    wrong, or no number is a decimal.
-    """
+    """Returns the method as if its decimals were rounded; None without any."""
     if remark is None:
         from garkcli.methodfile.printed import as_typed
 

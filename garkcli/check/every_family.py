@@ -306,9 +306,7 @@ class EveryFamily(Frozen):
 
     @property
     def has_one(self) -> bool:
-        """Whether there is one rational parameter and nothing else, so that single values are
-        examined.
-        """
+        """Whether there is one rational parameter and nothing else."""
         return len(self.ring.names) == 1
 
     @cached_property
@@ -353,9 +351,7 @@ class EveryFamily(Frozen):
         return [p for p in self.weights if p not in poles and self.can_vanish(p)]
 
     def common_zeros(self, polynomials: Sequence[fmpq_mpoly | fmpz_mpoly]) -> tuple[str, ...]:
-        """Returns polynomials as text, without those zero by the relations of the roots; none if
-        one of them cannot be zero for admitted values.
-        """
+        """Returns polynomials as text; none if one of them vanishes at no admitted value."""
         ring = self.ring
         texts = []
         for p in polynomials:
@@ -372,9 +368,7 @@ class EveryFamily(Frozen):
         return member(self.tableau, self.ring, {name: value})
 
     def is_inside(self, value: RealRoot) -> bool:
-        """Returns whether there is a method for a value of the parameter, and the file admits
-        it.
-        """
+        """Whether the file admits a value of the parameter and there is a method for it."""
         return self._admits(value) and all(sign_at(in_one(p), value) for p in self.poles)
 
     def _admits(self, value: RealRoot) -> bool:
@@ -416,9 +410,7 @@ class EveryFamily(Frozen):
         return p.project_to_context(self.ring.context, {0: 0})
 
     def roots(self, polynomials: Sequence[fmpq_mpoly]) -> list[RealRoot]:
-        """Returns the values of the parameter at which one of the polynomials is zero,
-        ascending.
-        """
+        """The values of the parameter at which one of the polynomials is zero, ascending."""
         return [root for root in roots_of(map(in_one, polynomials)) if self.is_inside(root)]
 
     def where_zero(self, p: fmpq_mpoly) -> EveryFamily | None:
@@ -459,9 +451,7 @@ class EveryFamily(Frozen):
     def samples(
         self, apart: Sequence[fmpq_mpoly] = ()
     ) -> Iterator[tuple[dict[str, fmpq], Tableau]]:
-        """Yields methods of the family with rational parameters, away from zeros of ``apart``; none
-        if there are roots besides the parameters.
-        """
+        """Yields methods with rational parameters, away from zeros of ``apart``."""
         if len(self.family.parameters) != len(self.ring.names):
             return
         choices = [list(self._tried(name)) for name in self.ring.names]

@@ -83,9 +83,7 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
 
 
 def _without(family: EveryFamily, fact: FamilyFact, lost: Sequence[fmpq_mpoly]) -> FamilyFact:
-    """Returns the order, with None at the zeros of some polynomials, where there is no such
-    method.
-    """
+    """Returns the order, with None at the zeros of polynomials, where there is no such method."""
     if not family.has_one:
         texts = [family.ring.text(p) for p in lost]
         return replace(fact, elsewhere=tuple((x, None) for x in texts))
@@ -119,9 +117,7 @@ def _higher(
 
 
 def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoot, int | None]]:
-    """Returns the admitted real solutions with their orders, by the value of the first
-    parameter.
-    """
+    """Returns the admitted real solutions with their orders, by the first parameter."""
     real_values = []
     for solution in solutions(ideal):
         order = order_of(family.family, whose, solution)

@@ -113,9 +113,7 @@ def _is_all(family: EveryFamily, values: tuple[Interval, ...]) -> bool:
 
 
 def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> FamilyFact:
-    """Returns the fact for a question that depends on signs of rational functions of the
-    parameter.
-    """
+    """Returns the fact for a question about signs of rational functions of the parameter."""
     critical: list[Polynomial] = []
     critical += [in_one(p) for p in family.poles]
     for x in numbers:

@@ -171,9 +171,7 @@ def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau |
 
 
 def claim_hint(outcome: Outcome, claim: str) -> Reason:
-    """Returns what would make a failed claim on an order true, or the claim that fails with it;
-    empty if unknown.
-    """
+    """Returns what would make a failed claim on an order true; empty if unknown."""
     analysis, blame = outcome.analysis, outcome.blame
     if analysis is None:
         return NO_REASON

@@ -25,9 +25,7 @@ _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Nyström 
 
 
 class NystromOrders(ClaimedOrders):
-    """The orders of weights at the stages of a Nyström method; ``order`` is the smaller one of both
-    components.
-    """
+    """The orders of weights at the stages of a Nyström method; ``order`` is the smaller one."""
 
     tableau: Tableau
     position_order: AnyOrder
@@ -48,9 +46,7 @@ class NystromOrders(ClaimedOrders):
 
 
 class NystromDense(DenseFacts):
-    """The orders of dense output in q and q′, for all θ. The slope of q should be q′ at both
-    ends.
-    """
+    """The orders of dense output in q and q′, for all θ; the slope of q should be q′."""
 
     position_order: dense_orders.DenseOrder
     velocity_order: dense_orders.DenseOrder

@@ -152,9 +152,7 @@ class LinearSubject(Frozen):
 
 
 class ClaimedOrders(Frozen):
-    """The orders of weights at the stages of a method, which claims are about; ``order`` is that of
-    the method.
-    """
+    """The orders of weights at the stages of a method; ``order`` is that of the method."""
 
     order: AnyOrder
 
@@ -274,9 +272,7 @@ class OrderFacts(Shown, Frozen):
     def with_flow(
         cls, tableau: Tableau, limit: int, tolerance: fmpq | None, further: Further
     ) -> Self:
-        """Returns the analysis of a tableau with stages that stand for exact solutions; see
-        ``analyse``.
-        """
+        """Returns the analysis of a tableau with exact solutions among its stages."""
         limit = min(limit, tableau.exact_to or limit)
         method = meant(tableau, tolerance, further)
         spans = StageSpans(tableau) if further and method is tableau else None

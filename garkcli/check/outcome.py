@@ -98,9 +98,7 @@ class Outcome(Shown, Frozen):
 
     @property
     def found(self) -> Analysis | EveryValue | OtherAnalysis | None:
-        """The analysis of the method, or the facts for all values of its parameters; None
-        without.
-        """
+        """The analysis of the method, or the facts for all values of its parameters."""
         return self.analysis or self.every or self.of_other_kind
 
     @cached_property

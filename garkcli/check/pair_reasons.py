@@ -67,9 +67,7 @@ def pair_reason(analysis: Analysis) -> PairReason | None:
 
 
 def _no_statement(analysis: Analysis, tableau: Tableau) -> str:
-    """Returns the hypothesis that fails, so that the criterion does not apply; empty if none
-    fails.
-    """
+    """Returns the hypothesis of the criterion that fails; empty if none fails."""
     for l, colour in enumerate(tableau.colours):
         row = [m for m in range(tableau.size) if tableau.block(l, m) is not None]
         if not row:

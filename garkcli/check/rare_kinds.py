@@ -78,9 +78,7 @@ def analyse_nprk(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NprkAnalysis:
-    """Decides all that ``gark check`` reports of a nonlinearly partitioned method, with orders up
-    to ``limit``.
-    """
+    """Decides all that ``gark check`` reports of a nonlinearly partitioned method."""
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if further and method is tableau else None
     order = order_of(method, limit, spans)

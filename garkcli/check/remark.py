@@ -106,9 +106,7 @@ def _is_within(order: AnyOrder, bound: Callable[[int], fmpq]) -> bool:
 def _judged(
     rounded: RoundedTableau, of: str, order: AnyOrder, limit: int
 ) -> tuple[RoundedTableau, AnyOrder]:
-    """Returns the method within its digits and its order, which is ``actual`` if the digits do not
-    explain why it is not higher.
-    """
+    """Returns the method within its digits and its order, ``actual`` if these do not explain it."""
     judged = derived(rounded, of)
     assert isinstance(judged, RoundedTableau)
     assert order.witness is not None

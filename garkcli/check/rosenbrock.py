@@ -60,9 +60,7 @@ class RosenbrockOrders(order_facts.ClaimedOrders):
 
     @cached_property
     def index_1_z_order(self) -> AnyOrder | None:
-        """The largest p with O(h^(p+1)) in z: the index-1 order or one less. Its conditions are
-        those of the index-1 order.
-        """
+        """The largest p with O(h^(p+1)) in z: the index-1 order or one less."""
         both, _ = self.index_1_order, self.index_1_y_order  # a rounded method is moved in turn
         return both and self._on_dae("on_dae_in_z", both)
 
@@ -153,9 +151,7 @@ def analyse_rosenbrock(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> RosenbrockAnalysis:
-    """Decides all that ``gark check`` reports of a Rosenbrock method, with orders up to
-    ``limit``.
-    """
+    """Decides all that ``gark check`` reports of a Rosenbrock method."""
     return RosenbrockAnalysis.analysed(
         RosenbrockOrders, order_facts.dense_facts, tableau, limit, tolerance, further
     )

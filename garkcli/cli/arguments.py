@@ -50,9 +50,7 @@ class MethodType(InputType):
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
-        """Returns the names and files that begin with a text; below a folder the shell
-        completes.
-        """
+        """The names and files that begin with a text; below a folder the shell completes."""
         from click.shell_completion import CompletionItem
 
         from garkcli.methodfile.naming import can_be_name, names_beginning

@@ -79,9 +79,7 @@ class Declared(Frozen, Generic[Given]):
         )
 
     def _params(self) -> Iterator[click.Parameter]:
-        """Yields the parameters with their headings: those of the class itself before inherited
-        ones.
-        """
+        """Yields the parameters with their headings, the class's own before inherited ones."""
         inherited = {x for base in self.options.__bases__ for x in declared_by(base)}
         made: dict[str, list[click.Parameter]] = {}
         heading = "Options"

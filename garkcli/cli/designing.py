@@ -276,9 +276,7 @@ def design(given: DesignOptions, output: Output) -> int:
 
 
 def _refuse_rounded(family: FamilyFile, given: DesignOptions) -> None:
-    """Raises UsageProblem if an option needs exact coefficients and those of the file are
-    rounded.
-    """
+    """Raises UsageProblem if an option needs exact coefficients that the file does not have."""
     if family.tolerance is None:
         return
     asked = {
@@ -447,9 +445,7 @@ def _least(found: Design, objective: str, given: DesignOptions) -> Minimum | Non
 
 
 def _sets(found: Design, given: DesignOptions) -> tuple[StableValues, ...] | None:
-    """Returns the values that are as stable as demanded, if all values have the order; None, with a
-    message, if they were not found in time.
-    """
+    """Returns the values with the wanted stability; None, with a message, if time is over."""
     from garkcli.design.design import stable_sets
 
     try:
@@ -656,9 +652,7 @@ def _worked(
     found: AnyResult,
     show: Callable[[AnyResult], None],
 ) -> tuple[AnyResult, int | None]:
-    """The last of the steps of some work, and the exit code where an interrupt or a lost worker
-    ends it; an interrupt leaves the last step.
-    """
+    """The last step of some work, and the exit code of an interrupt or a lost worker."""
     from garkcli.crew.hiring import hired
 
     with undone():
@@ -680,9 +674,7 @@ def _worked(
 
 
 def _lost(_task: SearchTask, why: str) -> Timed:
-    """Raises WorkerLost for a part of a search that ended its process; the results of the others
-    are kept.
-    """
+    """Raises WorkerLost for a part of a search whose process ended."""
     message = f"a process of the search was ended {why}"
     raise WorkerLost(message, "where memory is short use fewer --jobs")
 
@@ -690,9 +682,7 @@ def _lost(_task: SearchTask, why: str) -> Timed:
 def _written(
     family: FamilyFile, result: SearchResult, given: DesignOptions, output: Output
 ) -> Sequence[str | None]:
-    """Writes the requested files, of a single one the method with the strongest proof; returns the
-    file of each method.
-    """
+    """Writes the requested files, of a single one the best proved; returns the file of each."""
     from garkcli.api.design import found_files
 
     found = list(found_files(result, family, _wishes(given)))

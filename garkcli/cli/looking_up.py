@@ -93,9 +93,7 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]
 
 
 def _filters() -> list[click.Option]:
-    """Returns all options that filter and sort the lists of methods. Their values are passed by the
-    keys of catalogue entries, None if not given.
-    """
+    """Returns the options that filter and sort the lists of methods, by keys of entries."""
     from garkcli.catalogue.entries import ORDERS
     from garkcli.properties.subject import every_property
     from garkcli.report.methods import BY_KIND, KEYS_OF_KINDS

@@ -177,9 +177,7 @@ def _exit_code(arguments: list[str]) -> int:
 
 
 def _run(arguments: list[str]) -> int:
-    """Runs the command line without the exit of click, which would return 1, the code of a failing
-    claim, if the reader is gone.
-    """
+    """Runs the command line without the exit of click, whose code 1 would be a failing claim."""
     if arguments[:1] == [HELP]:
         names = [x for x in arguments[1:] if not x.startswith("-")]
         if len(names) > 1:

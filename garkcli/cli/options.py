@@ -238,9 +238,7 @@ def words_of(place: str, metavar: str | None = None) -> Kind[Any]:
 
 
 def completed(metavar: str, place: str) -> Kind[str]:
-    """A kind of texts that the shell completes with the words of a list; others are refused where
-    they are used.
-    """
+    """A kind of texts that the shell completes with the words of a list."""
     return Kind({"metavar": metavar, "shell_complete": arguments.completed(place)})
 
 
@@ -316,9 +314,7 @@ class Options(Frozen):
     rules: ClassVar[tuple[Rule, ...]] = ()
 
     def of(self, function: str) -> dict[str, Any]:
-        """Returns the given options that are arguments of a function of the package, by their names
-        there.
-        """
+        """Returns the given options that are arguments of a function of the package."""
         found = {}
         for name, declared in declared_by(type(self)).items():
             value = getattr(self, name)

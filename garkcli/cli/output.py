@@ -193,9 +193,7 @@ class Output:
             self.note(f"no browser was found: open {path} yourself")
 
     def tell_failure(self, error: GarkError, name: str, report: Report[Any]) -> int:
-        """Reports on stderr, and in reports for programs, why a run has no result; returns the exit
-        code.
-        """
+        """Reports why a run has no result, also to programs; returns the exit code."""
         from garkcli.report.remarks import FailedRun
 
         complain(error)

@@ -36,9 +36,7 @@ class ReaderGone(Exception):
 
 
 def prepare() -> None:
-    """Prepares the streams: characters that their encoding lacks are written in ASCII, and no file
-    is opened in the place of a closed stream.
-    """
+    """Prepares streams: no encoding fails, and no file is opened in place of a closed stream."""
     _fill_places()
     codecs.register_error(HANDLER, _handled)
     for stream in (sys.stdout, sys.stderr):
@@ -130,9 +128,7 @@ def flush() -> None:
 
 
 def say(text: str, coloured: bool = False, is_folded: bool = True) -> None:
-    """Writes lines to standard error, ignoring failures; on a terminal they are folded unless the
-    text has its own lines.
-    """
+    """Writes lines to standard error, ignoring failures; on a terminal they are folded."""
     text = safe(text, "text", coloured)
     with aside():
         try:

@@ -1,6 +1,4 @@
-"""``gark tableau``, ``convert`` and ``diff``: methods as tableaux and as files, also with free
-parameters.
-"""
+"""``gark tableau``, ``convert`` and ``diff``: methods as tableaus and as files."""
 
 from __future__ import annotations
 
@@ -184,9 +182,7 @@ def _derived_file(made: GarkMethod, output: Output) -> str:
 
 
 def _refuse_partitioned(tableau: Tableau) -> None:
-    """Raises UsageProblem for a partitioned method other than a pair (q, p), which has no method
-    file.
-    """
+    """Raises UsageProblem for a partitioned method without method file."""
     from garkcli.methodfile.writer import can_spell_out
 
     if not can_spell_out(tableau):

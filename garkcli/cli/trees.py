@@ -1,6 +1,4 @@
-"""``gark trees`` and ``gark conditions``: trees with their numbers and pictures, conditions with
-their values, and the free trees of symplectic methods.
-"""
+"""``gark trees`` and ``gark conditions``."""
 
 from __future__ import annotations
 
@@ -393,9 +391,7 @@ def conditions(given: ConditionsOptions, output: Output) -> None:
 
 
 def _valued(file: str, given: ConditionsOptions) -> Valued:
-    """Returns the method whose values are reported; for free parameters they are rational
-    functions.
-    """
+    """Returns the method whose values are reported, with rational functions for free parameters."""
     from garkcli.methodfile.load import load
     from garkcli.order.meant import as_meant, derived
     from garkcli.report.conditions import Valued
@@ -414,9 +410,7 @@ def _valued(file: str, given: ConditionsOptions) -> Valued:
 
 
 def _subject(given: ConditionsOptions, orders: range, valued: Valued | None) -> SymplecticSubject:
-    """Returns what the conditions are independent for: a kind of methods, or the method of a
-    file.
-    """
+    """Returns a kind of methods, or the method of a file, for independent conditions."""
     from garkcli.report.trees import subject_of_kind, subject_of_method
 
     if valued is None:

@@ -127,9 +127,7 @@ class Comparison(Shown, Frozen):
 
     @property
     def remark(self) -> str:
-        """The only difference between the methods if it is not in a block or in b; otherwise
-        empty.
-        """
+        """The only difference if it is not in a block or in b; otherwise empty."""
         if self.relation not in {"same-step", "different"}:
             return ""
         kinds = {gap.kind for gap in self.gaps}
@@ -156,9 +154,7 @@ class Comparison(Shown, Frozen):
 
     @property
     def _further(self) -> Iterator[str]:
-        """Yields the further weights that differ, or that one method lacks, if the steps are the
-        same.
-        """
+        """Yields the further weights that differ or are missing, if the steps are equal."""
         for name in ("embedded weights", "dense output"):
             key = name.partition(" ")[0]
             missing = self._lacking(key)

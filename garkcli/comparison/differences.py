@@ -67,9 +67,7 @@ def _size(gap: EntryGap) -> arb:
 
 
 def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]:
-    """Yields all differences of methods with equally many colours: blocks, weights, nodes and
-    further weights.
-    """
+    """Yields the differences of methods with equally many colours: blocks, weights, nodes."""
     compare = _Compare(likeness)
     colours = range(one.size)
     for l in colours:
@@ -96,9 +94,7 @@ class _Compare:
     def weights(
         self, kind: str, power: int, one: CellRows | None, other: CellRows | None
     ) -> Iterator[BlockGap]:
-        """Yields the differences in the weights or nodes of all colours; None if a method has
-        none.
-        """
+        """Yields the differences in the weights or nodes of all colours."""
         if one is None and other is None:
             return
         for l in range(len(one or other or ())):

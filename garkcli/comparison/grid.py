@@ -80,9 +80,7 @@ class Grid(Frozen):
 
 
 def common_sheets(one: GarkMethod, other: GarkMethod) -> tuple[Sheet, Sheet] | None:
-    """Returns both methods in one field, with separate stages for each colour; None if the nodes of
-    one have no simple radicals.
-    """
+    """Returns both methods in one field; None if nodes have no simple radicals."""
     try:
         first, second = in_one_field([sheet_of(one), sheet_of(other)])
     except CannotConvert:
@@ -128,9 +126,7 @@ def _ball(cell: Cell) -> arb:
 
 
 class Likeness(Frozen):
-    """The comparison of entries, where rounding may have moved equal ones apart by ``allowed``; 0
-    if both are exact.
-    """
+    """The comparison of entries that rounding may have moved apart by ``allowed``."""
 
     allowed: fmpq = ZERO
 
@@ -155,9 +151,7 @@ class Likeness(Frozen):
         return all(self.rows(x, y) for x, y in zip(one, other, strict=True))
 
     def grids(self, one: Grid, other: Grid) -> bool:
-        """Returns False if two methods are known to differ, with their stages in the given
-        order.
-        """
+        """Returns False if two methods differ with their stages in the given order."""
         if not have_one_shape(one, other):
             return False
         if not all(self.rows(x, y) for x, y in zip(_all_rows(one), _all_rows(other), strict=True)):

@@ -142,18 +142,14 @@ class Sameness(Frozen):
 
 
 class SamenessResult(Frozen):
-    """The result of a search for a correspondence; None if there is none, or if it is unknown
-    because of ``obstacle``.
-    """
+    """The result of a search for a correspondence; None if unknown because of ``obstacle``."""
 
     sameness: Sameness | None
     obstacle: str = ""
 
 
 class Views(Frozen):
-    """The entries of two methods, and the exact ones in one field; None if enclosures are
-    compared.
-    """
+    """The entries of two methods, and the exact ones in one field if all are exact."""
 
     one: grids.Grid
     other: grids.Grid
@@ -197,9 +193,7 @@ def _plainly(grid: grids.Grid) -> Sameness:
 
 
 def _same_algebra(one: Tableau, other: Tableau) -> bool:
-    """Returns whether methods at nodes without simple radicals have the same rational
-    coefficients.
-    """
+    """Whether methods at nodes without simple radicals have the same rational coefficients."""
     if len(one.spaces) != len(other.spaces) or one.size != other.size:
         return False
     for space, second in zip(one.spaces, other.spaces, strict=True):

@@ -1,3 +1,1 @@
-"""Methods made from methods: compositions, adjoints, splittings, extrapolation, multirate
-methods.
-"""
+"""Methods made from methods: compositions, splittings, extrapolation, multirate methods."""

@@ -272,9 +272,7 @@ def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: 
 
 
 def side_by_side(tableaus: Sequence[Tableau], weights: matrix.Vector) -> Tableau:
-    """The method Σ w_j Φ_j: every method takes the step from the same value, and the results are
-    combined.
-    """
+    """The method Σ w_j Φ_j: every method takes the step from the same value."""
     first = tableaus[0]
     colours = [_side_by_side(tableaus, weights, l) for l in range(first.size)]
     nodes = (next(x.c for x in colours if x.space == k) for k in range(len(first.spaces)))

@@ -32,9 +32,7 @@ class Derivatives(AlongFlow):
     """A method that uses derivatives along the solution."""
 
     def tableau(self, order: int) -> Tableau:
-        """A tableau with the conditions of the method up to an order, which is at least the number
-        of derivatives.
-        """
+        """A tableau with the conditions of the method up to an order."""
         flow = _flow(order)
         rows: list[Vector] = []
         for i in range(len(self.b[0])):

@@ -130,9 +130,7 @@ def following(
 
 
 def mis_coupling(base: Method, embedded: Vector | None = None) -> Coupling:
-    """The constant coupling of multirate infinitesimal steps: differences of the rows of a
-    method.
-    """
+    """The coupling of multirate infinitesimal steps: differences of the rows of a method."""
     rows = [*base.A, base.b]
     differences = [_difference(row, before) for before, row in pairwise(rows)]
     last = None if embedded is None else ((_difference(embedded, base.A[-1]),),)
@@ -169,9 +167,7 @@ def restarted(
 
 
 def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, ...]:
-    """Forcing polynomials in the time of the step, θ = c_i τ, as in MERK methods, rewritten in τ:
-    dv/dτ has a factor c_i.
-    """
+    """Forcing polynomials in the time of the step, θ = c_i τ (MERK methods), rewritten in τ."""
     return tuple(
         tuple(tuple(c ** (k + 1) * x for x in row) for c, row in zip(nodes, matrix, strict=True))
         for k, matrix in enumerate(matrices)
@@ -252,9 +248,7 @@ def plan_for_method(coupling: Coupling) -> CollocationPlan:
 
 
 def _solved(coupling: Coupling, counts: Sequence[int]) -> tuple[int, ...]:
-    """The counts at intervals where the fast part moves, or at the first one if it moves
-    nowhere.
-    """
+    """The counts at intervals where the fast part moves, or at the first one."""
     moves = [bool(x.width) for x in coupling.every]
     moves[0] |= not any(moves)
     return tuple(n if x else 0 for n, x in zip(counts, moves, strict=True))

@@ -71,9 +71,7 @@ def is_nprk(tableau: Tableau) -> bool:
 
 
 def arrays_of(tableau: Tableau) -> tuple[tuple[Matrix, ...], Vector]:
-    """The numbers a_ijk of a method, zeros included, and its nodes; rows of stages in no pair are
-    zero.
-    """
+    """The numbers a_ijk of a method and its nodes; rows of stages in no pair are zero."""
     (space,) = tableau.spaces
     assert isinstance(space, Pairs)
     s = 1 + max(map(max, space.pairs))

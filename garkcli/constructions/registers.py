@@ -38,9 +38,7 @@ class Steps(Frozen):
 
 
 class _Registers:
-    """The registers of a scheme: the coefficient of the initial value comes first, then those of
-    the slopes.
-    """
+    """The registers of a scheme: the coefficient of the initial value, then those of the slopes."""
 
     def __init__(self, stages: int) -> None:
         self._size = stages + 1
@@ -210,9 +208,7 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
 
 
 def diagonals(A: Sequence[Any], b: Numbers) -> Steps:
-    """2R, 3R, … as printed: the diagonals below the main one, each of its own length; a single one
-    may be a plain row.
-    """
+    """2R, 3R, … as printed: the diagonals below the main one; one may be a plain row."""
     rows = A if isinstance(A[0], Sequence) else [A]
     full = []
     for below, row in enumerate(rows, start=1):

@@ -60,9 +60,7 @@ class Rosenbrock(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Rosenbrock:
-        """The method of such a tableau: ``of(method.tableau) == method``, with its nodes filled
-        in.
-        """
+        """The method of a tableau: ``of(method.tableau) == method``, with its nodes."""
         N = tableau.size // 2
 
         def blocks(first: int) -> Blocks:
@@ -99,9 +97,7 @@ class Rosenbrock(Frozen):
 
     @property
     def with_old_jacobian(self) -> Tableau:
-        """The tableau with matrices that differ from the Jacobians by O(h), such as those of
-        earlier steps.
-        """
+        """The tableau for matrices that differ from the Jacobians by O(h)."""
         return self._tableau(
             ("f", nature.NOT_ONE, self.alpha),
             ("f'", nature.ONE_BRANCH, self._beta),
@@ -283,9 +279,7 @@ def _seen(which: Which, tableau: Tableau) -> Tableau:
 
 
 def transformed_weights(further: Further, gamma: matrices.Matrix) -> Further:
-    """Embedded weights and dense output of one colour, converted from the stored form m = b Γ⁻¹ to
-    weights of the stages k_i.
-    """
+    """Embedded weights and dense output from the stored form m = b Γ⁻¹."""
     return _times(further, gamma)
 
 

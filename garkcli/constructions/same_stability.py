@@ -11,9 +11,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def with_same_function(method: AnyTableau) -> AnyTableau | None:
-    """The Runge–Kutta method with the R(z) of a Rosenbrock or multiderivative method, exact or
-    rounded; None for other kinds.
-    """
+    """The Runge–Kutta method with the R(z) of another kind of method; None if there is none."""
     tableau = printed(method)
     if not (is_rosenbrock(tableau) or is_derivatives(tableau)):
         return None

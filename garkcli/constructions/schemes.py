@@ -52,9 +52,7 @@ def palindrome(half: Sequence[str]) -> Callable[[int, int], Parts]:
 
 
 def repeated(fractions: Callable[[int], Sequence[str]]) -> Callable[[int, int], Parts]:
-    """A scheme that gains two orders, repeated as needed; ``fractions`` gives its substeps for a
-    symmetric method of some order.
-    """
+    """A scheme that gains two orders, repeated; ``fractions`` gives its substeps for an order."""
 
     def parts(base: int, wanted: int) -> Parts:
         texts = ["1"]

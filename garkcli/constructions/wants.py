@@ -1,6 +1,4 @@
-"""Requirements on methods of other kinds in ``gark design``, and the tableau that each other
-requirement is about.
-"""
+"""Requirements on methods of other kinds in ``gark design``."""
 
 from __future__ import annotations
 
@@ -105,9 +103,7 @@ def _slow_order(asked: Asked) -> WantConditions:
 
 
 def _last_stage_is_step(asked: Asked) -> WantConditions:
-    """The last row of Ā is b̄ and that of A b, and the last node 1: its g is the first of the next
-    step.
-    """
+    """The last row of Ā is b̄ and that of A b, and the last node 1."""
     method = Nystrom.of(asked.tableau)
     rows = [(method.Abar[-1], method.bbar)]
     rows += [] if method.A is None else [(method.A[-1], method.b)]

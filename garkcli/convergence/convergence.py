@@ -155,9 +155,7 @@ def converge(
 def _rows(
     solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool
 ) -> tuple[list[result.StepSizeRow], int]:
-    """The errors over the given steps or those of the ladder, and the number of rows at the end on
-    a plateau.
-    """
+    """The errors over the given steps or the ladder, and the rows at the end on a plateau."""
     if steps is None:
         return ladder.default_rows(solver, is_timed)
     rows = _given_rows(solver, steps)
@@ -210,9 +208,7 @@ def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq
 
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
-    """The order by the certificate, up to ``MAX_ORDER``, within the tolerance of rounded
-    coefficients.
-    """
+    """The order by the certificate, up to ``MAX_ORDER``, within the tolerance."""
     return deciding.order_of(meant(tableau, tolerance), result.MAX_ORDER).order
 
 

@@ -1,6 +1,4 @@
-"""Reference solutions: known ones, or those of Gauss and Radau IIA methods with the requested
-digits.
-"""
+"""Reference solutions: known ones, or by Gauss and Radau IIA methods with many digits."""
 
 from __future__ import annotations
 
@@ -84,9 +82,7 @@ class ReferenceSolution(Mutable):
         return self.y
 
     def _is_known(self, digits: int) -> bool:
-        """Whether the exact solution is known, and starts at the problem's start to so many
-        digits.
-        """
+        """Whether the exact solution is known and starts at the problem's start."""
         if isinstance(self.problem, Hamiltonian) or self.problem.exact is None:
             return False
         return digits <= righthandside.EXACT_DIGITS or righthandside.starts_exactly(self.problem)

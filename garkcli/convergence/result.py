@@ -201,9 +201,7 @@ class Convergence(Shown, Frozen):
 
     @property
     def is_left_to_tiny_steps(self) -> bool:
-        """Whether the visible order is observed with tiny steps only: at the step sizes of the rows
-        the errors of another order are larger.
-        """
+        """Whether the visible order shows with tiny steps only."""
         observed, short = self.observed_order, self.short_order
         if self.verdict != "agree" or observed is None or short is None:
             return False
@@ -211,9 +209,7 @@ class Convergence(Shown, Frozen):
 
     @property
     def shown_order(self) -> int:
-        """The order to which the errors of the rows are compared: the visible one, or that which
-        they have if it is left to tiny steps.
-        """
+        """The order to which the errors of the rows are compared."""
         observed = self.observed_order
         if not self.is_left_to_tiny_steps or observed is None:
             return self.visible_order
@@ -256,9 +252,7 @@ def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb
 
 
 def absolute(x: arb) -> arb:
-    """|x|; a ball that contains 0 becomes one about 0 whose radius does not depend on its
-    centre.
-    """
+    """|x|; a ball that contains 0 becomes one about 0."""
     if not x.contains(0):
         return abs(x)
     return x if x.is_zero() else arb(0, 2 * x.rad())

@@ -178,9 +178,7 @@ class SteppedSolver(Mutable):
 
     @cached_property
     def _slope(self) -> arb:
-        """‖∂f/∂y‖ at the start of a right-hand side; 0 for Hamiltonians, which come in units of
-        their own.
-        """
+        """‖∂f/∂y‖ at the start of a right-hand side; 0 for Hamiltonians."""
         if isinstance(self.problem, Hamiltonian):
             return arb(0)
         return steepness(self.problem)
@@ -192,9 +190,7 @@ class SteppedSolver(Mutable):
         return max(arb(1), self._slope * arb(h))
 
     def _digits_of_reference(self, digits: int) -> int:
-        """Digits for the row, and beyond floats for the following ones as well, since rows of high
-        order soon need them.
-        """
+        """Digits for the row, beyond floats for the following ones too."""
         if digits <= FLOAT_DIGITS and self.visible.order >= _HIGH:
             digits = _NEXT_DIGITS
         if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
@@ -222,9 +218,7 @@ class SteppedSolver(Mutable):
     def _invariant_errors(
         self, y: Sequence[Any], digits: int, h: fmpq
     ) -> tuple[arb | None, list[arb]]:
-        """|I(y) − I(y_0)| of the energy, if there is one, and of the other invariants, for all
-        states within round-off.
-        """
+        """|I(y) − I(y_0)| of the energy, if any, and of the other invariants."""
         if not conserved_names(self.problem):
             return None, []
         round_off = self._round_off(digits, h)

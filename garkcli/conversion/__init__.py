@@ -1,3 +1,1 @@
-"""Conversion of methods to other forms: entry by entry, additive, partitioned, padded,
-canonical.
-"""
+"""Conversion of methods to other forms: entry by entry, additive, partitioned, canonical."""

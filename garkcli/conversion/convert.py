@@ -207,9 +207,7 @@ def _with_head(text: str, method: GarkMethod) -> str:
 
 
 def _claimed(text: str, method: MethodFile, goal: Target) -> Converted:
-    """The file with the claims that hold for it; a claim on a companion may become one on the
-    method.
-    """
+    """The file with the claims that hold; one on a companion may become one on the method."""
     names = {claim.key: claim.key for claim in method.claims}
     if goal.claims:
         names = {old: goal.claims[old] for old in names if old in goal.claims}

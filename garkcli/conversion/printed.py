@@ -63,9 +63,7 @@ def in_2n(tableau: Tableau, tolerance: fmpq | None = None) -> Printed:
 
 
 def in_registers(registers: int) -> InForm:
-    """Van der Houwen's form with ``registers`` registers: below that many diagonals minus one, the
-    entries of a column are the weight of its stage.
-    """
+    """Van der Houwen's form: the lower entries of a column are the weight of its stage."""
     form = f"{registers}R"
 
     def convert(tableau: Tableau, tolerance: fmpq | None) -> Printed:

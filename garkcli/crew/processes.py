@@ -78,9 +78,7 @@ class _Worker(Generic[Item, Outcome]):
         self.most = _worked(self.process) + seconds
 
     def is_late(self) -> bool:
-        """Whether the time of the item is over; extends the limit by the processor time that is
-        left.
-        """
+        """Whether the item's time is over; extends the limit by the processor time left."""
         now = monotonic()
         if self.due <= now < self.last:
             self.due = min(now + max(0.0, self.most - _worked(self.process)), self.last)
@@ -194,9 +192,7 @@ class Crew(Generic[Item, Outcome]):
                 self._begin(worker)
 
     def _begin(self, worker: _Worker[Item, Outcome]) -> None:
-        """Starts the time limit of a worker's current item when this process knows of it, so an
-        outcome that is already there is never late.
-        """
+        """Starts the time limit of a worker's item; one that is already done is never late."""
         if self.limit is not None and worker.items:
             worker.limit(self.limit.seconds(self.items[worker.items[0]]))
 
@@ -221,9 +217,7 @@ class Crew(Generic[Item, Outcome]):
     def _bury(
         self, worker: _Worker[Item, Outcome], is_late: bool = False
     ) -> Iterator[tuple[int, Outcome]]:
-        """Removes a dead or late worker: its current item is blamed, the others go back to the
-        queue.
-        """
+        """Removes a dead or late worker: its item is blamed, the others go back to the queue."""
         worker.end()
         self.workers.remove(worker)
         items = list(worker.items)

@@ -86,15 +86,11 @@ class Design(Shown, Frozen):
         return self.steps[-1]
 
     def criterion_of(self, step: Step) -> PairConditions | None:
-        """The criterion behind the values of a step; None for a step by msolve, which takes all
-        conditions.
-        """
+        """The criterion behind the values of a step; None by msolve, which takes all conditions."""
         return self.criterion if step.is_all else None
 
     def is_of_real_values(self, step: Step) -> bool:
-        """Whether complex values outside the set of a step may have the order: up to order 2 the
-        criterion is equivalent for them.
-        """
+        """Whether complex values outside the set of a step may have the order."""
         if self.criterion_of(step) is not None:
             return step.order > 2
         return step.is_all and bool(self.family.real)
@@ -552,9 +548,7 @@ def _reached(order: int, ideal: Ideal, start: Ideal, witness: Tree | None = None
 def _as_long_as_small(
     ideal: Ideal, conditions: Iterator[FamilyCondition]
 ) -> tuple[Ideal, list[FamilyCondition], FamilyCondition | None]:
-    """The ideal with one condition after the other until it is everything or gets large; the
-    conditions in it, and the one that makes it large.
-    """
+    """The ideal while it is small, the conditions in it, and the one that makes it large."""
     done: list[FamilyCondition] = []
     while not ideal.is_everything:
         condition = next(conditions, None)

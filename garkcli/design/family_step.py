@@ -214,9 +214,7 @@ class FamilyStep(Frozen):
         return in_t(p, self.field if is_over_field else None)
 
     def curves(self, polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-        """The irreducible curves in the plane of both parameters of which one contains the zeros of
-        each polynomial in them and θ.
-        """
+        """Irreducible curves in the plane of both parameters, which contain the zeros."""
         return factors(projection.in_plane(self.norm(p), y=1, t=2) for p in polynomials if p)
 
     def coefficients(self, p: fmpq_mpoly) -> list[fmpq_mpoly]:
@@ -229,15 +227,11 @@ class FamilyStep(Frozen):
         return self.in_t(p.compose(first * 0 + y, *others))
 
     def seen(self, polynomials: Iterable[fmpq_mpoly], ends: Sequence[fmpq]) -> list[fmpq_mpoly]:
-        """Polynomials in the parameters: between their zeros those of others in the variable of the
-        step, and the ends of its interval, stay apart.
-        """
+        """Polynomials in the parameters between whose zeros those of the others stay apart."""
         return projection.seen_along(factors(map(self.norm, polynomials)), ends)
 
     def meeting(self, p: fmpq_mpoly, q: fmpq_mpoly) -> list[fmpq_mpoly]:
-        """Polynomials in the parameters: between their zeros the number of common zeros of two
-        others is constant.
-        """
+        """Polynomials in the parameters between whose zeros others have as many common zeros."""
         if common := self.norm(projection.resultant(p, q)):
             return [common]
         return self.seen([p, q], [])

@@ -85,9 +85,7 @@ def fewest(
 def step_polynomials(
     tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
 ) -> tuple[fmpq_mpoly, list[fmpq_mpoly]]:
-    """D and the entries of N of the step N/D, polynomials in z, which comes first, and the
-    parameters.
-    """
+    """D and the entries of N of the step N/D: polynomials in z and the parameters."""
     system = stage_system(tableau, fields)
     d = len(fields[0])
     D = characteristic_coefficients(system.W)
@@ -109,9 +107,7 @@ def step_polynomials(
 def _directions(
     tableau: Tableau, family: Family, fields: Sequence[Matrix]
 ) -> tuple[list[int], list[list[fmpq]]]:
-    """Pivots and a basis of the directions along which the step is constant: each has 1 at its
-    pivot, a late parameter, and the others have 0 there.
-    """
+    """Pivots and a basis of the directions along which the step is constant."""
     denominator, numerators = step_polynomials(tableau, family.ring, fields)
     number = len(family.parameters)
     modulo = reducing(["_z", *family.ring.names], family.radicals)

@@ -219,8 +219,6 @@ def _grown_apart(
 
 
 def _verified(basis: list[fmpz_mpoly], given: list[fmpz_mpoly]) -> list[fmpz_mpoly] | None:
-    """The reduced basis; None if the polynomials are no basis of an ideal that contains the given
-    ones.
-    """
+    """The reduced basis; None if it does not contain the given polynomials."""
     context = given[0].context()
     return reduced(basis, context) if is_basis(basis, given, context) else None

@@ -465,9 +465,7 @@ class _Echelon:
     def relation(
         self, e: groebner.Exponents, column: fmpq_mat
     ) -> dict[groebner.Exponents, fmpq] | None:
-        """The monomial minus a combination of earlier ones, as a polynomial that is zero; None if
-        it is independent of them, and then it is added.
-        """
+        """The monomial minus earlier ones, if dependent; None otherwise, and it is added."""
         rest = [column[k, 0] for k in range(self.size)]
         terms = {e: fmpq(1)}
         for k in range(self.size):

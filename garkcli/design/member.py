@@ -1,6 +1,4 @@
-"""One member of a family of methods: its tableau with values for the parameters, whether it has the
-signs and ranges that the family wants, and its stability.
-"""
+"""One member of a family: its tableau, whether it is admitted, and its stability."""
 
 from __future__ import annotations
 
@@ -150,9 +148,7 @@ def restricted(
 
 
 def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
-    """Polynomials that are at least 0 at every method of a family: from ranges, even roots, and
-    wants of the file.
-    """
+    """Polynomials that are at least 0 at every method of a family."""
     gens = dict(zip(family.ring.names, family.ring.context.gens(), strict=True))
     for radical in family.radicals:
         if radical.is_even:
@@ -192,9 +188,7 @@ def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
 
 
 def is_in(intervals: Sequence[Interval], value: Number, root: RealRoot) -> bool:
-    """Whether an element of ℚ[u]/modulus, at a real root u of the modulus, is in a union of
-    intervals.
-    """
+    """Whether an element of ℚ[u]/modulus, at a real root u, is in a union of intervals."""
     return has(intervals, value_at(value, root))
 
 
@@ -233,9 +227,7 @@ def refuse_levels(family: Family) -> None:
 
 
 def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoot) -> bool | None:
-    """Whether a method is as stable as a family wants it; None if its field is too large, or if the
-    time limit has passed.
-    """
+    """Whether a method is as stable as wanted; None if undecided."""
     if not family.stable:
         return True
     with suppress(NotDecided):
@@ -261,7 +253,5 @@ def is_stable(wanted: RequiredStability, tableau: Tableau) -> bool:
 
 
 def shares_of(tableau: Tableau, colour: int | None) -> list[Number]:
-    """The λ of each colour of the linear test equation: 1 for all colours, or for one and 0 for
-    others.
-    """
+    """The λ of each colour of the linear test equation: 1 for all, or for one and 0 for others."""
     return [ONE if colour in (None, l) else ZERO for l in range(tableau.size)]

@@ -114,9 +114,7 @@ class PairConditions:
         return finite if finite.dimension == 0 else None
 
     def solved(self, ideal: Ideal) -> list[fmpq_mpoly] | None:
-        """A basis in which unknowns are functions of later ones, those of radicals last; None if it
-        is not small.
-        """
+        """A basis with unknowns as functions of later ones; None if it is not small."""
         context = fmpz_mpoly_ctx.get(list(self.family.ring.names), Ordering.lex)
         if any(p.degrees()[len(self.family.ring.names) :] for p in ideal.basis):
             return None  # UNIT is no unknown of the file

@@ -62,9 +62,7 @@ class Changes(Frozen):
 
 
 def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
-    """Replaces unknowns by nodes: each node that is a sum of several unknowns takes the place of
-    the first one that is in no other node.
-    """
+    """Replaces unknowns by nodes that are sums of several of them."""
     nodes = dict(_nodes(tableau))
     names = list(ring.names)
     instead: dict[int, fmpq_mpoly] = {}
@@ -211,9 +209,7 @@ def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
 def values_on(
     part: Part, name: str, not_negative: Sequence[Polynomial] = ()
 ) -> tuple[Interval, ...] | None:
-    """The values of a free coordinate allowed by the sets of a part and by polynomials in it that
-    are not negative; None without such conditions.
-    """
+    """The values of a free coordinate that sets of a part and signs allow; None for all."""
     sets = [x for key, x in part.sets if key == name]
     if not sets and not not_negative:
         return None
@@ -260,9 +256,7 @@ class RationalChart(Frozen):
 
 
 def charts(part: Part) -> list[RationalChart]:
-    """Charts for all real points of a part if some coordinates have finitely many values and the
-    others are free; none for other parts.
-    """
+    """Charts for all real points of a part with finitely many values; none for other parts."""
     names, equations = part.ring.names, part.equations
     if part.is_free:
         origin = RealRoot.rational(fmpq(0))

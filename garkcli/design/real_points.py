@@ -166,9 +166,7 @@ class _MethodSearch:
         )
 
     def _slices(self) -> Iterator[Ideal]:
-        """The ideal with rational values for unknowns that are independent in it, as many as its
-        dimension.
-        """
+        """The ideal with rational values for as many unknowns as its dimension."""
         chosen = self.real.independent
         if chosen is None:
             return
@@ -188,9 +186,7 @@ class _MethodSearch:
             yield self.real.with_values(values)
 
     def _sample(self, i: int, draw: Draw, number: int) -> fmpq:
-        """A value of an unknown within its range; without one between 0 and 1, every fourth time
-        between −2 and 2.
-        """
+        """A value of an unknown in its range, else in [0, 1], every fourth time in [−2, 2]."""
         least, greatest = self.family.ranges.get(self.ring.names[i], (None, None))
         low, high = (fmpq(-2), fmpq(2)) if number % 4 == 3 else (fmpq(0), fmpq(1))
         if least is not None:
@@ -200,9 +196,7 @@ class _MethodSearch:
         return low + (high - low) * fmpq(draw.between(1, PARTS - 1), PARTS)
 
     def _in_plane(self) -> Iterator[Ideal]:
-        """Finitely many points of a curve in the plane, one of which is a method if any point is:
-        between and at the critical t.
-        """
+        """Points of a plane curve: one is a method if any point of the curve is."""
         closure = self.real.closure
         if len(self.ring.names) > 2 or len(closure.basis) != 1:
             self.is_complete = False

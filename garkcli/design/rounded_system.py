@@ -106,9 +106,7 @@ class RoundedSystem:
 
 
 def eliminate(rows: list[list[arb]], columns: int, zero: arb) -> list[tuple[int, int]]:
-    """Gauss–Jordan elimination in place, with complete pivoting: row and column of each pivot above
-    ``zero``.
-    """
+    """Gauss–Jordan elimination in place with complete pivoting; pivots exceed ``zero``."""
     pivots: list[tuple[int, int]] = []
     left, open_ = set(range(len(rows))), set(range(columns))
     while left and open_:

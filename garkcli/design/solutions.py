@@ -127,9 +127,7 @@ class _Algebra:
         return total
 
     def solutions(self, u: fmpq_mat, characteristic: fmpq_poly, f: fmpq_poly) -> Iterator[Solution]:
-        """The solutions, one for each factor of f, the square-free part of the characteristic
-        polynomial.
-        """
+        """The solutions, one for each factor of f."""
         n = f.degree()
         horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
         powers = [self.one]

@@ -55,9 +55,7 @@ MOST_CONSTANT = 16
 
 
 class Members(Frozen):
-    """The methods of a family in one or two parameters, with numbers for the roots among its
-    coefficients.
-    """
+    """The methods of a family in one or two parameters."""
 
     family: Family
     whose: Whose
@@ -103,9 +101,7 @@ class Members(Frozen):
             return None
 
     def _numbers(self, values: Mapping[str, RealRoot], most: int) -> dict[str, Number] | None:
-        """The roots among the coefficients and other values as numbers of one field; None if it is
-        too large.
-        """
+        """The roots and other values as numbers of one field; None if it is too large."""
         family = self.family
         required = dict(values)
         for radical in family.radicals:
@@ -285,9 +281,7 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
 
 
 class AStability(StabilityKind):
-    """|R(z)| ≤ 1 for Re z ≤ 0, with λ for all colours or for one alone; of L-stability R(∞) = 0
-    besides.
-    """
+    """|R(z)| ≤ 1 for Re z ≤ 0; of L-stability R(∞) = 0 besides."""
 
     is_closed = True  # |P| ≤ |Q| on the left half plane, with continuous coefficients
 

@@ -548,9 +548,7 @@ def _on_chart(
 
 
 def has_values_of_all(kinds: Sequence[StableValues]) -> bool | None:
-    """Whether some method has all kinds of stability; None if undecided, as with values of several
-    kinds.
-    """
+    """Whether some method has all kinds of stability; None if undecided."""
     verdicts = [x.has_values for x in kinds]
     if False in verdicts:
         return False

@@ -113,9 +113,7 @@ def _fewest(
     two_springs: stability_kinds.TwoSprings | None,
     colour: int | None,
 ) -> tuple[Family, Sequence[LinearForm]]:
-    """A family with the fewest parameters, as linear forms of those of another, if there are
-    neither ranges, other wants nor denominators.
-    """
+    """A family with the fewest parameters, as linear forms of the others."""
     tableau = TABLEAUS[whose](family.tableau)
     is_open = all(x == (None, None) for x in family.ranges.values())
     is_without = common_denominator(tableau.entries, family.ring).is_constant()
@@ -148,9 +146,7 @@ def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
 def _refuse_radicals(
     members: stability_kinds.Members, wanted: Wanted, two_springs: stability_kinds.TwoSprings | None
 ) -> None:
-    """Raises for a family with roots of its parameter among its coefficients, or of large
-    degrees.
-    """
+    """Raises for a family with roots of its parameter, or of large degrees."""
     family = members.family
     places = map(family.ring.names.index, family.parameters)
     is_number = not any(x.relation.degrees()[k] for k in places for x in family.radicals)
@@ -256,9 +252,7 @@ class _OnLine:
         return any(sign_of(p, t) < 0 for p in chain.from_iterable(self._conditions.values()))
 
     def _known(self, t: Point) -> bool | None:
-        """Whether a value is stable, if a range, a pole, limits, or an x at which another value is
-        unstable say it.
-        """
+        """Whether a value is stable, if what is known already says it."""
         if not self._is_method(t):
             return False
         known = self.members.known(t, self.kind.is_closed)
@@ -311,9 +305,7 @@ class _InPlane:
         return tuple(strips), tuple(self.undecided)
 
     def _stable(self, t: Point, limits: tuple[Interval, ...] | None = None) -> StableValues:
-        """The stable values of the second parameter at one of the first, with the limits there if
-        known.
-        """
+        """The stable values of the second parameter at one of the first."""
         root = projection.of_root(t if isinstance(t, RealRoot) else RealRoot.rational(t))
         resultants = [projection.resultant(p, root, "t") for p in self.curves]
         critical = tuple(map(in_one, resultants)) if all(resultants) else None

@@ -186,9 +186,7 @@ def _product(p: Sequence[fmpq_mpoly], q: Sequence[fmpq_mpoly]) -> list[fmpq_mpol
 
 
 def _eliminated(zeros: Sequence[fmpq_mpoly], family: Family) -> list[fmpq_mpoly]:
-    """Polynomials in the parameters that vanish if others do for some values of their first two
-    unknowns, which are bounded.
-    """
+    """Polynomials that vanish if others do for some values of their first two unknowns."""
     names = zeros[0].context().names()
     context = fmpz_mpoly_ctx.get(names, Ordering.lex)
     raised = (

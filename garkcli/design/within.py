@@ -220,9 +220,7 @@ class ValuesWithin(Frozen, eq=False):
 
 
 def with_more(found: list[ValuesWithin], values: ValuesWithin) -> list[ValuesWithin]:
-    """The solutions with one more, if it is new: admitted ones replace others, and a family
-    replaces single solutions.
-    """
+    """The solutions with one more, if it is new; admitted ones replace others."""
     if values.is_admitted:
         found = [x for x in found if x.is_admitted]
     elif any(x.is_admitted for x in found):
@@ -457,9 +455,7 @@ class _ValueSearch:
     # one method
 
     def _recovered(self, near: Solved, order: int) -> ValuesWithin | None:
-        """The values of a method within the tolerance that has the order, near others; None if none
-        is found.
-        """
+        """The values of a method within the tolerance that has the order; None if none is found."""
         names = self.printed.family.ring.names
         values = dict(zip(names, map(midpoint, near.point), strict=True))
         parameters = {name: values[name] for name in self.family.parameters}
@@ -528,9 +524,7 @@ class _ValueSearch:
         )
 
     def _witness(self, order: int) -> Tree | None:
-        """A tree whose condition has no unknowns, whatever the known numbers are, and that no
-        rounding explains.
-        """
+        """A tree whose condition has no unknowns and that no rounding explains."""
         trees = list(self.printed.of_known_numbers(order))
         if not trees:
             return None

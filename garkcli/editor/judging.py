@@ -1,6 +1,4 @@
-"""Judges a method file for an editor: remarks at their places, a lens with the orders, and changes
-that mend something.
-"""
+"""Judges a method file for an editor: remarks at their places, a lens, and fixes."""
 
 from __future__ import annotations
 
@@ -58,9 +56,7 @@ class EditorView(Frozen):
 
 
 class Judgement(Frozen):
-    """The remarks on a file, the texts of the lens above a line of it, from 0, and the exit code of
-    ``gark check``.
-    """
+    """The remarks on a file, the texts of the lens above a line, and the exit code."""
 
     remarks: tuple[EditorView, ...] = ()
     lens: tuple[str, ...] = ()

@@ -128,9 +128,7 @@ class Affine:
         return Affine(1 / self.centre, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
     def root(self, index: int) -> Affine:
-        """Returns the real root, f(x) = f(c) + f'(c) (x − c) + f''(ξ) (x − c)²/2; unbounded if x
-        may be 0 or the root is not real.
-        """
+        """The real root of a form by Taylor's theorem; unbounded if it may not be real."""
         if index % 2 and self.centre < 0:
             return -((-self).root(index))
         reach = self.reach
@@ -220,9 +218,7 @@ class Forms:
 
     @property
     def reach(self) -> Floats:
-        """Upper bounds of Σ |g_k|, form by form: the distance from the centre without the
-        remainder.
-        """
+        """Upper bounds of Σ |g_k|, form by form, without the remainder."""
         if self._reach is None:
             count = self.slopes.shape[1]
             self._reach = np.abs(self.slopes).sum(axis=1) * (1 + (count + 8) * UNIT)

@@ -115,9 +115,7 @@ def _serve(
 
 
 def without_handlers() -> None:
-    """Lets signals end a worker process, except an interrupt: the process with the terminal gets it
-    and ends its workers, at the deadline too.
-    """
+    """Lets signals end a worker process, except an interrupt, which its parent handles."""
     forget()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for name in ("SIGTERM", "SIGHUP", "SIGALRM", "SIGPROF"):
@@ -153,9 +151,7 @@ def begin(process: BaseProcess) -> None:
 
 @contextmanager
 def without_program() -> Iterator[None]:
-    """Hides the program that calls gark from processes that start without a fork; without a
-    ``__name__`` guard they would run it again.
-    """
+    """Hides the program from processes that start without a fork and would run it again."""
     program = sys.modules["__main__"]
     sys.modules["__main__"] = ModuleType("__main__")
     try:

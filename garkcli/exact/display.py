@@ -106,9 +106,7 @@ def digits_here() -> int:
 
 
 def to_ball(number: Number | arb, digits: int = 17) -> arb:
-    """An enclosure of a number with at least ``digits`` correct digits; balls are returned
-    unchanged.
-    """
+    """An enclosure with at least ``digits`` correct digits; balls are returned unchanged."""
     if isinstance(number, arb):
         return number
     goal = _bits(digits)

@@ -45,9 +45,7 @@ def _ends(coefficients: tuple[int, ...]) -> list[tuple[fmpq, fmpq]]:
 
 
 def _positive(coefficients: Sequence[int]) -> list[tuple[fmpq, fmpq]]:
-    """Rational ends around each positive root: intervals are halved until Descartes' rule counts
-    one root or none in each.
-    """
+    """Rational ends around each positive root, by halving and Descartes' rule."""
     degree = len(coefficients) - 1
     *lower, leading = (abs(a).bit_length() for a in coefficients)
     # all roots are below this (Fujiwara)

@@ -254,9 +254,7 @@ class Algebraic:
         return hash((tuple(self.poly.numer()), self.poly.denom()))
 
     def terms(self) -> Iterator[tuple[fmpq, Word]]:
-        """The number as a sum of radicals: pairs of a coefficient and a word of
-        ``NumberField.monomials``.
-        """
+        """The number as pairs of a coefficient and a word of ``NumberField.monomials``."""
         coefficients = self.field.in_radicals(self)
         for coefficient, word in zip(coefficients, self.field.monomials, strict=True):
             if coefficient:
@@ -272,9 +270,7 @@ class Algebraic:
         return text.removeprefix(" + ")
 
     def term(self, coefficient: fmpq, word: Word, size: str = "") -> str:
-        """An unsigned multiple of a product of radicals, ``4*sqrt(3)/27``; ``size`` is the text of
-        the rational number if that is not a fraction.
-        """
+        """An unsigned multiple of radicals such as ``4*sqrt(3)/27``."""
         factors = []
         for factor, power in self.field.powers(word):
             if power > 1:
@@ -302,9 +298,7 @@ def poly_of(number: Number) -> fmpq_poly:
 
 
 def with_radicals(number: Number, radicals: Sequence[Any]) -> Any:
-    """A number with other values in place of the radicals of its field, for example the same
-    radicals in a larger field.
-    """
+    """A number with other values for the radicals of its field."""
     if not isinstance(number, Algebraic):
         return number
     total: Any = ZERO

@@ -15,17 +15,13 @@ from garkcli.exact.display import to_text
 from garkcli.exact.field import Algebraic
 
 AnyNumber: TypeAlias = "SupportsFloat | str"
-"""An int, a Fraction, a Decimal, a float of at most 15 digits, a number of NumPy, SymPy or FLINT,
-or a text such as ``"1/3"``.
-"""
+"""A number of Python, NumPy, SymPy or FLINT, exact up to 15 digits, or a text as ``"1/3"``."""
 FLOAT_DIGITS = 15
 """Any decimal with so many digits is the shortest one of its float."""
 
 
 MAX_BITS = 10_000
-"""Longer numerators and denominators are refused before Python, which does not print more than 4300
-digits, writes them out.
-"""
+"""Longer numbers are refused: Python does not print more than 4300 digits."""
 EXACTLY = "give it exactly, as a Fraction or a text such as '1/3'"
 """The cure for a rounded number."""
 OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"

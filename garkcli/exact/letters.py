@@ -1,6 +1,4 @@
-"""Letters for roots of polynomials of degree 3 or more: while a text is made, each such root is
-written out once and then as its letter.
-"""
+"""Letters for roots of degree 3 and more, each written out once in a text."""
 
 from __future__ import annotations
 
@@ -35,9 +33,7 @@ class Letters:
         written: Mapping[str, str] = NOTHING,
         taken: str = "",
     ) -> None:
-        """``diagonal`` has the letter γ; ``written`` has what is written for letters, ``taken`` the
-        letters that the text has for something else.
-        """
+        """``diagonal`` has the letter γ; ``taken`` are the letters that the text uses."""
         self.of: dict[AlgebraicRoot, str] = {}
         self._diagonal = None if DIAGONAL in taken else diagonal
         self._written = written

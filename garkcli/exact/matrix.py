@@ -144,9 +144,7 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
 
 
 def characteristic_coefficients(A: Matrix) -> list[Any]:
-    """The c_k of det(I − zA) = Σ c_k z^k, by the Faddeev-LeVerrier recursion; entries may be
-    rational functions of parameters.
-    """
+    """The c_k of det(I − zA) = Σ c_k z^k, by the Faddeev-LeVerrier recursion."""
     stages = range(len(A))
     coefficients: list[Any] = [ONE]
     M: list[list[Any]] = [[ZERO for _ in stages] for _ in stages]

@@ -153,9 +153,7 @@ class Parameters:
 
 
 class Parametric:
-    """A rational function that is not a plain number, in lowest terms; the denominator has leading
-    coefficient 1.
-    """
+    """A rational function in lowest terms; its denominator has leading coefficient 1."""
 
     __slots__ = ("denominator", "numerator", "ring")
 
@@ -341,9 +339,7 @@ def unknowns_of(p: fmpq_mpoly) -> list[int]:
 
 
 def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
-    """The value of a polynomial at numbers of any kind; ``values`` has an entry for each variable,
-    arbitrary if it does not occur.
-    """
+    """The value of a polynomial at numbers of any kind, one for each variable."""
     total: Any = fmpq(0)
     for exponents, a in p.to_dict().items():
         term: Any = a

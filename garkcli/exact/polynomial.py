@@ -185,9 +185,7 @@ class Polynomial:
         return (self // gcd(self, self.derivative())).monic()
 
     def norm(self) -> fmpz_poly:
-        """A polynomial over ℤ whose roots are those of this one and its conjugates: a multiple of
-        the determinant of multiplication by p on K[x] over ℚ[x].
-        """
+        """A polynomial over ℤ whose roots are those of this one and its conjugates."""
         if self._norm is None:
             self._norm = self._norm_of(self.field)
         return self._norm
@@ -199,18 +197,14 @@ class Polynomial:
         return self._norm_by_resultants(field) if found is None else found
 
     def images(self, field: NumberField, bits: int) -> list[Image] | None:
-        """The ``images`` of an integral multiple of this polynomial, under all embeddings of its
-        field.
-        """
+        """The images of an integral multiple under all embeddings of the field."""
         if bits not in self._images:
             integral = over_integers([poly_of(a) for a in self.coefficients])
             self._images[bits] = images(integral, field, bits)
         return self._images[bits]
 
     def _norm_by_resultants(self, field: NumberField) -> fmpz_poly:
-        """The norm by interpolation at integers, for θ with conjugates that are too close to
-        isolate.
-        """
+        """The norm by interpolation at integers, for conjugates that are too close."""
         degree = field.degree * self.degree
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]

@@ -69,9 +69,7 @@ def seen_along(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[
 
 
 LARGE = 30_000
-"""Larger problems, by the cubed degree in the eliminated variable times the others, run in a
-process apart.
-"""
+"""Problems of larger cubed degree times the other degrees run in a process apart."""
 
 
 def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
@@ -145,9 +143,7 @@ def at_y(p: fmpq_mpoly, y: fmpq) -> Polynomial:
 
 
 MOST_DEGREE = 12
-"""Polynomials in the plane of larger degree are not projected: the work grows with more than the
-cube of the degree.
-"""
+"""Plane polynomials of larger degree are not projected."""
 
 
 class Along(Frozen):

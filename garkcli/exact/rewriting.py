@@ -37,9 +37,7 @@ def check_size(size: int, text: str) -> None:
 
 
 class Expanded(NamedTuple):
-    """An expression without names, or with free ones; the number of its nodes, and how deep it is
-    nested.
-    """
+    """An expression without names, or with free ones; its size and its depth."""
 
     expression: nodes.Expression
     size: int = 1

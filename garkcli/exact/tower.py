@@ -82,9 +82,7 @@ RATIONALS = Tower(_X, (), ())
 
 
 def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_poly]:
-    """Elements of an algebra, given by their multiplication matrices, as polynomials in its
-    generator.
-    """
+    """Elements given by their multiplication matrices, as polynomials in the generator."""
     size = generator.nrows()
     one = fmpq_mat(size, 1)
     one[0, 0] = fmpq(1)

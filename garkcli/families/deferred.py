@@ -100,9 +100,7 @@ def _nodes(word: str, points: int) -> tuple[Expression, ...]:
 
 
 class _Corrections:
-    """The stages of one method with ascending nodes; the sweeps use the explicit or the implicit
-    Euler method.
-    """
+    """The stages of one method with ascending nodes, swept by an Euler method."""
 
     def __init__(self, nodes: Vector, is_implicit: bool) -> None:
         self.nodes = nodes

@@ -82,9 +82,7 @@ def code_of(message: str, least: int = 1) -> str:
 
 
 def codes_of(message: str, least: int = 1) -> list[str]:
-    """Returns the codes of the kinds with the most fixed words; for messages of the program one
-    code.
-    """
+    """Returns the codes of the kinds with the most fixed words, one for messages of the program."""
     codes: list[str] = []
     own = _QUOTED.sub(_without_text, message)
     for said in _messages():

@@ -137,9 +137,7 @@ def _line_end(text: str) -> str:
 
 
 def _end(text: str, node: Node) -> int:
-    """Returns the end of a value; that of a block list is the end of its last entry, before
-    comments below it.
-    """
+    """Returns the end of a value, before comments below a block list."""
     while isinstance(node, SequenceNode) and node.value:
         if node.flow_style:
             break

@@ -41,9 +41,7 @@ class ValueKind(Frozen):
     inside: Callable[[], Iterable[Key]] = tuple
 
     def then(self, make: Callable[[Any, ReadMapping, str], Any]) -> ValueKind:
-        """Returns the same kind with a value made from the values of the keys; None after a
-        fault.
-        """
+        """Returns the kind with a value made from the values of the keys."""
 
         def read(at: Any, node: Node, where: str) -> Any:
             values: ReadMapping | None = self.read(at, node, where)
@@ -376,9 +374,7 @@ def count(least: int = 0, most: int | None = None) -> ValueKind:
 
 
 def word(words: Callable[[], Iterable[str]]) -> ValueKind:
-    """Returns the kind of one of several words; a mapping gives their descriptions in the
-    schema.
-    """
+    """Returns the kind of one of several words; a mapping describes them."""
 
     def schema() -> Schema:
         known = words()

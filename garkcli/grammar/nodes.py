@@ -69,9 +69,7 @@ def extent(text: str, first: Node, last: Node) -> Extent:
 
 
 def node_at(value: object, place: Node) -> Node:
-    """Returns a mapping, a list or a text, and what it contains, as nodes at the place of another
-    one.
-    """
+    """Returns nodes for a mapping, a list or a text, at the place of another node."""
     marks = place.start_mark, place.end_mark
     if isinstance(value, Mapping):
         pairs = [(node_at(key, place), node_at(x, place)) for key, x in value.items()]
@@ -289,9 +287,7 @@ def _walk(root: Node) -> None:
 
 
 def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
-    """Returns the line and the column of character ``offset`` of a folded value: YAML only changes
-    the space between the characters.
-    """
+    """Returns the line and column of character ``offset`` of a folded value."""
     position = node.start_mark.index
     if node.style in {"|", ">"}:
         line_end = text.find("\n", position)

@@ -38,9 +38,7 @@ def place_of(noted: NotedFault) -> Place:
 
 
 def told_once(noted: Sequence[NotedFault]) -> list[errors.Remark]:
-    """Returns the faults in file order; those of one cause at its first place, with the others
-    listed.
-    """
+    """Returns the faults in file order, those of one cause at its first place."""
     causes = Counter(one.cause for one in noted)
     together: dict[object, list[NotedFault]] = {}
     for number, one in enumerate(noted):
@@ -172,9 +170,7 @@ class Source:
             raise self.error()
 
     def error(self) -> errors.MethodFileError:
-        """Returns the faults as one error, in file order, each cause once; there is at least
-        one.
-        """
+        """Returns the faults as one error, in file order, each cause once."""
         if not self._found:
             message = f"this is not a {self.kind.name}"
             self.fault(None, message, f"see {self.kind.page}", code="other-file")

@@ -23,9 +23,7 @@ def is_triangle(lengths: Sequence[int]) -> bool:
 
 
 def opens(node: Node) -> bool:
-    """Returns whether a plain value has a function of two arguments that YAML split at the
-    comma.
-    """
+    """Whether a plain value has a function that YAML split at the comma."""
     if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return False
     text = str(node.value)
@@ -119,9 +117,7 @@ _SPELLINGS: tuple[tuple[str, str], ...] = (
 
 
 def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
-    """Returns the error with a cure for spellings of other languages, and its cause if that is not
-    the word at fault.
-    """
+    """Returns the error with a cure for spellings of other languages."""
     start = error.start
     if len(text) > MAX_PRINTED:
         return error, ""

@@ -274,9 +274,7 @@ def _in_floats(balls: list[arb]) -> Floats:
 
 
 def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
-    """Q_j as coefficients of z₁², z₁z₂, z₂² for j < length, and R^length; fewer if they exceed
-    floats.
-    """
+    """Q_j as coefficients of z₁², z₁z₂, z₂² for j < length, and R^length."""
     power = step**0
     forms: list[tuple[arb, arb, arb]] = []
     while len(forms) < length:

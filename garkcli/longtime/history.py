@@ -88,9 +88,7 @@ BLOW_UP = 1e30
 """A run ends as unstable when the energy error is so many times the energy."""
 
 Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
-"""Conserved exactly; no error above round-off; no drift; a drift; blown up or escaped; undecided
-because of a ``Doubt``.
-"""
+"""The fates of an invariant, from conserved exactly to undecided."""
 WORDS: dict[str, tuple[str, str]] = {
     "exact": ("good", "conserved"),
     "round-off": ("good", "no error above round-off"),

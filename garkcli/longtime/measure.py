@@ -75,9 +75,7 @@ class Measure:
             )
 
     def sizes(self, y: Sequence[Any]) -> Floats:
-        """The sums of the sizes of the summands of each invariant at the state y, in floats; nan if
-        one has no value.
-        """
+        """The sums of the sizes of the summands of each invariant; nan without a value."""
         at = [float(x) for x in y]
         return np.array([sum(map(abs, _values_of(own, at))) for own in self._summands])
 

@@ -63,9 +63,7 @@ class Excursions:
         return int(steps.max())
 
     def add(self, first: int, states: Floats) -> None:
-        """Adds the states of the steps ``first``, ``first`` + 1, …, shape (m, 2d); pieces overlap
-        in two states.
-        """
+        """Adds states from step ``first`` on, shape (m, 2d); pieces overlap in two states."""
         d = states.shape[1] // 2
         if not self._turned.size:
             self._shape_for(d)

@@ -79,9 +79,7 @@ class Exchange:
             self.second += float(np.abs(crossed.sum(axis=1)).sum())
 
     def powers(self, h: float) -> tuple[float, float]:
-        """Per unit of time: |mean of q̇·ṗ|, an energy per time, and the mean of |q̇·p̈| + |ṗ·q̈|,
-        an energy per time squared.
-        """
+        """Per unit of time |mean of q̇·p̈|, and the mean of |q̇·p̈| + |ṗ·q̈|."""
         count = max(self.steps, 1)
         first = abs(self.first) / (count * h**2)
         return first, self.second / (count * h**3)

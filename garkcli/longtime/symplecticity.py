@@ -52,9 +52,7 @@ class Defect(Frozen):
 
 
 class Symplecticity(Frozen):
-    """Whether the steps of a method on a problem are symplectic: as proved from the coefficients,
-    and by measured defects, if requested.
-    """
+    """Whether the steps of a method on a problem are symplectic, proved and measured."""
 
     is_proved: bool
     defects: tuple[Defect, ...] = ()
@@ -134,9 +132,7 @@ def _deviation(M: Jacobian) -> arb:
 
 
 def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
-    """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance, so all steps
-    are symplectic.
-    """
+    """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, within a tolerance if any."""
     return is_symplectic(meant(tableau, tolerance))
 
 

@@ -104,9 +104,7 @@ class Trend(Frozen):
     net: float = 0.0
 
     def exceeds(self, bound: float, count: int) -> bool:
-        """Whether the trend over ``count`` steps is more than ``bound`` explains: a line without
-        its uncertainty, or another change of level.
-        """
+        """Whether the trend over ``count`` steps is more than ``bound`` explains."""
         if self.shape == "line":
             return (abs(self.slope) - self.uncertainty) * count > bound
         return max(self.move, self.net) > bound
@@ -230,9 +228,7 @@ class Trends:
         return Trend(slope / count, uncertainty / count, finding, shape, move, net)
 
     def _move(self, signal: int, found: Windows, least: float) -> float:
-        """The distance of the first or last eighth from the others, or of one half of the run from
-        the range of the other; 0 if there is none.
-        """
+        """The distance of an end or a half of the run from the rest; 0 without any."""
         move = _move_of_an_end(found, least)
         first, second = self.ranges[:, :, signal].tolist()
         for one, other in ((first, second), (second, first)):
@@ -302,9 +298,7 @@ def _goes_on(moves: Floats, clear: Floats) -> bool:
 
 
 def _net(found: Windows, least: float) -> float:
-    """The distance of the first and last level, if it is clear and more than half of the range of
-    all levels; else 0.
-    """
+    """The distance of the first and last level, if it is clear and large; else 0."""
     levels: list[float] = found.levels[OF_EIGHTHS].tolist()
     heights: list[float] = found.heights[OF_EIGHTHS].tolist()
     net = abs(levels[-1] - levels[0])

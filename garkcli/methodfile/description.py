@@ -182,9 +182,7 @@ class Content(Frozen):
 
     @property
     def names(self) -> Sequence[str] | None:
-        """The names of the colours, empty for those without; None if ``tolerance`` has no keys for
-        colours.
-        """
+        """The names of the colours; None if ``tolerance`` has no keys for them."""
         return None
 
     @property
@@ -304,9 +302,7 @@ class OwnContent(Content):
 
     @abstractmethod
     def made(self, values: Values, rounding: fmpq | None) -> Made:
-        """Returns the tableau; ``rounding`` is the largest error of its numbers, None if they are
-        exact.
-        """
+        """Returns the tableau; ``rounding`` is the largest error of its numbers, or None."""
 
 
 class PartText(Frozen):
@@ -333,9 +329,7 @@ class PartText(Frozen):
 Make: TypeAlias = (
     "Callable[[Callable[[PartText], Tableau], Values], Tableau | tuple[Tableau, Further]]"
 )
-"""Makes a method, and its further weights if any, from the tableaus of its parts and the values of
-its coefficients.
-"""
+"""Makes a method and its further weights from tableaus of parts and coefficients."""
 
 
 class ConstructionText(Content):

@@ -140,17 +140,13 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
 
 
 def _refuse_others(tableau: Tableau) -> None:
-    """Raises MethodError for methods that are neither GARK methods, perhaps with exact fast parts,
-    nor Rosenbrock or Nyström methods.
-    """
+    """Raises MethodError for kinds of methods that have no families."""
     if not (is_rosenbrock(tableau) or is_nystrom(tableau)):
         tableau.demand_fields(_DESIGN, with_flow=True)
 
 
 def refuse_rounded(family: FamilyFile) -> None:
-    """Raises MethodError if known coefficients are rounded: statements for all values of the
-    unknowns would depend on their last digits.
-    """
+    """Raises MethodError if known coefficients are rounded."""
     if family.tolerance is None:
         return
     names = ", ".join(family.parameters)
@@ -237,9 +233,7 @@ def _family(
 def _cancelled(
     divisors: Sequence[fmpq_mpoly], tableau: Tableau, ring: Parameters, free: Iterable[str]
 ) -> Iterator[fmpq_mpoly]:
-    """Yields irreducible polynomials by which the file divides although no denominator shows them,
-    as in t/t: at their zeros there is no method.
-    """
+    """Yields irreducible polynomials by which the file divides although they cancel, as in t/t."""
     shown = common_denominator(tableau.entries, ring)
     known = {str(factor) for factor, _ in shown.factor()[1]}
     indices = [ring.names.index(name) for name in free]

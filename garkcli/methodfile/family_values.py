@@ -1,6 +1,4 @@
-"""The coefficients of files with free parameters: rational functions, with unknowns for
-radicals.
-"""
+"""Coefficients with free parameters: rational functions, with unknowns for radicals."""
 
 from __future__ import annotations
 

@@ -313,9 +313,7 @@ BESIDE_FORM: tuple[g.KeyRelation, ...] = (
 
 @cache
 def elsewhere() -> Mapping[str, Home]:
-    """Returns where misplaced keys at the top of a file belong; a key that may be a claim most
-    often is one.
-    """
+    """Returns where misplaced keys at the top of a file belong."""
     every = (x for x in KEYS.values() if x.name != "parameters")  # has keys below other names
     return g.homes([KEYS["expect"], *every])
 

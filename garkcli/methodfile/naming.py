@@ -199,9 +199,7 @@ def _only(name: str, methods: Sequence[shelving.Shelved]) -> shelving.Shelved:
 
 
 def _unknown(name: str, files: Sequence[str]) -> Remark:
-    """Returns the fault for an argument that is neither a file nor a name, beside files that have
-    this name with an ending.
-    """
+    """Returns the fault for an argument that is neither a file nor a name."""
     message = "no such file, and no method of this name in the catalogue"
     if files:
         cure = f"did you mean {' or '.join(map(repr, files))}?"
@@ -334,9 +332,7 @@ def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> It
 
 
 def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
-    """Returns the matches of a pattern, in which ``**`` stands for folders of any depth; a folder
-    that matches stands for the files below it.
-    """
+    """Returns the matches of a pattern; a folder stands for the files below it."""
     from pathlib import Path
 
     path = Path(pattern)
@@ -367,9 +363,7 @@ def fixed_part(pattern: str) -> str:
 
 
 def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
-    """Yields all matches below a place. A link out of ``root`` is a match itself and is not
-    followed.
-    """
+    """Yields all matches below a place; links out of ``root`` are not followed."""
     if not parts or (os.path.islink(place) and leads_away(place, root)):
         if os.path.lexists(place):
             yield place

@@ -37,9 +37,7 @@ class NumberTolerances:
         self._fewest = fewest_digits(x.expression for x in entries) if tolerance.is_of_digits else 0
 
     def kind_of(self, entry: Coefficient) -> str:
-        """Returns whether a number is in embedded weights or in dense output; empty for A, b and
-        c.
-        """
+        """The further weights that a number is in; empty for A, b and c."""
         return self._kinds.get(id(entry), "")
 
     def key_of(self, entry: Coefficient) -> str:

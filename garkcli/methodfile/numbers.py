@@ -124,9 +124,7 @@ Rows: TypeAlias = tuple[Row, ...]
 
 
 class Between(Frozen):
-    """The range of a parameter: pairs of rational ends, and polynomials in it that are nonnegative,
-    for algebraic ends.
-    """
+    """The range of a parameter: rational ends, and nonnegative polynomials for algebraic ends."""
 
     ranges: tuple[tuple[Coefficient, Coefficient], ...] = ()
     bounds: tuple[Polynomial, ...] = ()
@@ -178,9 +176,7 @@ class Numbers(Mutable):
         del self.parameters[name]
 
     def entry(self, node: Node, where: str) -> Coefficient:
-        """Reads a coefficient; a faulty one is reported and counts as zero, so that reading
-        continues.
-        """
+        """Reads a coefficient; a faulty one is reported and counts as zero."""
         entry = Coefficient(self._value(node, where).expression, node, where)
         self.entries.append(entry)
         return entry
@@ -210,9 +206,7 @@ class Numbers(Mutable):
             return NOTHING
 
     def _unknown(self, node: Node, where: str) -> Expanded:
-        """Returns an entry without a value: an unknown named by its place, or its value from
-        outside.
-        """
+        """Returns an unknown named by its place, or its value from outside."""
         name = name_of_place(where)
         if name is None:
             message = f"{UNKNOWN} stands for an entry of a tableau, or of weights beside it"
@@ -285,9 +279,7 @@ class Numbers(Mutable):
         return self._entries(items, where)
 
     def _entries(self, items: Sequence[Node], where: str) -> Row:
-        """Reads the entries of a row; one that YAML split at a comma is reported and counts
-        once.
-        """
+        """Reads the entries of a row; one that YAML split at a comma is reported once."""
         row: list[Coefficient] = []
         is_open = False
         for item in items:
@@ -363,9 +355,7 @@ class Numbers(Mutable):
     def rectangular(
         self, rows: Rows, node: Node, where: str, shape: tuple[int, int] | None = None
     ) -> Rows:
-        """Returns the rows of a matrix, with a triangle completed if ``shape`` is square; reports
-        rows of different lengths.
-        """
+        """Returns the rows of a matrix, a triangle completed; reports different lengths."""
         lengths = [len(row) for row in rows]
         if shape == (len(rows), len(rows)) and spellings.is_triangle(lengths):
             return self._completed(rows, node, where)

@@ -207,9 +207,7 @@ def nystrom(at: NumbersReader, node: Node) -> NystromText | None:
 def _dense(
     at: NumbersReader, entries: g.ReadMapping, stages: int
 ) -> tuple[Rows, Rows | None] | None:
-    """Reads the polynomials of both components; None for q′ if they are the slopes of the
-    others.
-    """
+    """Reads the polynomials of both components; None for slopes of the others."""
 
     def rows(key: str) -> Rows | None:
         node, where = entries.nodes[key], f"dense, {key}"

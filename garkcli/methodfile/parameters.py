@@ -155,9 +155,7 @@ PARAMETERS = ValueKind(
 
 
 def refuse_free(numbers: Numbers) -> None:
-    """Reports unknowns without a value, entries of the tableau together: a method needs values for
-    all.
-    """
+    """Reports unknowns without a value: a method needs values for all."""
     family = "the file describes a family of methods"
     of_entries: list[str] = []
     for name, free in numbers.free.items():

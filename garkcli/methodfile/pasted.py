@@ -61,9 +61,7 @@ def plain(text: str) -> str:
 
 
 def _fraction(before: str, sign: str) -> str:
-    """Returns a one-character fraction written out, except after a digit, where it would be a
-    sum.
-    """
+    """Returns a one-character fraction written out, except after a digit."""
     written = unicodedata.normalize("NFKC", sign)
     is_fraction = "\N{FRACTION SLASH}" in written and sign != written
     return written if is_fraction and not before.isdigit() else sign

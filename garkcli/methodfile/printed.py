@@ -26,9 +26,7 @@ SEVERAL = 3
 SHORTENED = 4
 """In lowest terms, the denominator of a decimal has at most so many digits less."""
 MANY_DIGITS = 14
-"""A decimal with so many digits is rounded, however long the others are: written-out products have
-twice as many.
-"""
+"""Decimals with more digits are rounded, however long the others are."""
 LONG_DENOMINATOR = 10**5
 """Fractions with a smaller denominator are not approximants."""
 LONG_DECIMAL = 9
@@ -72,18 +70,14 @@ def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmp
 
 
 def left_open(printed: Printed) -> list[fmpq]:
-    """Returns the error of each number if it was computed to its digits, or in floats if the digits
-    are those of a float; 0 if it is exact.
-    """
+    """Returns the error of each number computed to its digits; 0 if it is exact."""
     fewest = max(FEWEST_DIGITS, fewest_digits(text for text, _ in printed))
     units = [(x, unit_of(text, fewest)) for text, x in printed]
     return [SLACK * max(unit, _float_unit(x, unit)) for x, unit in units]
 
 
 def is_short(printed: Printed) -> bool:
-    """Returns whether several decimals have few places and none has more, so that ``left_open``
-    finds them exact, though they look rounded.
-    """
+    """Whether several decimals have few places, so that they look rounded and are exact."""
     literals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
     places = [_decimals(x) for x in literals]
     is_one = sum(n in FEW_PLACES for n in places) < SEVERAL
@@ -239,9 +233,7 @@ def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
 
 
 def _places(literal: Literal) -> int:
-    """Returns the number of digits of a decimal, with zeros between the point and the first
-    digit.
-    """
+    """The number of digits of a decimal, with zeros after the point."""
     return max(_digits(literal), _decimals(literal))
 
 
@@ -303,9 +295,7 @@ def _open(literal: Literal, fewest: int) -> fmpq:
 
 
 def _enclosed(expression: Expression, fewest: int) -> arb:
-    """Returns an enclosure of the values of an expression, with its long numbers within one
-    unit.
-    """
+    """Encloses the values of an expression with long numbers within one unit."""
     match expression:
         case Literal(value=value):
             return arb(value, arb(_open(expression, fewest)))

@@ -158,9 +158,7 @@ ROSENBROCK = g.mapping(
 
 
 class RosenbrockText(description.OwnContent):
-    """A Rosenbrock or W-method as in papers, or transformed as in programs; the latter has one
-    colour.
-    """
+    """A Rosenbrock or W-method as in papers, or of one colour transformed as in programs."""
 
     alpha: tuple[tuple[Rows, ...], ...]
     gamma: tuple[tuple[Rows, ...], ...]

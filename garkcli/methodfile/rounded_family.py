@@ -32,9 +32,7 @@ class Filled(Frozen, eq=False):
     given: tuple[bool, ...]
 
     def shifts(self) -> tuple[fmpq, ...]:
-        """Returns the distances of the numbers in the file from those of the exact method that it
-        stands for, in units of their radii.
-        """
+        """The distances of the numbers in the file from the exact ones, in radii."""
         off = zip(self.rounded.search.place.shifts, self.given, strict=True)
         return tuple(x for x, is_given in off if not is_given)
 

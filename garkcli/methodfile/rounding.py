@@ -273,9 +273,7 @@ class _Moved(Values):
             self._values[id(entry)] = rational_or_ball(value) if moved is None else moved
 
     def _value(self, expression: nodes.Expression) -> Any:
-        """Returns the value of an expression with other numbers; None if it contains none of
-        them.
-        """
+        """The value of an expression with other numbers; None without any."""
         key = id(expression)
         if key not in self._found:
             self._found[key] = self._moved(expression)

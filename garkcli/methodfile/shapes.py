@@ -1,6 +1,4 @@
-"""Shapes of tableaus of unknowns, as text that each shape modifies, and ``unknown`` of a method
-file, which names them.
-"""
+"""Shapes of tableaus of unknowns, as texts that each shape modifies."""
 
 from __future__ import annotations
 
@@ -133,9 +131,7 @@ def _esdirk(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _symplectic_dirk(layout: UnknownLayout) -> UnknownLayout:
-    """As in J. M. Sanz-Serna, L. Abia, *Order conditions for canonical Runge-Kutta schemes*,
-    1991.
-    """
+    """As in J. M. Sanz-Serna, L. Abia, *Order conditions for canonical RK schemes*, 1991."""
     weights = layout.b[0]
 
     def entry(i: int, j: int, _: str) -> str:
@@ -220,9 +216,7 @@ def _rest(total: str, others: Iterable[str]) -> str:
 
 
 def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
-    """Sets the last row of Ā to b̄, that of A to b, and the last node to 1: the last stage of a step
-    is the first of the next.
-    """
+    """Sets the last rows of Ā and A to b̄ and b, and the last node to 1."""
     if layout.stages == 1:
         message = "stiffly-accurate asks for a last node 1, which one stage does not have"
         raise MethodError(message, "take two stages", code="not-together")
@@ -501,9 +495,7 @@ UNKNOWN = g.mapping(
 
 
 class Shaped(Frozen):
-    """The tableau for ``unknown``, the keys of the equivalent method file, and the place of
-    ``unknown: …``.
-    """
+    """The tableau for ``unknown``, the equivalent keys, and the place in the file."""
 
     layout: UnknownLayout
     entries: Entries

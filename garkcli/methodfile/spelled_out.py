@@ -238,9 +238,7 @@ def _has_an_empty_row(node: Node) -> bool:
 
 
 def colours_in(at: NumbersReader, node: Node, name: str) -> list[Node] | None:
-    """Returns the items of a list, one for each colour; None, with a fault, if there are too
-    many.
-    """
+    """Returns the items of a list, one for each colour; None, with a fault, if too many."""
     items = at.source.items(node, name)
     if isinstance(node, SequenceNode) and not items:
         at.source.fault(node, f"{name} is empty", "give one for each colour", code="empty")
@@ -523,9 +521,7 @@ def _a_colour(
 
 
 def _is_of_several(at: NumbersReader, node: Node, where: str, depth: int) -> bool:
-    """Reports weights written as for several colours, ``depth`` lists deep, and returns whether
-    so.
-    """
+    """Whether weights are written as for several colours; reports that."""
     if _depth(node) != depth:
         return False
     noun = "row" if depth == 2 else "block"

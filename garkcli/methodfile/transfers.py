@@ -77,9 +77,7 @@ _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 
 
 def _block_of(key: str) -> tuple[int, int]:
-    """Returns the colours of a key such as ``1,2``, counted from 0; equal ones if it is not
-    valid.
-    """
+    """Returns the colours of a key such as ``1,2``, from 0; equal ones if it is not valid."""
     match = _BLOCK.fullmatch(key)
     if match is None:
         return 0, 0
@@ -126,9 +124,7 @@ def _unknown(
 
 
 def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
-    """Returns unknown blocks with the names of their entries: a matrix, or the value of
-    ``transfer`` if there are several.
-    """
+    """Returns unknown blocks with names for their entries."""
     texts = {}
     for (l, m), block in blocks.items():
         rows = [", ".join(str(name_of_place(x.where)) for x in row) for row in block.rows]

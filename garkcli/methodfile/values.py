@@ -40,9 +40,7 @@ class Values:
         _note_faults(numbers, unused)
 
     def once(self, key: object, find: Callable[[], T]) -> T:
-        """Returns a decision about the method that does not depend on changes of rounded
-        numbers.
-        """
+        """Returns a decision that does not depend on changes of rounded numbers."""
         decided = self.__dict__.setdefault("decided", {})
         if key not in decided:
             decided[key] = find()
@@ -57,9 +55,7 @@ class Values:
         return gark([method], {})
 
     def _evaluate(self, numbers: Numbers, domain: Domain) -> dict[int, Number]:
-        """Returns the values of the expressions by their identity; those without a value are
-        reported.
-        """
+        """Returns the values of expressions by identity; missing ones are reported."""
         known: dict[int, Number] = {}
         for entry in numbers.entries:
             key = id(entry.expression)
@@ -129,9 +125,7 @@ def _note(numbers: Numbers, entry: Coefficient, error: ExpressionError) -> None:
 
 
 def _identities(expression: Expression) -> Iterator[int]:
-    """Yields the identities of an expression and its parts; a parameter is always the same
-    object.
-    """
+    """Yields the identities of an expression and its parts."""
     yield id(expression)
     for part in parts(expression):
         yield from _identities(part)

@@ -134,9 +134,7 @@ class Wishes(Frozen):
 
 
 def read_wishes(at: Any, node: Node) -> Wishes:
-    """Returns the content of ``design``, once the unknowns are known; the numbers of the file are
-    left as they are.
-    """
+    """Returns the content of ``design``; the numbers of the file are left as they are."""
     numbers: Numbers = at.numbers
     before = len(numbers.entries)
     demands: ReadMapping | dict[str, Any] = DESIGN.read(at, node, "design") or {}

@@ -77,9 +77,7 @@ def tolerance_text(written: Written) -> str:
 
 
 def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
-    """Returns the tolerance for a file that spells a method out, with its further weights, or
-    None.
-    """
+    """Returns the tolerance for a file that spells a method out, or None."""
     own = method.tolerance
     by_key = {
         "embedded": None if further.embedded is None else method.embedded_tolerance,
@@ -196,18 +194,14 @@ def _rationals(tableau: Tableau) -> Iterator[fmpq]:
 
 
 def can_spell_out(tableau: Tableau) -> bool:
-    """Returns whether a spelled-out file represents ``tableau`` completely: a GARK tableau or a
-    partitioned pair.
-    """
+    """Whether a spelled-out file represents ``tableau``: a GARK tableau or a partitioned pair."""
     if not tableau.is_gark:
         return False
     return not tableau.is_partitioned or _is_prk(tableau)
 
 
 def _is_prk(tableau: Tableau) -> bool:
-    """Returns whether the form ``prk`` represents a tableau: both blocks exist, and a colour is
-    linear only if q̇ = p.
-    """
+    """Whether the form ``prk`` represents a tableau: both blocks exist."""
     parts = [colour.part for colour in tableau.colours]
     linear = [colour.is_linear for colour in tableau.colours]
     if parts != ["q", "p"]:
@@ -293,9 +287,7 @@ def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
 
 
 def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
-    """Returns the lines of the form ``prk``: the rows of q.A are the positions at which p evaluates
-    its forces.
-    """
+    """Returns the lines of the form ``prk``."""
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
         block = tableau.blocks[tableau.colours[seen_at].space, drives]

@@ -32,9 +32,7 @@ from garkcli.ntrees.tree import Tree
 SHORT = 48
 """Blocks of so many orders are done one by one: products of shorter polynomials gain nothing."""
 Edges: TypeAlias = "Sequence[Sequence[bool]]"
-"""``edges[l][m]``: whether a vertex of colour l may carry a branch with root colour m; colours from
-0.
-"""
+"""``edges[l][m]``: whether a vertex of colour l may carry a root of colour m."""
 
 
 Colours: TypeAlias = tuple[int, ...]
@@ -96,9 +94,7 @@ class Admissible(Frozen):
 
     @property
     def leaders(self) -> Colours:
-        """For each colour the first one that admits the same branches: their trees differ in their
-        roots only.
-        """
+        """For each colour the first one that admits the same branches."""
         first: dict[tuple[Colours, VertexKind], int] = {}
         natures = zip(self.branches, self.kinds, strict=True)
         return tuple(first.setdefault(nature, l) for l, nature in enumerate(natures))

@@ -60,9 +60,7 @@ class Structure(Frozen):
     def pair(
         cls, velocities: Collection[int], forces: Collection[int], quadratic: Collection[int] = ()
     ) -> Structure:
-        """The pair (A, Â) with V^l for l in ``velocities`` and F^l for l in ``forces``, in this
-        order.
-        """
+        """The pair (A, Â) with V^l for ``velocities`` and F^l for ``forces``, in this order."""
         V: list[Nature] = [(l, "q") for l in velocities]
         F: list[Nature] = [(l, "p") for l in forces]
         return cls((*V, *F), frozenset(quadratic))
@@ -75,9 +73,7 @@ class Structure(Frozen):
 
     @property
     def is_directed(self) -> bool:
-        """Whether the edges of the free trees have a direction: from l to m for A^{l,m}, back for
-        Â^{l,m}.
-        """
+        """Whether the edges have a direction: from l to m for A^{l,m}, back for Â^{l,m}."""
         return any(part != "y" for _, part in self.colours)
 
     @cached_property
@@ -106,9 +102,7 @@ class Structure(Frozen):
         return Admissible.of(len(self.colours), edges, linear)
 
     def _turned(self, above: int, below: int) -> int | None:
-        """The colour of the upper vertex once the root has moved below it; None if there is no
-        edge.
-        """
+        """The colour of the upper vertex below its root; None if there is no edge."""
         term, _ = self.colours[above]
         _, part = self.colours[below]
         return self._number.get((term, _PARTNER[part]))
@@ -127,9 +121,7 @@ class Structure(Frozen):
         return Tree(leader, tree.branches)
 
     def twins(self, tree: Tree) -> Iterator[Tree]:
-        """The tree with every colour that its root may have: V^l and F^l share stages and
-        weights.
-        """
+        """The tree with every colour of its root: V^l and F^l share stages and weights."""
         term, _ = self.colours[tree.root]
         for colour, (other, _) in enumerate(self.colours):
             if other == term:
@@ -201,9 +193,7 @@ def _twice_largest(tree: Tree) -> int:
 
 
 class Grower(Frozen):
-    """Lists the free trees of a structure by their centroids, each once; only trees of half the
-    order are kept.
-    """
+    """Lists the free trees of a structure by their centroids, each once."""
 
     structure: Structure
 
@@ -220,9 +210,7 @@ class Grower(Frozen):
             yield Tree(root, branches)
 
     def two_centroids(self, root: int, order: int) -> Iterator[Tree]:
-        """The free trees with two centroids, two halves that differ, rooted as
-        ``Structure.centred`` does.
-        """
+        """The free trees with two centroids, two halves that differ."""
         if order % 2:
             return
         is_directed = self.structure.is_directed
@@ -250,9 +238,7 @@ class Grower(Frozen):
         return self._planted[key]
 
     def _forests(self, root: int, total: int, largest: int, edges: int) -> Iterator[Forest]:
-        """The branches that a root may have: ``total`` vertices, at most ``edges`` branches of at
-        most ``largest`` vertices.
-        """
+        """The branches of a root: ``total`` vertices, at most ``edges`` and ``largest``."""
         colours = self.structure.admissible.branches[root]
         for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):
             choices = []
@@ -267,9 +253,7 @@ class Grower(Frozen):
 def _outlines(
     total: int, bound: _Kind, colours: Sequence[int], edges: int
 ) -> Iterator[tuple[_Kind, ...]]:
-    """Orders and colours of the branches, the last branch first, each at most ``bound``, in
-    lexicographic order.
-    """
+    """Orders and colours of the branches, each at most ``bound``, in lexicographic order."""
     if total == 0:
         yield ()
         return

@@ -1,6 +1,4 @@
-"""Kinds of vertices: their numbers of branches, the orders they count, and whether the exact
-solution has them.
-"""
+"""Kinds of vertices: numbers of branches, counted orders, and the exact solution."""
 
 from __future__ import annotations
 
@@ -56,9 +54,7 @@ class VertexKind(Frozen):
 
     @cached_property
     def stems(self) -> Arity:
-        """The numbers of branches, 0 or 1, that no vertex has but that remain of larger ones
-        without their last branch.
-        """
+        """The numbers of branches, 0 or 1, that only larger ones without the last leave."""
         below = {n for n in (0, 1) if max(self.arity, default=0) > n}
         return frozenset(below) - self.arity
 

@@ -17,9 +17,7 @@ MAX_LENGTH = 20_000
 MAX_VERTICES = 1000
 """Vertices of a tree in text; σ and γ then have less than the 4300 digits that Python writes."""
 MAX_DEPTH = 150
-"""Vertices on a path from the root to a leaf; keeps recursion over trees far from Python's
-limit.
-"""
+"""Vertices from the root to a leaf; keeps recursion far from Python's limit."""
 MAX_COLOUR = 32_767
 """The largest colour in text: the columns of the tree table hold no larger one."""
 
@@ -31,9 +29,7 @@ _DIGITS = re.compile(r"[0-9]*")
 
 
 class NotationError(TreeError):
-    """A text that is not a tree: ``message``, the cure ``help``, and the ``offset`` of the fault,
-    from 0.
-    """
+    """A text that is not a tree, with the cure ``help`` and the ``offset`` of the fault."""
 
     code = "no-such-tree"
 
@@ -154,9 +150,7 @@ class _Reader:
 
 
 def written_order(tree: Tree) -> list[Tree]:
-    """The branches in the order of writing and drawing: larger ones first, else in the order of the
-    tree.
-    """
+    """The branches in the order of writing and drawing: larger ones first."""
     return sorted(tree.branches, key=lambda u: -u.order)
 
 
@@ -264,9 +258,7 @@ def _latex_inverse(density: int) -> str:
 
 
 class _Formula:
-    """Writes 𝒜^[u] (the paper's eqs. Ataul and Au) with the given signs, naming vertices in
-    order.
-    """
+    """Writes 𝒜^[u], eqs. (Ataul) and (Au), with the given signs."""
 
     def __init__(self, block: str, one: str, times: str, letters: Sequence[str] | None) -> None:
         self.block = block

@@ -1,6 +1,4 @@
-"""Stage vectors 𝒜^[u] of all trees of a table, for any kind of entries; elementary weights in
-floats.
-"""
+"""Stage vectors 𝒜^[u] of all trees of a table; elementary weights in floats."""
 
 from __future__ import annotations
 

@@ -113,9 +113,7 @@ class ConditionClass(Frozen):
 
     @cached_property
     def members(self) -> tuple[Tree, ...]:
-        """All rooted trees of the class, sorted: the rootings at every vertex, with every colour of
-        the same stages.
-        """
+        """All rooted trees of the class, sorted, with every colour of the same stages."""
         twins: list[Tree] = []
         for rooting in set(self._admissible_rootings()):
             twins += self.structure.twins(rooting)

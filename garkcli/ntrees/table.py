@@ -197,9 +197,7 @@ class Growth:
 
 
 Inside = tuple[str, int, int]
-"""The text between a root's brackets, the offset at which its largest branches end, and their
-order.
-"""
+"""The text inside a root, the end of its largest branches, and their order."""
 _VERTEX: Inside = ("", 0, 0)
 
 
@@ -436,9 +434,7 @@ class TreeTable(Frozen):
         return self.admissible.tree(int(self.columns.root[u]), branches)
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
-        """Bracket text of many trees, as by ``format_tree``, built from the texts of their
-        parents.
-        """
+        """Bracket text of many trees, built from the texts of their parents."""
         which = ids
         if not isinstance(which, np.ndarray):
             which = np.fromiter(which, np.int64)

@@ -57,9 +57,7 @@ class Tree(Shown):
 
     @cached_property
     def density(self) -> int:
-        """γ(u) = ρ(u) γ(u_1) … γ(u_m); for a root of weight 2 the first factor is ρ(u) (ρ(u) −
-        1).
-        """
+        """γ(u) = ρ(u) γ(u_1) … γ(u_m); a root of weight 2 has ρ(u) (ρ(u) − 1) first."""
         return self.kind.integrated(self.order) * prod([u.density for u in self.branches])
 
     @cached_property

@@ -20,9 +20,7 @@ _CURE = "gark conditions FILE lists the trees of a method"
 
 
 class TreeVectors:
-    """Stage vectors of single trees of a tableau of numbers, polynomials or balls; images of
-    branches are cached.
-    """
+    """Stage vectors of single trees; images of branches are cached."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -104,9 +102,7 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
 
 
 def coupling_graph(tableau: Tableau) -> Admissible:
-    """The admissible trees of a tableau: which colours see which, and the kinds of their
-    vertices.
-    """
+    """The admissible trees: which colours see which, and the kinds of their vertices."""
     colours = range(tableau.size)
     branches = tuple(tuple(m for m in colours if tableau.block(l, m) is not None) for l in colours)
     return Admissible(tableau.size, branches, tuple(colour.kind for colour in tableau.colours))

@@ -39,9 +39,7 @@ Places = list[int]
 
 
 class _Hull(Frozen, eq=False):
-    """Members with the bounds Λ, ε and π for all other trees or forests of their kind; no members
-    if there are none of that kind.
-    """
+    """Members with the bounds Λ, ε and π for all other trees or forests of their kind."""
 
     members: Sequence[ForestVector]
     weight: arb

@@ -48,9 +48,7 @@ class Solver:
         self._cut = 0.0
 
     def nearest(self, parts: Sequence[arb], shifts: Sequence[fmpq], cut: float) -> Floats | None:
-        """The shifts of the method nearest to the print, to first order; None if there are none.
-        Those that reach an end are held there.
-        """
+        """The shifts of the method nearest to the print, to first order; None without any."""
         here = np.array([to_float(x) for x in shifts])
         floats = np.array([float(x.mid()) for x in parts])
         near = nearest(self.slopes, floats - self.alone @ here, cut)
@@ -111,9 +109,7 @@ def excludes(rows: Forms, y: Floats) -> bool:
 
 
 def compromise(G: Floats, c: Floats) -> Floats:
-    """Residuals of rows c + G x with Σ |residual| about minimal and a penalty for |x_k| > 1, by
-    iteratively reweighted least squares.
-    """
+    """Shifts with Σ |c + G x| about minimal and a penalty for |x_k| > 1."""
     misses, shifts = np.ones(len(c)), np.zeros(G.shape[1])
     for _ in range(12):
         check_time()

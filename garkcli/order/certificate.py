@@ -152,9 +152,7 @@ def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
 
 
 def required_of(tree: Tree, share: int = 1) -> fmpq:
-    """The elementary weight that the exact solution requires: share/γ(u), or 0 if it has no such
-    tree.
-    """
+    """The elementary weight of the exact solution: share/γ(u), or 0 without such a tree."""
     return fmpq(share * tree.is_exact, tree.density)
 
 

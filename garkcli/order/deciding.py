@@ -14,9 +14,7 @@ if TYPE_CHECKING:
     from garkcli.order.rounded import RoundedOrder
 
 AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
-"""An order found exactly, or within a tolerance; both have ``order``, ``witness`` and
-``is_lower_bound``.
-"""
+"""An order found exactly, or within a tolerance."""
 
 
 def order_of(

@@ -59,9 +59,7 @@ class Defects:
             return _minus_part(image, self.power(l, k), k)
 
     def D(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
-        """b_l(c_l^(k−1) A^{l,m} g) − b_m((1 − c_m^k) g) / k, eq. (D): a functional of g in the
-        space of m.
-        """
+        """b_l(c_l^(k−1) A^{l,m} g) − b_m((1 − c_m^k) g) / k, eq. (D), a functional of g."""
         here, there = self.entries.space(l), self.entries.space(m)
         b_l, b_m = self.entries.colours[l].b, self.entries.colours[m].b
         with self.precision():
@@ -71,9 +69,7 @@ class Defects:
             return _minus_part(left, there.times(b_m, rest), k)
 
     def even(self, l: int, m: int, k: int) -> Vector:
-        """b_l(c_l^k A^{l,m} c_m^k) − 1/(2 (k + 1)²), which an even pair order 2k + 2 requires of a
-        block.
-        """
+        """b_l(c_l^k A^{l,m} c_m^k) − 1/(2 (k + 1)²), for a pair of even order 2k + 2."""
         with self.precision():
             (image,) = self._map(l, m).images([self.power(m, k)])
             b_l = self.entries.colours[l].b
@@ -118,9 +114,7 @@ class BoxDefects(Defects):
 
 
 class RoundedDefects(BoxDefects):
-    """The defects of the method that a tableau is taken to mean: balls, which contain 0 if it has
-    none.
-    """
+    """The defects of the method that a tableau is taken to mean, in balls."""
 
     def __init__(self, near: Tableau, grain: fmpq) -> None:
         from garkcli.tableau.enclosure import in_balls  # balls, which exact methods do without

@@ -75,9 +75,7 @@ class DenseOrder(Shown, Frozen):
 def dense_order(
     method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseOrder:
-    """Returns the largest order ≤ ``limit`` for which all conditions of dense output hold, for
-    every θ.
-    """
+    """Returns the largest order ≤ ``limit`` of dense output, for every θ."""
     known = dense if isinstance(method, Tableau) else method.further.dense or dense
     functionals = [Functional(known.coefficients(k), k) for k in range(1, dense.degree + 1)]
     # the next power has no coefficients, and its order should have one
@@ -172,9 +170,7 @@ def slopes_where(
 
 
 def slopes_at_ends(dense: DenseOutput) -> Ends:
-    """The slope at θ = 0 minus f(x_0), and that at θ = 1 minus f(x_1), as weights at the stages of
-    ``with_ends``.
-    """
+    """The slopes at θ = 0 and 1 minus f there, as weights at ``with_ends``."""
     start = _beside(dense.coefficients(1), (-ONE, ZERO))
     return start, _beside(slope_at_one(dense.weights), (ZERO, -ONE))
 

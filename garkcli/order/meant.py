@@ -58,9 +58,7 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
 
 
 def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
-    """The tableau with the rounding of its printed numbers; None if all are exact, or their print
-    is unknown.
-    """
+    """The tableau with the rounding of its print; None if exact or unknown."""
     box: ByRadii | None = tableau.__dict__.get("digits")
     if box is None:
         return None
@@ -73,9 +71,7 @@ def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
 
 
 def remember_digits(tableau: Tableau, box: ByRadii) -> None:
-    """Stores how a tableau depends on its printed numbers, for radii other than those of the
-    file.
-    """
+    """Stores how a tableau depends on its printed numbers, for other radii."""
     tableau.__dict__["digits"] = box
 
 
@@ -113,9 +109,7 @@ def keep(method: RoundedTableau) -> None:
 
 
 def with_further(method: AnyTableau) -> RoundedTableau | None:
-    """A method with its further weights if any number is rounded, else None; an exact method may
-    have rounded further weights.
-    """
+    """A method with its further weights if any number is rounded, else None."""
     if not isinstance(method, Tableau):
         return method
     of_tolerance, box = method.__dict__.get("box", (None, None))

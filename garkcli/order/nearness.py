@@ -97,9 +97,7 @@ def _suspect(search: Recovery, shifts: Floats) -> int | None:
 
 
 def far_alone(basis: Floats, shifts: Floats) -> int | None:
-    """The number that alone is far off, from an orthonormal basis of the slopes of the rows; None
-    if there is none.
-    """
+    """The number that alone is far off, by the slopes of the rows; None without any."""
     if len(basis) < FEWEST_ROWS:
         return None
     projector = basis.T @ basis

@@ -1,6 +1,4 @@
-"""The order of the symplectic pair by simplifying conditions alone: the criterion of
-docs/pair-order.md.
-"""
+"""The order of the symplectic pair by simplifying conditions (docs/pair-order.md)."""
 
 from __future__ import annotations
 

@@ -137,9 +137,7 @@ class BoxPlace:
             return found
 
     def missed(self, name: str, order: int) -> list[Tree]:
-        """Trees of an order whose conditions this method misses, largest residual first; empty if
-        it meets all.
-        """
+        """Trees of an order whose conditions this method misses, largest residual first."""
         key = name, order
         if key not in self._missed:
             check_time()
@@ -256,9 +254,7 @@ class SearchedBox:
         self.powers: dict[str, int] = {}
 
     def share(self, name: str, order: int) -> int:
-        """The required γ(u)-fold elementary weights of an order: 1, or 0 if the weights belong to
-        another power of θ in dense output.
-        """
+        """The required γ(u)-fold weights of an order: 1, or 0 for another power of θ."""
         return int(self.powers.get(name, order) == order)
 
     def add_further(self) -> None:

@@ -72,9 +72,7 @@ class PredictorOrders(Frozen):
         return min(x.equal_steps for x in self.stages)
 
     def first_missed(self, *, equal_steps: bool) -> tuple[int, Missed] | None:
-        """The first stage of least order, from 0, and the condition that it misses; None if nothing
-        is known to fail.
-        """
+        """The first stage of least order, from 0, and the condition that it misses."""
         for x in self.stages:
             missed = x.missed_equal if equal_steps else x.missed
             order = x.equal_steps if equal_steps else x.order
@@ -129,9 +127,7 @@ def two_steps(tableau: Tableau, ratio: Number) -> Tableau:
 
 
 def misses(tableau: Tableau, predictor: Predictor, stage: int, ratio: Number) -> Vector:
-    """The prediction of a stage minus the stage, as weights of the stages of both steps, in units
-    of the second one.
-    """
+    """The prediction of a stage minus the stage, as weights of the stages of both steps."""
     old, new = predictor.at(ratio)
     return (*old[stage], *subtract(new, tableau.blocks[0, 0])[stage])
 

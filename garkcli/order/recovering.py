@@ -92,9 +92,7 @@ class Recovery(SearchedBox):
 
     @property
     def kept(self) -> tuple[str, dict[str, Any]]:
-        """The key of the printed numbers, and the start of a later search: empty if the rows vanish
-        to second order only.
-        """
+        """The key of the printed numbers, and the start of a later search, if any."""
         place, key = self.settled, key_of(self.box)
         if place.slack or place is self.origin:
             return key, {}
@@ -130,9 +128,7 @@ class Recovery(SearchedBox):
         return other
 
     def of_orders(self) -> Recovery:
-        """A new search for orders alone: the method may have another shape than the digits
-        suggest.
-        """
+        """A new search for orders alone, whatever shape the digits suggest."""
         other = Recovery(self.box, self.printed_further)
         other.targets = dict(self.targets)
         other.add_further()
@@ -140,17 +136,13 @@ class Recovery(SearchedBox):
         return other
 
     def missed_at(self, place: BoxPlace) -> dict[str, list[Tree]]:
-        """The trees of all orders reached whose conditions a method misses, by the name of the
-        tableau.
-        """
+        """The trees up to the orders reached that a method misses, by tableaus."""
         other = copy(self)
         other.place = place
         return other._missed(self._reached)
 
     def recover_dense(self, limit: int) -> tuple[int, RecoveryFailure | None]:
-        """Moves to a method whose dense output has the largest order; returns why it has no larger
-        one.
-        """
+        """Moves to the largest order of dense output; returns why there is no larger one."""
         dense = self.printed_further.dense
         assert dense is not None
         self.add_further()
@@ -298,9 +290,7 @@ class Recovery(SearchedBox):
         return limit, None
 
     def _try(self, orders: Mapping[str, int]) -> RecoveryFailure | None:
-        """Moves to a method with further orders; if there is none, nothing moves and the reason is
-        returned.
-        """
+        """Moves to a method with further orders, or returns why there is none."""
         before = self.place, self.shape, self.system
         failure = self._reach({**self._reached, **orders})
         if failure is None:
@@ -310,9 +300,7 @@ class Recovery(SearchedBox):
         return failure
 
     def _reach(self, orders: Mapping[str, int]) -> RecoveryFailure | None:
-        """Moves to a method with some orders, by the name of the tableau; returns why there is
-        none.
-        """
+        """Moves to a method with some orders, or returns why there is none."""
         for _ in range(8):
             missed = self._missed(orders)
             if not missed:
@@ -352,9 +340,7 @@ class Recovery(SearchedBox):
         return failure
 
     def independent(self, fresh: System, place: BoxPlace) -> System:
-        """Rows independent of those recovered before and of each other, to first order around a
-        method.
-        """
+        """Rows independent of those recovered and of each other, to first order."""
         known = _both(self.shape, self.system)
         if not any(fresh.values()):
             return {}

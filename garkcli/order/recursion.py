@@ -79,9 +79,7 @@ class OrderByOrder(ABC, Generic[Value]):
         return self._several[k, order]
 
     def _splits(self, k: int, order: int) -> Iterator[tuple[Value, Value]]:
-        """Pairs of the smallest branch and the forest of the others, for all forests of at least
-        two branches.
-        """
+        """Pairs of the smallest branch and the other ones, for forests of several."""
         for j in range(1, order // 2 + 1):
             yield self.branches(k, j), self.forests(k, order - j)
 
@@ -118,9 +116,7 @@ class ForestVector(Frozen):
     exact: int = 1
 
     def required(self, kind: VertexKind, order: int) -> fmpq:
-        """The required product of weights and vector, for trees of an order with a root of a kind:
-        1/ρ if the vertex counts one order.
-        """
+        """The required weights times vector, for trees with a root of a kind."""
         return fmpq(self.exact * kind.is_exact, kind.integrated(order))
 
 

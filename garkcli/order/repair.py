@@ -27,9 +27,7 @@ class RepairedEntry(Frozen):
     old: Number
 
     def put(self, method: Tableau, value: Number) -> Tableau:
-        """The method with another value there. Equal weights of colours with the same stages change
-        together.
-        """
+        """The method with another value there, also in colours with the same stages."""
         if self.m is None or self.i is None:
             old = method.colours[self.l]
             b = _with_value(old.b, self.j, value)
@@ -45,9 +43,7 @@ class RepairedEntry(Frozen):
 
 
 class Repair(RepairedEntry):
-    """An entry whose change alone restores the claimed order; ``is_embedded`` marks
-    embedded weights.
-    """
+    """An entry whose change alone restores the claimed order."""
 
     new: Number
     is_embedded: bool = False

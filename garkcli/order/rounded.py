@@ -94,9 +94,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def widest(self) -> fmpq | None:
-        """The largest error of an entry of b and A, printed or computed; None if a divisor may be
-        0.
-        """
+        """The largest error of an entry of b and A; None if a divisor may be 0."""
         whole = self.search.origin.in_balls(self.name)
         rows = [colour.b for colour in whole.colours]
         rows += [row for block in whole.blocks.values() for row in block]
@@ -124,9 +122,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def defects(self) -> Defects:
-        """The defects of all methods that it may mean: balls, which contain 0 if one of them has
-        none.
-        """
+        """The defects of all methods that it may mean, in balls."""
         return BoxDefects(self.tableau, self.search.origin.in_balls(self.name), self.search.bits)
 
     def meets(self, tree: Tree) -> bool:
@@ -339,9 +335,7 @@ def _witness(rounded: RoundedTableau, tree: Tree) -> Witness:
 
 
 def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
-    """The condition with the largest residual in the order of a witness; the witness itself if
-    there are many.
-    """
+    """The condition with the largest residual, or the witness if there are many."""
     order, tableau = witness.tree.order, rounded.tableau
     if not rounded.search.box.numbers or not tableau.is_listed:
         return witness
@@ -353,9 +347,7 @@ def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
 
 
 def tree_missed(tableau: Tableau, order: int, share: int, grain: fmpq) -> Tree | None:
-    """The tree of an order whose elementary weight differs most from share/γ(u); None if none
-    differs by more than ``grain``.
-    """
+    """The tree of an order that differs most from share/γ(u); None within ``grain``."""
     bits = bits_for(grain)
     trees = TreeResiduals(tableau, enclose_tableau(tableau, bits))
     with ctx.workprec(bits):

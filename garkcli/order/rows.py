@@ -1,6 +1,4 @@
-"""Conditions on rounded methods as rows: affine forms of the printed numbers that have to
-vanish.
-"""
+"""Conditions on rounded methods as affine forms of the printed numbers."""
 
 from __future__ import annotations
 
@@ -50,9 +48,7 @@ System: TypeAlias = "Mapping[str, Chosen]"
 
 
 class FormDefects:
-    """The conditions on a tableau of forms as left side minus right side; shared parts are
-    cached.
-    """
+    """The conditions on a tableau of forms, left side minus right side."""
 
     def __init__(self, tableau: FormTableau) -> None:
         self.tableau = tableau
@@ -99,9 +95,7 @@ class FormDefects:
         return forth.minus(b_i * b[x.m], fmpq(1)).minus(back, fmpq(-1))
 
     def _symmetric(self, x: Label) -> Forms:
-        """a_kj + a_{s+1−k, s+1−j} − b_j for row k of the block (l, m): zero if the method with its
-        stages reversed is its adjoint.
-        """
+        """a_kj + a_{s+1−k, s+1−j} − b_j for row k of the block (l, m)."""
         block = self.tableau.block(x.l, x.m)
         last = reverse(block.row(len(self.tableau.b[x.l]) - 1 - x.k))
         return block.row(x.k).minus(self.tableau.b[x.m], fmpq(1)).minus(last, fmpq(-1))

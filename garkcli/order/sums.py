@@ -36,9 +36,7 @@ class WrongSum(Frozen):
 
 
 def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
-    """The rows of some blocks that do not sum to their nodes beyond rounding; only of point
-    stages.
-    """
+    """The rows of blocks of point stages that do not sum to their nodes."""
     tableau = defects.tableau
     for l, m in edges:
         block = tableau.block(l, m)
@@ -51,9 +49,7 @@ def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
 
 
 def wrong_weights(defects: Defects, is_embedded: bool = False) -> Iterator[WrongSum]:
-    """The weights that do not sum to 1 beyond rounding; equal weights of shared stages occur
-    once.
-    """
+    """The weights that do not sum to 1 beyond rounding, shared ones once."""
     seen = []
     for l, colour in enumerate(defects.tableau.colours):
         is_of_points = isinstance(defects.tableau.space(l), PointSpace)

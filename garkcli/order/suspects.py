@@ -1,6 +1,4 @@
-"""Finds the entry that does not fit the digits of the others: it alone keeps a method from an
-order, the others being off by rounding only.
-"""
+"""Finds the entry that alone keeps a method from an order, the others being rounded."""
 
 from __future__ import annotations
 
@@ -132,9 +130,7 @@ def _changes(
 
 
 def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) -> bool:
-    """Whether all conditions of an order that a method misses have residuals of the size of
-    rounding: then more than one entry is off.
-    """
+    """Whether the residuals of an order are of the size of rounding."""
     sizes = (x.residual for x in conditions(rounded.tableau, missed))
     return bool(missed) and all(within(x, unnatural(order)) for x in sizes)
 
@@ -157,9 +153,7 @@ _Rank: TypeAlias = tuple[bool, int]
 
 
 def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_Rank, _Candidate]]:
-    """The numbers that may be wrong: sure ones first, then by the order they could give, then by
-    the size of the change.
-    """
+    """The numbers that may be wrong: sure ones first, then by order and change."""
     best: dict[int, tuple[_Rank, _Candidate]] = {}
     among = None
     for q in range(order, limit + 1):
@@ -250,9 +244,7 @@ def _around(search: Recovery, candidate: _Candidate) -> Recovery | None:
 
 
 def _in_few_digits(wide: Recovery, k: int, search: Recovery) -> fmpq:
-    """The value of number k in the method found, to the place of its rounding, or to the last
-    printed place if that is not far behind.
-    """
+    """The value of number k in the method found, in few digits."""
     printed, near = search.box.numbers[k], wide.box.numbers[k]
     assert isinstance(printed, fmpq)
     assert isinstance(near, fmpq)
@@ -265,9 +257,7 @@ def _in_few_digits(wide: Recovery, k: int, search: Recovery) -> fmpq:
 
 
 def _repair(search: Recovery, k: int, change: Number) -> Repair | None:
-    """The entry that is ± number k, or the only one with it among its terms, with its new value;
-    None if there is no such entry.
-    """
+    """The entry that is ± number k, with its new value; None if there is none."""
     forms, printed = search.origin.defects("method").tableau.made, search.origin.exact("method")
     entries: list[tuple[Repair, Any]] = [
         (Repair(l, m, i, j, old, old), form)

@@ -14,16 +14,12 @@ from garkcli.exact.field import Algebraic, Number
 TINY = fmpq(1, 10**6)
 """Largest residual that counts as rounding, at any order."""
 UNNATURAL = fmpq(1, 1000)
-"""Largest residual that counts as rounding, as a part of the smallest quadrature error of its
-order.
-"""
+"""Largest residual that counts as rounding, relative to quadrature errors."""
 NOT_FOUND = "no method with it was found, and it is not proved that there is none"
 
 
 def unnatural(order: int) -> fmpq:
-    """The size below which a residual is too small for an exact method of that order: that of
-    ``small``, and at most 10⁻⁶.
-    """
+    """The size below which a residual is too small for an exact method."""
     return min(TINY, small(order))
 
 

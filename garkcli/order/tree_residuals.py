@@ -18,9 +18,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class ResidualSizes(Frozen, eq=False):
-    """The size of the residuals of one order: an upper bound of |residual|, and the largest one
-    reached by a tree.
-    """
+    """Residuals of one order: an upper bound, and the largest one of a tree."""
 
     bound: arb
     reached: arb
@@ -67,9 +65,7 @@ class TreeResiduals(StageVectors[BallVectors]):
         return TreeTable.of(self._admissible, order)
 
     def of_order(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
-        """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order,
-        once for twin roots.
-        """
+        """The residual, share/γ(u) and id of each tree of an order, once for twin roots."""
         with ctx.workprec(self.enclosure.bits):
             return list(self._residuals(self.table(order), order, share))
 

@@ -59,9 +59,7 @@ def _functionals(defects: Defects, colours: Sequence[int]) -> Iterator[tuple[int
 
 
 class Echelon:
-    """A linear span of vectors, grown by elimination; ``defects`` decides whether a number is
-    zero.
-    """
+    """A linear span of vectors; ``defects`` decides whether a number is zero."""
 
     def __init__(self, defects: Defects) -> None:
         self._vanish = defects.vanish

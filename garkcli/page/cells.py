@@ -93,9 +93,7 @@ class TableauLine(NamedTuple):
 def lines_of(
     entries: Entries, stages: Sequence[int], colours: Sequence[int]
 ) -> Iterator[TableauLine]:
-    """Yields the stages of each colour of ``stages``, then the weights, with columns of
-    ``colours``.
-    """
+    """Yields the stages of each colour, then the weights, with columns of ``colours``."""
     for l in stages:
         blocks = [entries.A[l][m] for m in colours]
         for i, node in enumerate(entries.c[l]):

@@ -104,9 +104,7 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
 
 
 def _spare_blanks(line: str) -> Iterator[int]:
-    """Yields the positions of blanks that can be dropped: all but two of a gap, or all but one
-    before a drawing.
-    """
+    """Yields the positions of blanks that can be dropped from gaps."""
     for gap in _BLANKS.finditer(line):
         needed = 1 if line[gap.end() : gap.end() + 1] in DRAWN else 2
         yield from range(gap.start() + needed, gap.end())
@@ -176,9 +174,7 @@ def broken(line: str, width: int) -> list[str]:
 
 
 def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
-    """Returns the blanks after ``start`` at which to break a line: the first ones if none fit, None
-    if there are none.
-    """
+    """Returns the blanks after ``start`` at which to break a line, or None."""
     blanks = list(_BLANKS.finditer(line, start, len(line.rstrip())))
     fitting = [m for m in blanks if _columns(line[: m.start()]) <= width]
     gaps = [m for m in fitting if len(m[0]) > 1 and m.start() > width // 2]

@@ -78,9 +78,7 @@ def colours_alone(text: str) -> str:
 
 
 def _kept(pattern: str, text: str, format: str) -> str:
-    """Returns a text with nonprintable characters escaped where the pattern does not match, and
-    links that show anything but their site.
-    """
+    """Escapes nonprintable characters where the pattern does not match, and false links."""
     made: list[str] = []
     end = 0
     for found in re.finditer(pattern, text):

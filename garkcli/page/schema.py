@@ -63,8 +63,6 @@ def one_of(*schemas: Schema) -> Schema:
 
 
 def published(title: str, schema: Schema) -> Schema:
-    """Returns the schema of a whole document. Fields may be added to documents; the meaning of
-    existing ones never changes.
-    """
+    """Returns the schema of a document; fields may be added, meanings never change."""
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
     return {**head, **schema}

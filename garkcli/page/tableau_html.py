@@ -46,9 +46,7 @@ def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
 
 
 def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
-    """Returns a row of the tableau, with a line left of each block, and above if it is the
-    first.
-    """
+    """Returns a row of the tableau, with lines between blocks."""
     above = f"border-top:{_LINE};" if is_first else ""
     cells = [_cell(head, above)]
     for group in groups:

@@ -124,9 +124,7 @@ def _named(letter: str, tableau: Tableau, *colours: str) -> str:
 
 
 def _dense(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[str]:
-    """Returns the polynomials of dense output: one block for each colour, one row for each
-    stage.
-    """
+    """Returns the polynomials of dense output, one row for each stage."""
     if entries.dense is None:
         return []
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]

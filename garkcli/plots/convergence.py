@@ -90,9 +90,7 @@ def _extent(numbers: Sequence[float]) -> float:
 
 
 def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
-    """Returns the points beside which a line may be: those of the smallest or the largest
-    errors.
-    """
+    """Returns the points with the smallest or the largest errors."""
     points = curve.points
     if is_whole or len(points) <= 3:
         return [points]
@@ -210,9 +208,7 @@ def _panel(
 
 
 def _decades(points: Iterable[tuple[Any, Any]]) -> list[scene.Point]:
-    """Returns the decimal logarithms of points, to their certain digits; without a certain digit
-    the point is left out.
-    """
+    """Returns the decimal logarithms of points, to their certain digits."""
     return [(log10(x), log10(for_programs(y, 9))) for x, y in points if y > 0]
 
 

@@ -83,9 +83,7 @@ def _set_axis(drawn: Any, axis: scenes.Axis, most: int) -> None:
 
 
 def _line(shape: scenes.Curve | scenes.Area) -> dict[str, Any]:
-    """Returns the line style of a shape for matplotlib; after all combinations of marks and dashes
-    are used, they are combined anew.
-    """
+    """Returns the line style of a shape for matplotlib."""
     style = shape.style or 0
     rounds, place = divmod(style, len(scenes.COLOURS))
     dashes = scenes.DASHES[(style + rounds) % len(scenes.DASHES)]

@@ -17,18 +17,14 @@ _Edge: TypeAlias = tuple[int, int, bool]
 _FAR = 1.0
 """The value at the nodes around the grid."""
 _NODES = 300
-"""The number of nodes on a side of a grid; even, so that none is on the imaginary axis of a
-symmetric one, where |R| may be 1.
-"""
+"""The nodes on a side of a grid; even, so that none is on the imaginary axis."""
 _FLAT = 3.0
 """The bound at which levels are cut, such as logarithms near zeros and poles."""
 _THINNED = 0.06  # cells
 
 
 def compared(small: Sizes, large: Sizes, x: Axis, y: Axis) -> list[list[Point]]:
-    """Returns the outlines of the region ``small`` ≤ ``large``, for sizes that are the same at
-    conjugate numbers.
-    """
+    """Returns the outlines of ``small`` ≤ ``large``, symmetric in conjugates."""
     across, up = _nodes(x), _nodes(y)
     is_mirrored = y.low == -y.high
     level = []

@@ -146,9 +146,7 @@ PRINTED = "Of the digits as printed, not of all methods within the tolerance."
 _STAR = "Order star, filled: |R(z)| > |exp z|."
 _HEIGHT = 300
 _SQUARES = 120
-"""The number of squares on a side of a region that are decided one by one; even, as the lower half
-mirrors the upper half.
-"""
+"""The squares on a side of a region; even, as its halves mirror each other."""
 _ABOVE_ONE = 1.001
 """If |R(z_E, 0)| is larger, nothing has to be decided: z_I = 0 is not damped."""
 _MOST_ZOOMS = 6
@@ -392,9 +390,7 @@ class _Window(Frozen):
 
 
 def _window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> _Window:
-    """Returns the part of the plane with the zeros, the poles, and the points |R| = 1 on the
-    axis.
-    """
+    """Returns the window of zeros, poles and points |R| = 1 on the axis."""
     reach = 2.0
     for size in _sizes(functions):
         if size > _FAR * reach:
@@ -418,9 +414,7 @@ def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
 
 
 def _nearer(window: _Window, areas: Sequence[scene.Area]) -> _Window:
-    """Returns a part of the window if the region around 0 fills too little of it, as for zeros of R
-    that are far away.
-    """
+    """Returns a part of the window if the region around 0 is small in it."""
     for _ in range(_MOST_ZOOMS):
         reach = max(_reach(window, area) for area in areas)
         # nothing is seen of what is smaller than a cell
@@ -434,9 +428,7 @@ def _nearer(window: _Window, areas: Sequence[scene.Area]) -> _Window:
 
 
 def _reach(window: _Window, area: scene.Area) -> float:
-    """Returns the distance from 0 to which the widest connected part of a region extends, on a
-    coarse grid of the upper half.
-    """
+    """Returns how far the widest part of a region extends, on a coarse grid."""
     wide, high = (window.right - window.left) / _COARSE, window.top / (_COARSE // 2)
     inside = {
         (j, i): complex(window.left + wide * j, high * i)

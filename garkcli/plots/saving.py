@@ -21,9 +21,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 
 
 def check_suffix(path: Path) -> None:
-    """Raises UsageProblem if a figure cannot be saved at ``path``: another suffix, no such folder,
-    or no matplotlib.
-    """
+    """Raises UsageProblem if a figure cannot be saved at ``path``."""
     suffix = path.suffix
     if suffix.lower() not in SUFFIXES:
         kind = f"of kind {suffix!r}" if suffix else "without a suffix"

@@ -155,9 +155,7 @@ class Axis(Frozen):
         is_logarithmic: bool = False,
         given: Sequence[Mark] = (),
     ) -> Axis:
-        """Returns an axis that extends the range of the coordinates by a twentieth on both
-        sides.
-        """
+        """Returns an axis that extends the coordinates by a twentieth on both sides."""
         found = [*coordinates] or [0.0]
         low, high = min(found), max(found)
         beside = 0.05 * (high - low) or 0.5
@@ -188,9 +186,7 @@ class Curve(Frozen):
 
 
 Loops: TypeAlias = Sequence[Sequence[Point]]
-"""The corners of closed outlines with the region on their left; those of holes turn the other
-way.
-"""
+"""Corners of closed outlines with the region on their left."""
 
 
 class Area(Frozen):
@@ -264,9 +260,7 @@ class Panel(Frozen):
 
 
 class Scene(Frozen):
-    """A picture: panels with a common title, side by side or one below the other, with a common
-    horizontal axis.
-    """
+    """A picture: panels with a common title and horizontal axis."""
 
     title: str
     panels: Sequence[Panel]

@@ -79,9 +79,7 @@ def _inside(panel: scene.Panel) -> tuple[list[str], float]:
 
 
 def document(panel: scene.Panel, name: str) -> str:
-    """Returns a panel as a file of its own below the name of its subject, light or dark as its
-    viewer.
-    """
+    """Returns a panel as a file of its own, light or dark as its viewer."""
     title = f"{name}: {panel.title}"
     inside, height = _inside(panel)
     style = f"{_colours()}svg{{color:#1d1f24;background:#fff;font-family:sans-serif}}\n"

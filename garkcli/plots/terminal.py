@@ -77,9 +77,7 @@ class _Picture:
         return round((x - axis.low) / (axis.high - axis.low) * (self.width - 1))
 
     def inside(self) -> Iterator[tuple[int, int, float, float]]:
-        """Yields all cells with their coordinates; those of the lower half mirror the upper
-        half.
-        """
+        """Yields all cells; those of the lower half mirror the upper half."""
         x, y = self.panel.x, self.panel.y
         last = self.height - 1
         for i in range(self.height):

@@ -1,3 +1,1 @@
-"""Problems: Hamiltonian ones, right-hand sides, built in or of your own, and the harmonic
-oscillator.
-"""
+"""Problems: Hamiltonian ones, right-hand sides, and the harmonic oscillator."""

@@ -21,9 +21,7 @@ TERMS = (1, 2, 3)
 
 
 def answers(name: str, terms: int) -> Record:
-    """Answers to the questions of steps and reports about a built-in problem and its sum, with the
-    usual coefficients.
-    """
+    """Answers to the questions of steps and reports about a built-in problem."""
 
     def work() -> None:
         code_of.cache_clear()

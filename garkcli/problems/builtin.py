@@ -324,8 +324,6 @@ _ENTRIES = (
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
 GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
-"""Hamiltonian problems that see every tree of a structure, from the most general to the most
-special.
-"""
+"""Hamiltonian problems that see every tree of a structure."""
 GENERIC_RHS = "generic-rhs"
 """The generic problem of right-hand sides."""

@@ -23,9 +23,7 @@ from garkcli.problems.vectorfield import symbols
 
 
 class SolvedVelocities(Frozen):
-    """Velocities as functions of positions and momenta, and the values of forms of the Lagrangian
-    for them.
-    """
+    """Velocities as functions of positions and momenta."""
 
     velocities: Substitution
     forms: Substitution
@@ -259,9 +257,7 @@ def _with_sign(solved: SolvedVelocities, sign: int) -> SolvedVelocities:
 
 
 def _is_right(solved: Substitution, equations: Equations) -> bool:
-    """Whether ∂L/∂v(q, v(q, p)) is p, and v(q, p) the velocity at the start; tested at the start
-    and at random places near it.
-    """
+    """Whether ∂L/∂v(q, v(q, p)) is p at the start and at random places near it."""
     draw = Draw(1)
     if _agrees(solved, equations, equations.start) is not True:
         return False

@@ -131,9 +131,7 @@ def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Expr:
 
 
 def springs(*q: Expr) -> Exprs:
-    """Springs between walls with quadratic and cubic forces, α = 1/4, β = 1/2: V = Σ r²/2 + αr³/3 +
-    βr⁴/4.
-    """
+    """Springs between walls: V = Σ r²/2 + αr³/3 + βr⁴/4, α = 1/4, β = 1/2."""
     left, right = (0, *q), (*q, 0)
     V = 0
     for a, b in zip(left, right, strict=True):
@@ -151,9 +149,7 @@ def rods_potential(a: Expr, b: Expr) -> Exprs:
 
 
 def rods(q: Exprs, _: Exprs) -> Expr:
-    """T of two rods of length 1 with masses 1, in absolute angles: the mass matrix depends on their
-    difference.
-    """
+    """T of two rods of length 1 with masses 1, in absolute angles."""
     import sympy
 
     from garkcli.problems.lagrangian import legendre_transform

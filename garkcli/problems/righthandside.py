@@ -20,9 +20,7 @@ from garkcli.problems.hamiltonian import summed
 from garkcli.problems.straightline import function
 
 EXACT_DIGITS = 50
-"""An irrational start of an exact solution agrees with the rational one of the steps to so many
-digits.
-"""
+"""Digits to which an irrational start agrees with that of the steps."""
 
 
 class RightHandSide(Frozen):
@@ -129,18 +127,14 @@ def solution(problem: RightHandSide, time: arb) -> list[arb]:
 
 
 def starts_exactly(problem: RightHandSide) -> bool:
-    """Whether the exact solution starts at the rational y(0); irrational starts are rounded to
-    ``EXACT_DIGITS``.
-    """
+    """Whether the exact solution starts at the rational y(0), up to ``EXACT_DIGITS``."""
     assert problem.exact is not None
     (t,) = vectorfield.symbols(problem.variables, vectorfield.TIME)
     return [x.subs(t, 0) for x in problem.exact] == [rational(x) for x in problem.initial]
 
 
 def steepness(problem: RightHandSide) -> arb:
-    """‖∂(Σ f)/∂y‖ at the start, the largest absolute row sum: about the stiffness of the problem; 1
-    if it has no value.
-    """
+    """‖∂(Σ f)/∂y‖ at the start, the largest row sum; 1 if it has no value."""
     from garkcli.problems.mass import enclosed_at
 
     d = problem.dimension

@@ -90,9 +90,7 @@ def _root(exponent: Expr, c: Expr) -> list[Expr]:
 
 
 def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
-    """The zeros of a fraction whose numerator is a polynomial in u of small degree, with at most
-    one square root.
-    """
+    """The zeros of a fraction whose numerator is a polynomial in u."""
     import sympy
 
     numerator, _ = f.as_numer_denom()
@@ -122,9 +120,7 @@ def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
 
 
 def _without_root(f: Expr, u: Expr) -> Expr:
-    """P² − S Q² for f = P + Q √S; f itself without a root of u, and None with several, or if it is
-    not a polynomial in its root.
-    """
+    """P² − S Q² for f = P + Q √S; f without a root of u, else None."""
     import sympy
 
     roots = []

@@ -116,9 +116,7 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
 
 
 def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
-    """1/4 + w_i/k, where the diffusion of w cancels the reaction at 1/4 up to its mean, and Σ w =
-    0.
-    """
+    """1/4 + w_i/k, where diffusion cancels the reaction up to its mean."""
     level = fmpq(1, 4)
     growth = [r * level * (1 - level) for r in rates]
     mean = _mean(growth)

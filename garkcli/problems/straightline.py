@@ -61,9 +61,7 @@ class StraightLineCode(Frozen):
     is_for_balls: bool
 
     def lines(self, arguments: Sequence[str], prefix: str) -> tuple[list[str], list[str]]:
-        """Assignments to names that start with ``prefix``, and the names or short texts of the
-        results.
-        """
+        """Assignments to names with a prefix, and the names of the results."""
         names: dict[str, str] = {f"a{i}": name for i, name in enumerate(arguments)}
         for i in range(len(self.temporaries)):
             names[f"t{i}"] = f"{prefix}t{i}"
@@ -182,9 +180,7 @@ class _Writer:
         return f"{{t{len(self.temporaries) - 1}}}"
 
     def text(self, x: Expr) -> str:
-        """The text of ``x``, in parentheses unless it is a single name or call, as a temporary if
-        it is long.
-        """
+        """The text of ``x``, in parentheses or as a temporary unless it is a name."""
         text = self._text(x)
         if len(text) < _LONG:
             return text
@@ -316,9 +312,7 @@ def enclosed(codes: Sequence[StraightLineCode]) -> dict[str, arb]:
 
 
 def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:
-    """The function ``name`` that one of our texts defines; all names in it are made in this
-    package.
-    """
+    """The function ``name`` that a text made in this package defines."""
     namespace: dict[str, Any] = {"__builtins__": {}, **_BUILTINS, **FLOATS, **BALLS, **constants}
     exec(_compiled(source), namespace)
     return namespace[name]

@@ -189,9 +189,7 @@ def size_of_derivatives(expression: Expr) -> int:
 
 
 class _Sizes(Frozen):
-    """The lengths of an expression and its derivatives: its operations and symbols, and the
-    operations of all first and all second derivatives.
-    """
+    """The lengths of an expression and of its first and second derivatives."""
 
     own: int
     symbols: int

@@ -54,9 +54,7 @@ class StateLayout(Frozen):
 
 @cache
 def symbols(variables: tuple[str, ...], group: Group) -> Exprs:
-    """The sympy symbols of a group: positions and unknowns have the names of the variables, shape
-    (d,); time is one symbol.
-    """
+    """The sympy symbols of a group, named as the variables; time is one symbol."""
     import sympy
 
     return tuple(sympy.Symbol(name, real=True) for name in _names(variables, group))
@@ -97,9 +95,7 @@ class VectorField(Frozen):
 
     @property
     def degree(self) -> int | None:
-        """A bound on the degree of all components, before terms cancel; None unless they are
-        polynomials.
-        """
+        """A bound on the degree of all components; None unless they are polynomials."""
         return ask(self.components, "degree", self._degree)
 
     def _degree(self) -> int | None:
@@ -199,9 +195,7 @@ _TRIES = 8  # random places where two values are sought
 
 
 def _differs(x: Expr, names: Exprs) -> bool:
-    """Whether two values of an expression lie in disjoint balls, which proves that it is not
-    constant.
-    """
+    """Whether two values of an expression provably differ."""
     bits = _BITS[0]
     while bits <= _BITS[1]:
         differs = _differs_at(x, names, bits)

@@ -95,9 +95,7 @@ def _spaces(tableau: Tableau, blocks: Blocks) -> dict[int, _Space] | None:
 
 
 def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | None:
-    """The stages of a space without those that see nothing or are not seen; None if such a node is
-    irrational.
-    """
+    """The stages of a space that see something and are seen; None if a node is irrational."""
     sees_nothing, is_unseen = M, M
     for (seer, m), block in blocks.items():
         if seer == k:

@@ -48,9 +48,7 @@ def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
 
 
 def divided(M: fmpq_poly, values: Sequence[Number]) -> Polynomial:
-    """The polynomial in y that a functional, given by its values on x^i, makes of (M(x) − M(y))/(x
-    − y): x^n becomes Σ x^i y^(n−1−i).
-    """
+    """The polynomial in y that a functional makes of (M(x) − M(y))/(x − y)."""
     s = M.degree()
     product = Polynomial(values[::-1]) * Polynomial.from_flint(M)
     return Polynomial([product[s + n] for n in range(s)])

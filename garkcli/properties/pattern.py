@@ -55,17 +55,13 @@ class StageGraph(Frozen):
 
     @property
     def changes_fields(self) -> bool:
-        """Whether stages of one space depend on themselves through different vector fields: the
-        matrices of their systems differ.
-        """
+        """Whether stages of one space depend on themselves through different vector fields."""
         found = {(space, fields) for (space, _), fields in self.fields.items()}
         return len(found) > len({space for space, _ in found})
 
 
 def spaces_that_matter(tableau: Tableau) -> set[int]:
-    """The stage spaces with weights, and those that their stages see; no step depends on the
-    others.
-    """
+    """The stage spaces with weights, and those that their stages see."""
     matters: set[int] = set()
     reached = {colour.space for colour in tableau.colours if any(colour.b)}
     while reached:
@@ -209,9 +205,7 @@ def _shown(number: Number, grain: fmpq) -> Number:
 
 
 def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Number | None:
-    """The common diagonal entry of the implicit stages, up to rounding of two coefficients; None if
-    they differ.
-    """
+    """The common diagonal entry of the implicit stages; None if they differ."""
     found = [entry for vertex in alone for entry in graph.loops[vertex]]
     first = found[0]
     if first is None:

@@ -154,9 +154,7 @@ def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
 
 
 def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
-    """The tableau with one stage for each class of equal ones, with the sum of their weights;
-    numbers within ``tolerance`` are equal.
-    """
+    """The tableau with one stage for each class, with the sum of their weights."""
     return _joined(tableau, equal_stages(tableau, tolerance))
 
 

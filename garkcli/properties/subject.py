@@ -1,6 +1,4 @@
-"""Properties: name in method files, definition, and decision for a method; shared results are
-cached.
-"""
+"""Properties: definitions, and decisions for a method."""
 
 from __future__ import annotations
 
@@ -161,9 +159,7 @@ class Subject(Frozen):
 
     @cached_property
     def shapes(self) -> tuple[Shape | None, ...]:
-        """The shapes of the diagonal methods, one per colour; None if a colour does not see
-        itself.
-        """
+        """The shapes of the diagonal methods; None if a colour does not see itself."""
         if self.tableau.size == 1:
             return (self.shape,)
         found: list[Shape | None] = []
@@ -263,9 +259,7 @@ def claimed(
     is_cheap: bool = True,
     noted: tuple[bool, str] | None = None,
 ) -> Callable[[Callable[[Subject], Verdict]], Property]:
-    """Makes a property from the function that decides it: name and docstring are key and
-    definition.
-    """
+    """Makes a property from the function that decides it."""
 
     def made(decide: Callable[[Subject], Verdict]) -> Property:
         key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())

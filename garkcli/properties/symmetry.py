@@ -134,9 +134,7 @@ _Classes: TypeAlias = dict[int, list[_Class]]
 
 
 def _by_sight(tableau: Tableau) -> _Images | None:
-    """The possible images of stages, by their sums over each class; None if a class has more stages
-    than images.
-    """
+    """The possible images of stages by their sums; None if a class has too few."""
     classes: _Classes = {}
     for k, space in enumerate(tableau.spaces):
         if isinstance(space, PointSpace):

@@ -22,9 +22,7 @@ ABOUT_CLAIMS = ("claim", "undecided", "no-claim")
 
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:
-    """Findings as a list, with places and cures; of one file those on claims, as its report has
-    the others.
-    """
+    """Findings as a list with cures; of one file those on claims."""
     found = [x for outcome in outcomes for x in findings(outcome)]
     if len(outcomes) == 1:
         found = [x for x in found if x.rule in ABOUT_CLAIMS]
@@ -48,9 +46,7 @@ _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def junit(outcomes: Sequence[Outcome]) -> str:
-    """One suite a file, one case a claim, skipped if it is undecided; a file that cannot be read is
-    one case in error.
-    """
+    """One suite a file, one case a claim, skipped if it is undecided."""
     root = ET.Element("testsuites", name="gark check")
     for outcome in outcomes:
         _add_suite(root, outcome)

@@ -75,9 +75,7 @@ REPORT: Report[Claims] = Report(
 
 
 def yaml_text(claims: Sequence[Claims], width: int, is_brief: bool = True) -> str:
-    """The claims as they are in a method file; each file's below its name in a comment, with what
-    decides them in further ones.
-    """
+    """The claims as in a method file, with what decides them in comments."""
     lines: list[str] = []
     for found, is_written in claims:
         lines += [f"# {printable(found.file)}{': written' * is_written}", "expect:"]

@@ -202,9 +202,7 @@ def _amount(decades: float | None, what: str) -> str:
 
 
 def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
-    """Whole decades, thinned out evenly, that at least two methods reach, or one where no two
-    do.
-    """
+    """Whole decades that at least two methods reach, thinned out evenly."""
     reached: Counter[int] = Counter()
     for ys in errors:
         if len(ys) > 1:

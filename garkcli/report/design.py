@@ -101,9 +101,7 @@ class OrderDemand(NamedTuple):
 
 
 class ShownSolution(NamedTuple):
-    """A real solution, by its number among the roots of what was found, or those that are not
-    real.
-    """
+    """A real solution by its number, or those that are not real."""
 
     design: Design
     found: steps.Found
@@ -237,9 +235,7 @@ def certified(order: AnyOrder, whose: str) -> str:
 
 
 def _further(found: steps.Found, root: RealRoot, d: Plain) -> list[str]:
-    """The orders of a solution's embedded weights, with their error at the next order, of its
-    dense output and of its predictor.
-    """
+    """The orders of a solution's embedded weights, dense output and predictor."""
     said = []
     if found.embedded is not None:
         order, error = found.embedded
@@ -387,9 +383,7 @@ def _briefly(step: steps.Step) -> str:
 
 
 def further_rows(x: DesignReport, d: Plain) -> Texts:
-    """Warnings that embedded weights estimate no error, or that no condition is on the unknowns of
-    further weights.
-    """
+    """Warnings about embedded weights without an error, or without conditions."""
     best, family = _best(x.design), x.design.family
     if not isinstance(best, steps.Decided):
         return []

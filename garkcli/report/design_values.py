@@ -24,9 +24,7 @@ _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
-    """Polynomials that are zero, with roots as the file writes them; without those that say of a
-    root what it is.
-    """
+    """Polynomials that are zero, with roots as the file writes them."""
     known = [_terms(x.relation) for x in family.radicals]
     return [_text(family, p) for p in polynomials if _terms(p) not in known]
 

@@ -1,6 +1,4 @@
-"""``gark check`` and ``gark stability`` of files with free parameters: the kinds of values, lifted
-to answers with exceptions.
-"""
+"""``gark check`` and ``gark stability`` of files with free parameters."""
 
 from __future__ import annotations
 

@@ -217,9 +217,7 @@ _MORE = "gark list methods --kind rk lists one kind, --sort order all; gark list
 
 
 def by_kind(entries: Sequence[Entry], width: int) -> list[str]:
-    """Returns a screen: the numbers of methods by kind and type with their orders, and how to list
-    them.
-    """
+    """Returns the numbers of methods by kind and type, and how to list them."""
     groups: dict[tuple[str, str], list[Entry]] = {}
     for entry in entries:
         groups.setdefault((entry["kind"] or "", _type(entry)), []).append(entry)

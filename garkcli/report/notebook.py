@@ -43,9 +43,7 @@ def method_latex(method: GarkMethod) -> str | None:
 
 
 def method_html(method: GarkMethod) -> str:
-    """The tableau as a table, Q and P for a method for positions and momenta, and the region of
-    stability if there is one.
-    """
+    """The tableau as a table, and the region of stability if there is one."""
     if _is_large(method):
         return f"<pre>{_text(repr(method))}</pre>"
     with with_letters(method.tableau) as letters:

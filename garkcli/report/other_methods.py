@@ -1,6 +1,4 @@
-"""``gark check`` of methods that are no GARK methods: Rosenbrock, Nyström, nonlinearly partitioned,
-multiderivative and multirate infinitesimal ones.
-"""
+"""``gark check`` of Rosenbrock, Nyström, multirate and other kinds of methods."""
 
 from __future__ import annotations
 

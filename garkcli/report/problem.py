@@ -103,9 +103,7 @@ def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:
 
 
 def driving(run: Run) -> str:
-    """The part of the Hamiltonian that each colour steps; empty if the file or the kind of method
-    says it.
-    """
+    """The part of the Hamiltonian that each colour steps; empty if known otherwise."""
     method, problem = run.method, run.problem
     if method is None or isinstance(problem, RightHandSide):
         return ""

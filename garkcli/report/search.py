@@ -40,9 +40,7 @@ ENDINGS: dict[Ending, str] = {
 
 
 class SearchReport(NamedTuple):
-    """The methods that a search found, the files that they were written to, and the method of the
-    first start.
-    """
+    """The methods that a search found, their files, and the method of the first start."""
 
     file: str
     search: Search

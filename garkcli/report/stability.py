@@ -866,9 +866,7 @@ def whole(found: Stability, name: str) -> StabilityReport:
 
 
 def formulas(found: Stability) -> Iterator[tuple[str, str]]:
-    """Names and values, behind = or ≈, of what decides stability, in LaTeX; long coefficients are
-    decimals.
-    """
+    """Names and values of what decides stability, in LaTeX."""
     if found.colours is not None and found.colours.R is not None:
         names = ", ".join(f"z_{{{k + 1}}}" for k in range(found.colours.size))
         yield f"R({names})", _fraction(found.colours.R)

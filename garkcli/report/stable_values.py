@@ -1,6 +1,4 @@
-"""``gark design --p-stable`` and the like: for which values of one or two parameters a method is
-stable.
-"""
+"""``gark design --p-stable`` and the like: the stable values of parameters."""
 
 from __future__ import annotations
 
@@ -75,9 +73,7 @@ def _part(values: StableValues, x: Interval, d: Plain) -> str:
 
 
 def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
-    """The strips of a plane or the irrational ends of intervals, and the values that are
-    undecided.
-    """
+    """The strips of a plane or irrational ends, and undecided values."""
     brief = replace(d, is_brief=True)
     rows = _strips(values, brief) if values.is_plane else _irrational(values, brief)
     texts = ", ".join(f"{d.expression(values.names[0])} = {number(x, d)}" for x in values.undecided)

@@ -25,9 +25,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class AlgebraicStability(Frozen):
-    """The two conditions of algebraic stability: no weight is negative, and M is positive
-    semidefinite.
-    """
+    """Algebraic stability: no weight is negative, and M is positive semidefinite."""
 
     weights_are_positive: bool
     form_is_positive: bool

@@ -171,9 +171,7 @@ def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
 
 
 def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
-    """The end of the interval from 0 on which the polynomial is seen to be positive, at most
-    ``upto``.
-    """
+    """The end of the interval from 0 on which the polynomial is seen to be positive."""
     ends = [fmpq(0), *(fmpq(2) ** k for k in range(FARTHEST))]
     pieces = [(low, high, 0) for low, high in pairwise(ends)][::-1]
     tried = 0

@@ -36,9 +36,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def ball_roots_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
-    """Whether Q(iy) = u + iv has all its roots to the right, by Hermite-Biehler; None if
-    undecided.
-    """
+    """Whether Q(iy) has all its roots to the right, by Hermite-Biehler; None if undecided."""
     degree = max(len(u), len(v)) - 1
     real, imaginary = _turned(u, v, degree, arb(0))
     index = cauchy_index(real, imaginary)
@@ -89,9 +87,7 @@ class Ray(Frozen):
 
 
 class ImexPair(Frozen):
-    """A method of one explicit and one implicit colour, given by their indices, with R(z_1,
-    z_2).
-    """
+    """A method of one explicit and one implicit colour, with R(z_1, z_2)."""
 
     explicit: int
     implicit: int
@@ -226,9 +222,7 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
 
 
 def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
-    """Polynomials with the points where the roots of E in y can change; None if that takes too
-    long.
-    """
+    """Polynomials with the critical points of the roots of E in y; None if late."""
     degree = len(E) - 1
     if degree < 1:
         return []

@@ -32,9 +32,7 @@ Complex: TypeAlias = tuple[Number, Number]
 
 
 class StepFunction(Frozen):
-    """M(z) with a common denominator D, D(0) = 1, and the entries of D · M as numerators, without a
-    common factor.
-    """
+    """M(z) with a common denominator D, D(0) = 1, and the entries of D · M."""
 
     denominator: Polynomial
     numerators: tuple[tuple[Polynomial, ...], ...]

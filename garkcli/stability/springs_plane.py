@@ -25,9 +25,7 @@ if TYPE_CHECKING:
 
 
 class SpringsPlane(Frozen):
-    """|tr M|/2 over both frequencies hω, each ascending; ``half_trace`` has the shape (slow,
-    fast).
-    """
+    """|tr M|/2 over both frequencies hω, shape (slow, fast)."""
 
     fast: list[float]
     slow: list[float]

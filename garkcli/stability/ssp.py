@@ -69,9 +69,7 @@ def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadiu
 
 
 def driven_part(tableau: Tableau, shares: Sequence[Number]) -> tuple[Tableau, list[Number]]:
-    """The method for the vector fields with nonzero shares, and these shares; other colours and
-    their own stages are left out.
-    """
+    """The method for the vector fields with nonzero shares, and these shares."""
     driven = [l for l, share in enumerate(shares) if share]
     spaces = sorted({tableau.colours[l].space for l in driven})
     colours = []

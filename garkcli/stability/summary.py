@@ -351,9 +351,7 @@ def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> 
 def _unless_another(
     found: StabilityWithin, method: RoundedTableau, shares: Sequence[Number]
 ) -> StabilityWithin:
-    """The result, with instability undecided if another method within the rounding may be
-    stable.
-    """
+    """The result, undecided if another method within the rounding may be stable."""
     widest = method.widest
     if widest is None:
         return replace(found, a_stable=found.a_stable or None, l_stable=found.l_stable or None)

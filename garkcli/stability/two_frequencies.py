@@ -29,9 +29,7 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 
 class SplitSprings(Frozen):
-    """The split of the two springs over the terms: the shares of the kinetic energy, of the slow
-    and of the fast spring in each term.
-    """
+    """The shares of the kinetic energy and of both springs in each term."""
 
     kinetic: tuple[fmpq, ...]
     slow: tuple[fmpq, ...]
@@ -301,9 +299,7 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
 def eigenvalue_conditions(
     D: fmpq_mpoly, a: fmpq_mpoly, b: fmpq_mpoly, c: fmpq_mpoly, d: fmpq_mpoly
 ) -> list[fmpq_mpoly]:
-    """D² (1 − det M) and D² (1 + det M ∓ tr M) for M = (a, b; c, d)/D: none is negative if all
-    powers of M are bounded.
-    """
+    """D² (1 − det M) and D² (1 + det M ∓ tr M): none is negative if powers of M are bounded."""
     whole = D * D
     trace = (a + d) * D
     area = a * d - b * c

@@ -184,9 +184,7 @@ def stability_within(
 def stiff_stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> tuple[bool | None, bool | None]:
-    """Whether a method is A-stable and whether it is L-stable; arguments of
-    ``stability_within``.
-    """
+    """Whether a method is A-stable and whether it is L-stable, within a tolerance."""
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
         a_stable = ball_polynomials.both(_is_bounded(_margin(R)), _poles_are_right(R))

@@ -33,9 +33,7 @@ class Stepped(Frozen, eq=False):
 
     @property
     def graph(self) -> DependencyGraph:
-        """The dependencies without unused derivatives. Texts of coefficients are equal only if the
-        powers of h are equal, too.
-        """
+        """The dependencies without unused derivatives."""
         graph = dependency_graph(self.tableau, self.fields)
         taken = {x for evaluations in graph.sums.values() for x in evaluations}
         taken |= {x for x in graph.evaluations if graph.coefficients[None, x] != "0"}

@@ -25,9 +25,7 @@ T = TypeVar("T", bound=Hashable)
 
 
 class Stage(Frozen):
-    """A group of components of stage ``index`` of the stage space ``space``: positions, momenta,
-    all unknowns, or time.
-    """
+    """Components of stage ``index`` of the stage space ``space``."""
 
     space: int
     index: int
@@ -101,9 +99,7 @@ class DependencyGraph(Frozen):
         return after
 
     def _cut(self, stages: Sequence[Stage]) -> set[Stage]:
-        """Stage values without which no cycle is left: greedily those with the most neighbours
-        before and after.
-        """
+        """Stage values without which no cycle is left, found greedily."""
         before = self._predecessors(stages)
         cut = {s for s in stages if s in before[s]}
         while True:
@@ -164,9 +160,7 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
 
 
 def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation) -> Any:
-    """The coefficient of an evaluation in a stage, an enclosure, or 0 if it is not seen; its weight
-    for stage None.
-    """
+    """The coefficient of an evaluation in a stage; its weight for stage None."""
     if stage is None:
         return entries.b[value.colour][value.index]
     for l, colour in enumerate(tableau.colours):

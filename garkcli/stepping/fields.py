@@ -72,9 +72,7 @@ def driven(colour: Colour) -> tuple[Group, ...]:
 
 
 def with_joined_terms(tableau: Tableau) -> Tableau:
-    """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p), with both in one
-    term.
-    """
+    """A partitioned method for q̇ = V(q, p), ṗ = F(q, p), both in one term."""
     has_one_space = tableau.size == 2 and len(tableau.spaces) == 1
     driven_parts = {x.part for x in tableau.colours}
     if not has_one_space or driven_parts != set(GROUPS):
@@ -176,9 +174,7 @@ def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
 
 
 def _check_edges(tableau: Tableau, fields: Fields) -> None:
-    """Refuses fields that are not linear where the method assumes it, or that need a missing
-    block.
-    """
+    """Refuses fields that are not linear, or that need a missing block."""
     for (l, driven_group), field in fields.items():
         colour = tableau.colours[l]
         name = colour.name

@@ -45,9 +45,7 @@ StepProgram: TypeAlias = Callable[
 
 
 class NotSolved(Exception):
-    """Newton's method did not converge in step ``number``; ``residual`` is its last correction, or
-    no number.
-    """
+    """Newton's method did not converge in step ``number``."""
 
     def __init__(self, number: int, residual: float) -> None:
         super().__init__(number, residual)

@@ -46,9 +46,7 @@ class StageSystem(Frozen):
 
 
 class _Term(Frozen):
-    """An entry of the field of a colour: ``factor`` times component ``seen`` is added to component
-    ``driven``.
-    """
+    """An entry of a field: ``factor`` times ``seen`` is added to ``driven``."""
 
     colour: int
     driven: int
@@ -101,9 +99,7 @@ def _terms(fields: Sequence[Matrix], pattern: Sequence[Matrix]) -> Iterator[_Ter
 def _first_unknowns(
     tableau: Tableau, terms: Sequence[_Term]
 ) -> tuple[dict[tuple[int, int], int], int]:
-    """The first unknown of each (stage space, component of y) in use, and the number of
-    unknowns.
-    """
+    """The first unknown of each (stage space, component of y), and their number."""
     first: dict[tuple[int, int], int] = {}
     n = 0
     for term in terms:
@@ -165,9 +161,7 @@ class LinearStep(Frozen):
         return (ONE + a, b), (c, ONE + d)
 
     def series(self) -> Iterator[Matrix]:
-        """The coefficients R_1, R_2, … of R(h) = I + Σ R_k h^k, exact, each of shape (2, 2),
-        without end.
-        """
+        """The coefficients R_1, R_2, … of R(h) = I + Σ R_k h^k, exact, without end."""
         X = self.E
         while True:
             yield self._numbers(self.B * X)

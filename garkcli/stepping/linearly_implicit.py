@@ -177,9 +177,7 @@ def _diagonal(_value: Fields, slopes: Callable[..., Any]) -> Callable[..., Any]:
 
 
 _TAKES = {"exact": _exactly, "old": _at_the_step_before, "diagonal": _diagonal}
-"""Makes the function for the matrix and ∂f/∂t of a step, from the vector field and its
-derivatives.
-"""
+"""Makes the function for the matrix and ∂f/∂t of a step."""
 
 
 class _Weights:
@@ -255,9 +253,7 @@ def _solved(matrix: list[Numbers], right: Numbers) -> Numbers:
 
 
 def _field(problem: Problem, is_for_balls: bool) -> tuple[Fields, Callable[..., Any]]:
-    """The whole vector field of a problem, and its derivatives by the unknowns and by time, as
-    functions of the numbers of a state.
-    """
+    """The vector field of a problem and its derivatives, as functions of a state."""
     layout = problem.layout
     groups = [group for group in layout.groups if group != TIME]
     parts = [_StagePart(problem, group, is_for_balls) for group in groups]

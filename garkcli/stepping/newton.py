@@ -107,9 +107,7 @@ class NewtonWriter:
         stages.stages[stage] = found
 
     def _start(self, block: StageBlock) -> None:
-        """Writes the start: the fields frozen at y_0 plus the extrapolated correction of the last
-        step.
-        """
+        """Writes the start: frozen fields plus the extrapolated correction."""
         stages = self._stages
         for stage in block.unknowns:
             for evaluation in stages.graph.sums[stage]:
@@ -169,9 +167,7 @@ class NewtonWriter:
         write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
 
     def _by_inverse(self, block: StageBlock, n: int, index: int) -> None:
-        """Writes corrections by the inverse of I − J, a matrix of floats that is kept as long as it
-        converges fast.
-        """
+        """Writes corrections by an inverse of I − J that is kept while it converges fast."""
         self._lines.write("if stale:")
         with self._lines.nested():
             if n > _WRITTEN:

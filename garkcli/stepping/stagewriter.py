@@ -32,9 +32,7 @@ class Lines:
 
 
 class StageSum(Frozen):
-    """A sum of w f in a stage: the w of each evaluation, and a text for each component, empty if
-    zero.
-    """
+    """A sum of w f in a stage, and a text for each component."""
 
     terms: dict[FieldEvaluation, str]
     texts: list[str]

@@ -83,9 +83,7 @@ class SweptMethod(Frozen):
 
     @cached_property
     def subject(self) -> Subject:
-        """The method whose properties are decided; for a Rosenbrock method the method with the same
-        steps on linear problems.
-        """
+        """The method whose properties are decided."""
         linear = on_linear_problems(self.tableau)
         known = self.simplifying if linear is self.tableau else simplifying(linear, DEFAULT_LIMIT)
         return Subject(linear, self.order.order, known, DEFAULT_LIMIT)
@@ -116,9 +114,7 @@ DIGITS = 12
 
 
 class Column(Frozen):
-    """A column of a sweep: its name in spec files and rows, its value for a method, and its
-    description.
-    """
+    """A column of a sweep: its name, its value for a method, and its description."""
 
     name: str
     value: Callable[[SweptMethod], Value]

@@ -226,9 +226,7 @@ class MethodsReader:
         return Template(name, text, used, order, self.search["seeds"], starts, is_drawn)
 
     def _choices(self, entry: g.ReadMapping) -> list[tuple[str, int]]:
-        """Returns the members for one entry of ``methods``: the existing ones of families ×
-        stages.
-        """
+        """Returns the existing members of families × stages for an entry of ``methods``."""
         families: list[str] = entry.get("family", [])
         members: dict[tuple[str, int], None] = {}
         for family in families:

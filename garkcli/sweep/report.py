@@ -34,9 +34,7 @@ def distinct(rows: Iterable[Row]) -> list[Row]:
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
-    """Returns rows sorted by columns, the first counting most. Missing values come last; ties are
-    sorted by key.
-    """
+    """Returns rows sorted by columns, missing values last, ties by key."""
 
     def place(row: Row) -> tuple[object, ...]:
         return (*_badness(row, by), str(row["key"]))
@@ -45,9 +43,7 @@ def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
 
 
 def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
-    """Returns the rows with all values for which no other row is at least as good in every column
-    and better in one.
-    """
+    """Returns the rows that no other row dominates; all their values are there."""
     complete = [row for row in rows if all(row.get(name) is not None for name in by)]
     front: list[Row] = []
     points: list[_Point] = []
@@ -62,9 +58,7 @@ def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
 
 
 def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
-    """Returns for each column whether the value is missing, and a number that is smaller for better
-    values.
-    """
+    """Returns for each column whether the value is missing, and its badness."""
     numbers = []
     for name in by:
         value = row.get(name)

@@ -27,9 +27,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def first_find(point: Point) -> FoundMethod | None:
-    """Returns the first method that ``gark design --search`` finds from the seed of a point; None
-    if it finds none.
-    """
+    """Returns the first method that a search from the seed of a point finds."""
     template = point.template
     assert point.seed is not None
     if template.is_drawn:
@@ -151,9 +149,7 @@ def _message(error: Exception) -> str:
 
 
 def _tableau(point: Point) -> Tableau:
-    """Returns the method of a point, as a member of its family if possible, otherwise from its
-    file.
-    """
+    """Returns the method of a point, as a member of its family if possible."""
     family = _family(point.template.text, point.template.parameters)
     if family is not None:
         values: Mapping[str, Number] = {

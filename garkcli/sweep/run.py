@@ -33,9 +33,7 @@ CHUNK = 25
 
 
 class Progress(Mutable):
-    """The progress of a run: the number of methods, of rows in the file before, and of added ones,
-    with their processor time.
-    """
+    """The numbers of methods, of rows before, and of added ones, with their time."""
 
     total: int
     before: int

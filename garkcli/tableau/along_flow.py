@@ -32,9 +32,7 @@ class AlongFlow(Frozen):
 
     @classmethod
     def of(cls: type[T], tableau: Tableau) -> T:
-        """The method of such a tableau: ``of(method.tableau(n)) == method``, with its nodes filled
-        in.
-        """
+        """The method of a tableau: ``of(method.tableau(n)) == method``, with its nodes."""
         space = jets_of(tableau)
         firsts = range(0, space.stages, space.order)
         rows = [weights_of(tableau.blocks[0, 0][i], space) for i in firsts]

@@ -1,6 +1,4 @@
-"""The box of all methods that a rounded one may mean: printed numbers with radii, and the tableau
-made from them.
-"""
+"""The box of all methods that a rounded one may mean."""
 
 from __future__ import annotations
 
@@ -42,9 +40,7 @@ class Box(Frozen, eq=False):
     make: Make
 
     def at(self, shifts: Sequence[fmpq]) -> Tableau:
-        """The method whose numbers are shifted by these parts of their radii; irrational ones
-        become balls at the current precision.
-        """
+        """The method with shifted numbers, in parts of their radii."""
         moved = zip(self.numbers, self.radii, shifts, strict=True)
         return self.make([rational_or_ball(x) + t * shift for x, t, shift in moved])
 
@@ -59,9 +55,7 @@ class Box(Frozen, eq=False):
 
 
 class FormTableau:
-    """A tableau whose entries are affine forms in the same K printed numbers, and exact numbers, on
-    point stages; ``numbers`` is K.
-    """
+    """A tableau of affine forms in the same K printed numbers, on point stages."""
 
     def __init__(self, made: Tableau, numbers: int) -> None:
         self.made = made
@@ -88,9 +82,7 @@ def rational_or_ball(number: Any) -> Any:
 
 
 def to_points(tableau: Tableau) -> Tableau:
-    """The tableau on point stages; entries of families with irrational nodes become balls at the
-    current precision.
-    """
+    """The tableau on point stages, in balls if nodes are irrational."""
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
     into, back = [], []

@@ -107,9 +107,7 @@ def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
 
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> matrix.Matrix:
-    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both
-    blocks must exist.
-    """
+    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form."""
     forth = tableau.block(l, m)
     back = tableau.block(m, l)
     if forth is None or back is None:

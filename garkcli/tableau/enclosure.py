@@ -18,9 +18,7 @@ from garkcli.tableau.tableau import Edge, Tableau
 Row: TypeAlias = list[arb]
 Rows: TypeAlias = list[Row]
 MAX_DIGITS = 300
-"""Most digits of enclosed entries of polynomial stage spaces; the exponents of floats end at
-308.
-"""
+"""Most digits of enclosed entries; the exponents of floats end at 308."""
 GUARD_OF_ENTRIES = 32
 """Guard bits of entries, relative to the arithmetic that uses them."""
 

@@ -49,9 +49,7 @@ class Radical(Frozen):
 
 
 def reducing(names: Sequence[str], radicals: Iterable[Radical]) -> Parameters:
-    """The ring of some unknowns in which powers of roots are reduced, without those whose radicand
-    has a parameter in its denominator.
-    """
+    """The ring of unknowns in which powers of roots are reduced."""
     ring = Parameters(names)
     rules = []
     for radical in radicals:

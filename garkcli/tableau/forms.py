@@ -1,6 +1,4 @@
-"""Every kind of method as one tableau: RK, GARK, ARK, PRK, the symplectic pair and its special
-cases, and time as a colour.
-"""
+"""Every kind of method as one tableau, and time as a colour."""
 
 from __future__ import annotations
 
@@ -23,9 +21,7 @@ _NewBlocks: TypeAlias = dict[Edge, Matrix]
 
 
 def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
-    """The tableau with the diagonal ``methods`` and the off-diagonal blocks ``transfer[l, m]``, eq.
-    (GARK).
-    """
+    """The tableau of diagonal ``methods`` and blocks ``transfer[l, m]``, eq. (GARK)."""
     spaces = []
     colours = []
     blocks: _NewBlocks = {}
@@ -56,9 +52,7 @@ def spelled_out(
     c: Sequence[Vector | None],
     linear: Iterable[int] = (),
 ) -> Tableau:
-    """A GARK tableau block by block; missing nodes are the row sums of A^{l,l}, or of the first
-    block in the row.
-    """
+    """A GARK tableau block by block; missing nodes are row sums."""
     linear = frozenset(linear)
     spaces = []
     colours = []

@@ -72,9 +72,7 @@ def gauss_rows(stages: int) -> tuple[list[arb], list[list[arb]], list[arb]]:
 
 
 def _orthonormal(x: arb, count: int) -> list[arb]:
-    """p_0(x), p_1(x), … by their recurrence: (k + 1) P_{k+1} = (2k + 1) y P_k − k P_{k−1}, with
-    y = 2x − 1 and p_k = √(2k + 1) P_k.
-    """
+    """p_k = √(2k + 1) P_k by (k + 1) P_{k+1} = (2k + 1) y P_k − k P_{k−1}, y = 2x − 1."""
     y = 2 * x - 1
     legendre = [arb(1), y][:count]
     for k in range(1, count - 1):

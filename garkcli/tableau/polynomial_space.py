@@ -27,9 +27,7 @@ MAX_MOMENTS = 8
 
 
 class PolynomialSpace(StageSpace):
-    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with s distinct real roots, the
-    nodes.
-    """
+    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with distinct real roots."""
 
     modulus: fmpq_poly
 
@@ -140,9 +138,7 @@ class PolynomialSpace(StageSpace):
         return Reason("which are 0 at the nodes where {} = 0", Formula(str(nodes)))
 
     def _nodes_with_weight(self, weights: matrix.Vector) -> fmpq_poly:
-        """The monic polynomial g whose roots are the nodes with nonzero weight: b(x^i g) = 0 for
-        all i.
-        """
+        """The monic polynomial whose roots are the nodes with nonzero weight."""
         gram = self.gram(weights)
         degree = matrix.to_flint(gram, self.stages).rank()
         rows = gram[:degree]
@@ -232,9 +228,7 @@ _BITS_OF_A_STAGE = 16
 
 
 def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
-    """The Vandermonde matrix of the nodes, one row for each in ascending order, at the current
-    precision.
-    """
+    """The Vandermonde matrix of the nodes in ascending order."""
     return _powers_of_nodes(space, ctx.prec)
 
 

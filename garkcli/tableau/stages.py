@@ -100,9 +100,7 @@ class StageSpace(Frozen):
         """Says which of the weights are zero; at least one must be."""
 
     def form(self, weights: matrix.Vector, block: matrix.Matrix) -> matrix.Matrix:
-        """The bilinear form (f, g) ↦ weights(f ⊙ A g), one row for each f, of a block A into this
-        space; B A for point stages.
-        """
+        """The bilinear form (f, g) ↦ weights(f ⊙ A g), one row for each f."""
         return matrix.multiply(self.gram(weights), block)
 
     def adjoint(

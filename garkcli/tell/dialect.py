@@ -446,9 +446,7 @@ class Plain(Mutable):
             is_begun = True
 
     def _stream(self, head: Cells, rows: Iterable[Cells], how: GridLayout) -> Iterator[str]:
-        """If a table is too wide, long names have lines of their own, and the last column is as
-        wide as words need.
-        """
+        """Folds a wide table: long names have lines of their own."""
         room = self.width - 2 * how.depth - 2 * (len(head) - 1)
         heads = [head]
         widest = [0] * len(head)
@@ -470,9 +468,7 @@ class Plain(Mutable):
     def beside(
         self, columns: Sequence[Cells], widths: Sequence[int], room: int, heads: int = 1
     ) -> Iterable[str]:
-        """The lines of a table, numbers by their ends. Long cells are folded, a long name has its
-        own line.
-        """
+        """The lines of a table; long cells are folded."""
         are_right = [are_numbers(column[heads:]) for column in columns]
         for row in zip(*columns, strict=True):
             if len(row) > 1 and shown_width(row[0]) > widths[0]:

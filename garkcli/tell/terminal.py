@@ -78,9 +78,7 @@ class Folding(Text):
 
 
 def _places(text: str, width: int, hanging: int) -> list[int]:
-    """Returns the places where lines after the first begin; a word that no line holds is broken
-    where it is.
-    """
+    """Returns the places where lines after the first begin."""
     places = [0]
     room, later = width, max(width - hanging, 1)
     for start, end in pairwise([*joints(text), len(text)]):

@@ -130,9 +130,7 @@ class Minimisation(Mutable):
                 self.add(found.solution, index)
 
     def by_theorem(self) -> bool:
-        """Adds the method with the least principal error of its pair if a theorem gives it; whether
-        it does.
-        """
+        """Adds the method with the least principal error of its pair, if a theorem gives it."""
         step, ideal, criterion = self.step, self.step.ideal, self.design.criterion_of(self.step)
         if criterion is None or not isinstance(ideal, Ideal):
             return False
@@ -158,9 +156,7 @@ class Minimisation(Mutable):
             self.over_variety(part)
 
     def over_whole(self, part: Part) -> None:
-        """Adds the candidates of one part of the solution set, only the stable ones if stability is
-        wanted.
-        """
+        """Adds the candidates of a part of the solution set, only stable ones if wanted."""
         family = self.design.family
         parts = [part]
         if family.stable and part.dimension > 0:

@@ -157,9 +157,7 @@ class _Line:
         return RealRoot.rational(level) if isinstance(level, fmpq) else level
 
     def may_exceed(self, m: RealRoot) -> bool:
-        """Whether levels between critical numbers may exceed the greatest attained one: False if
-        one number of each interval decides it.
-        """
+        """Whether levels between critical numbers may exceed the greatest attained one."""
         if m.exact is not None:
             crossing = [at_y(p, m.exact) for p in self.curves]
         elif m.polynomial.degree() > MOST_DEGREE:
@@ -212,9 +210,7 @@ class _Line:
         return limit.exact if isinstance(limit, FibreRoot) else limit
 
     def _meeting(self, end: RealRoot | None) -> tuple[Sequence[RealRoot | FibreRoot], list[fmpq]]:
-        """The points where curves meet the line at an end, and a number before, between and behind
-        these.
-        """
+        """The points where curves meet the line at an end, and numbers between them."""
         if end is not None:
             fibre = Fibre(end, self.curves)
             return fibre.roots, fibre.gaps
@@ -225,9 +221,7 @@ class _Line:
 
 
 def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[HighAt, ...]]:
-    """The greatest level, and one number of each run of neighbours with it, the shortest number of
-    an interval.
-    """
+    """The greatest level, and one number of each run of neighbours with it."""
     exact: list[Size] = []
     most: Size = ORIGIN
     for _, level in attained:

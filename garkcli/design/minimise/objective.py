@@ -96,9 +96,7 @@ class LevelObjective(Frozen):
         return self.shown(y)
 
     def inside(self, bound: float) -> float:
-        """A bound for a search a little above a wanted one, so that exact numbers near by still
-        reach that.
-        """
+        """A bound a little above a wanted one, so that exact numbers near by reach it."""
         return bound * (1 + INSIDE)
 
     def reaches(self, y: Size, bound: fmpq) -> bool:

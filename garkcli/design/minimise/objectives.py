@@ -36,9 +36,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def is_linear(tableau: Tableau) -> bool:
-    """Whether the linear test equation is applicable: every stage depends on every colour, and all
-    colours drive all unknowns.
-    """
+    """Whether the linear test equation is applicable."""
     spaces = range(len(tableau.spaces))
     colours = range(tableau.size)
     is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
@@ -220,9 +218,7 @@ def _oscillator_signs(tableau: Tableau, ring: Parameters) -> aims.LevelSigns:
 
 
 def _is_bounded(signs: Sequence[int]) -> bool:
-    """Whether all powers of the step are bounded: no pole, no eigenvalue outside the unit circle,
-    and no defective double eigenvalue ±1.
-    """
+    """Whether all powers of the step are bounded."""
     pole, area, right, left, upper, lower = signs
     if not pole or min(area, right, left) < 0:
         return False

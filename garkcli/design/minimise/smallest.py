@@ -150,9 +150,7 @@ def are_bounded(
 
 
 def _bounded_by_quadratic(terms: Mapping[tuple[int, ...], fmpq], bounded: set[int]) -> set[int]:
-    """The unknowns of a polynomial that is quadratic in those not bounded yet, if its quadratic
-    part is definite.
-    """
+    """The unknowns of a polynomial with a definite quadratic part in those not bounded yet."""
     unknowns = sorted({i for e in terms for i, k in enumerate(e) if k} - bounded)
     second = fmpq_mat(len(unknowns), len(unknowns))
     for e, a in terms.items():
@@ -390,9 +388,7 @@ class Smallest(Minimisation):
             self._over_constant(smaller)
 
     def _over_constant(self, part: Part) -> None:
-        """Adds some methods of a part without rational coordinates on which the objective is
-        locally constant.
-        """
+        """Adds some methods of a part on which the objective is locally constant."""
         self.extent = "found"
         names = part.ring.names
         gens = part.ring.context.gens()

@@ -189,9 +189,7 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
 
 
 class Weighted(Frozen):
-    """Weights for each colour, times a common denominator, and whether the exact value at the trees
-    of an order is 1/γ(u) or 0.
-    """
+    """Weights for each colour, times a denominator, and whether the exact values are 1/γ(u)."""
 
     weights: Sequence[Row]
     is_exact: bool
@@ -344,9 +342,7 @@ class _Sums(OrderByOrder[Tensor]):
 
 
 def _share(kind: VertexKind, order: int) -> fmpq:
-    """The factor of the exact solution for the number of a forest, in a tree of an order; zero if
-    the root counts more.
-    """
+    """The factor of the exact solution for the number of a forest; 0 if the root counts more."""
     is_exact = kind.is_exact and order >= kind.weight
     return fmpq(1, kind.integrated(order)) if is_exact else fmpq(0)
 

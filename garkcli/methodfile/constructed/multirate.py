@@ -53,9 +53,7 @@ class Infinitesimal(Frozen):
 
 
 def method_of_part(tableau_of: TableauOf, part: PartText, key: str) -> Method:
-    """Returns the method of a part that has one vector field; ``key`` is its place under
-    ``multirate``.
-    """
+    """Returns the method of a part that has one vector field."""
     tableau = tableau_of(part)
     message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
     return one_field(tableau, message + "where a method of one vector field is expected")

@@ -49,9 +49,7 @@ def _undone(f: Expr, v: Expr) -> Expr:
 
 
 def _terms(f: Expr, v: Expr) -> int:
-    """Returns the number of terms of the multiplied-out numerator of f, squared if a square root
-    has to be removed by squaring.
-    """
+    """Returns the number of terms of a multiplied-out numerator, squared with a root."""
     import sympy
 
     size = _fraction(f)

@@ -226,9 +226,7 @@ class Maker:
     def numbers(
         self, node: Node, where: str, names: Sequence[str]
     ) -> tuple[Entries, dict[str, fmpq]]:
-        """Returns the nodes and the numbers of values by names; without ``names`` all are
-        allowed.
-        """
+        """Returns the nodes and numbers of values by names."""
         entries = self.source.mapping(node, where, names)
         values: dict[str, fmpq] = {}
         for name, x in entries.items():

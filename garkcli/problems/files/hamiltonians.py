@@ -1,6 +1,4 @@
-"""Hamiltonians from the text of a problem file, with checks of names, initial values and
-derivatives.
-"""
+"""Hamiltonians from the text of a problem file, checked."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""Problem files: a Hamiltonian, a Lagrangian or right-hand sides with initial values; all faults
-are reported at once.
-"""
+"""Problem files: Hamiltonians, Lagrangians or right-hand sides; all faults at once."""
 
 from __future__ import annotations
 

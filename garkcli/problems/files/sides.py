@@ -1,6 +1,4 @@
-"""Right-hand sides from the text of a problem file with ``rhs``, with checks of names, initial
-values, derivatives and the exact solution.
-"""
+"""Right-hand sides from the text of a problem file, checked, with exact solutions."""
 
 from __future__ import annotations
 
@@ -159,9 +157,7 @@ class SidesMaker(Maker):
         self.refuse_constants(invariants, "the variables")
 
     def _check_solution(self, problem: RightHandSide, exact: ByName) -> None:
-        """Reports a solution whose derivative differs from the right-hand sides at a later time, as
-        proved by enclosures.
-        """
+        """Reports a solution whose derivative provably differs from the right-hand sides."""
         from garkcli.problems.mass import enclosed
 
         places = dict(zip(self.y, problem.exact or (), strict=True))

@@ -263,9 +263,7 @@ def _between(found: Bounds, is_squared: bool = False) -> Verdict:
 
 
 def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
-    """The first negative coefficient, which excludes absolute monotonicity; empty if there is
-    none.
-    """
+    """The first negative coefficient; empty if there is none."""
     for (k, m), block in tableau.blocks.items():
         for i, row in enumerate(block):
             for j, a in enumerate(row):

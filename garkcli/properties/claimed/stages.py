@@ -38,9 +38,7 @@ def obstacle(tableau: Tableau) -> Reason:
 
 
 def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
-    """The first weight that is negative for all methods within the tolerance; empty if there is
-    none.
-    """
+    """The first weight that is negative within the tolerance; empty if there is none."""
     for m, colour in enumerate(tableau.colours):
         if not isinstance(tableau.space(m), PointSpace):
             continue  # the weights of every family are positive
@@ -51,9 +49,7 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
 
 
 def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
-    """``obstacle`` for all methods within a tolerance: empty if none has an obstacle, None if
-    undecided.
-    """
+    """``obstacle`` within a tolerance: empty if there is none, None if undecided."""
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         return None
     negative = _negative_weight(tableau, tolerance)
