@@ -121,7 +121,6 @@ upward.hand_down(_answering)
 
 
 def _told() -> str:
-    """The names in lines, a paragraph."""
     lines = []
     for topic, homes in NAMES.items():
         line = f"{topic}:"

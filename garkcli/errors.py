@@ -330,7 +330,6 @@ MAX_WORD = 100
 
 @lru_cache(MOST_WORDS * 4)
 def _pieces(word: str) -> frozenset[str]:
-    """The letters of a word, and its pairs of neighbours."""
     letters = _letters(word[:MAX_WORD])
     return frozenset([*letters, *map("".join, pairwise(letters))])
 

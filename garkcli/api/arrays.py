@@ -136,7 +136,6 @@ def _is_colour(x: object) -> bool:
 
 
 def _listed(value: Any) -> Any:
-    """Returns arrays of any kind as nested lists; other values are unchanged."""
     if value is None or isinstance(value, str):
         return value
     if hasattr(value, "tolist"):
@@ -188,7 +187,6 @@ def _one_row(value: Any) -> Any:
 
 
 def _quoted(text: str) -> str:
-    """Returns a text in quotes unless it is a plain number."""
     if _PLAIN.fullmatch(text):
         return text
     return quoted(text)

@@ -144,7 +144,6 @@ def _embedded(method: GarkMethod) -> GarkMethod:
 
 
 def _made(method: GarkMethod, changed: methods.AnyTableau) -> GarkMethod:
-    """Returns a method with a changed tableau and its rounding."""
     if not isinstance(changed, Tableau):
         methods.keep(changed)
     tolerance = methods.tolerance_of(changed)
@@ -168,7 +167,6 @@ def _is_rosenbrock(method: GarkMethod) -> bool:
 
 
 def _is_plain(method: GarkMethod) -> bool:
-    """Returns whether the method has a conjugate and a pair."""
     return method.tableau.has_fields_alone and method.tableau.exact_to is None
 
 

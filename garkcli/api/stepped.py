@@ -77,9 +77,6 @@ def _read(problem: AnyProblem | None) -> Problem | Oscillator | None:
 
 
 def _check(problem: RightHandSide, has_velocities: bool) -> None:
-    """Raises UsageProblem unless the problem is (q̇, ṗ) = (p, 0) + (0, g(q, p)) and the method for
-    it.
-    """
     unknowns = symbols(problem.variables, "y")
     d = len(unknowns) // 2
     is_of_form = len(unknowns) == 2 * d and len(problem.terms) == 2 and not problem.has_time

@@ -122,7 +122,6 @@ def _bracket_with_delta(
 def _solve(
     matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]], field: NumberField | None
 ) -> list[Number]:
-    """A solution of a solvable linear system whose right-hand side is given by coordinates."""
     columns = matrix.ncols()
     extended = []
     for i, row in enumerate(matrix.tolist()):

@@ -272,7 +272,6 @@ def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
 
 
 def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
-    """The next power of h, and whether it is only a lower bound."""
     for order in range(formula.max_order + 1, formula.max_order + _BEYOND + 1):
         try:
             longer = modified_formula(tableau, formula.problem, order)
@@ -287,7 +286,6 @@ def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
 def _energy(
     power: int, order: int, is_lower_bound: bool, rows: tuple[StepSizeRow, ...]
 ) -> ModifiedEnergy:
-    """The verdict on one column."""
     are_seen = are_above_noise(rows)
     observed = observed_order(rows) if are_seen else None
     before = observed_order(rows[:-1]) if are_seen else None

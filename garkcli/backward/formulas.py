@@ -252,7 +252,6 @@ def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> 
 def _of_hamiltonian(
     differentials: Differentials, equation: ModifiedEquation, structure: Structure
 ) -> list[list[Formula]]:
-    """For each power of h one formula."""
     sums: list[list[Formula]] = [[0] for _ in range(equation.max_order)]
     is_consistent = equation.order > 0
     if is_consistent:
@@ -282,7 +281,6 @@ def _expanded(formula: Formula, power: int) -> Formula:
 
 
 def _summands(expression: Formula) -> int:
-    """A bound on the number of summands of the expanded formula."""
     if expression.is_Add:
         return sum(map(_summands, expression.args))
     if expression.is_Mul:

@@ -176,7 +176,6 @@ def energy_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = 
 
 
 def _change(equation: ModifiedEquation, tree: FreeTree) -> Number:
-    """The coefficient of the elementary Hamiltonian of ``tree`` in the change of H."""
     total: Number = ZERO
     for rooting, sign in tree.rootings:
         if len(rooting.branches) == 1:

@@ -164,7 +164,6 @@ def possible_order(tableau: Tableau, order: int) -> int:
 
 
 def _check_size(admissible: Admissible, order: int) -> None:
-    """Refuses an order with too many trees."""
     too_many = _first_beyond_limit(admissible, order)
     if too_many is None:
         return

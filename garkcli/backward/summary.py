@@ -116,7 +116,6 @@ def backward_analysis(
 def _of_rounded(
     rounded: AnyTableau, max_order: int, structure: Structure | None
 ) -> BackwardAnalysis:
-    """Backward analysis of the method that a rounded one is taken to mean."""
     assert not isinstance(rounded, Tableau)
     found = order_of(rounded, max_order)
     order = Reached(found.order, found.is_lower_bound)

@@ -122,7 +122,6 @@ def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) ->
 
 
 def _what_fails(outcome: Outcome) -> str:
-    """Returns why a file has no place in the catalogue."""
     if outcome.faults:
         return outcome.faults[0].message
     if outcome.analysis is None and outcome.of_other_kind is None:

@@ -64,7 +64,6 @@ def read_baseline(path: str) -> Earlier:
 
 
 def _path_of(file: File) -> str:
-    """Returns the path with forward slashes."""
     return PurePath(file["file"]).as_posix()
 
 

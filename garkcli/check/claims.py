@@ -63,7 +63,6 @@ def _held_against(claim: ClaimText, analysis: AnyAnalysis) -> Claim:
 
 
 def _why_none(key: str, analysis: AnyAnalysis) -> str:
-    """Returns why a claim does not apply to a method."""
     kind = getattr(analysis, "kind", "a GARK method")
     if key in OF_ROSENBROCK and kind != "a Rosenbrock method":
         return "it is not a Rosenbrock method"

@@ -82,7 +82,6 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | No
 
 
 def _is_explained(remark: RoundingHint | None, claimed: int) -> bool:
-    """Returns whether the tolerance of the remark would yield the claimed order."""
     return remark is not None and bool(remark.line) and remark.order >= claimed
 
 
@@ -134,7 +133,6 @@ def _ways(
 
 
 def _rounded(method: MethodFile, remark: RoundingHint | None) -> AnyTableau | None:
-    """Returns the method as if its decimals were rounded; None without any."""
     if remark is None:
         from garkcli.methodfile.printed import as_typed
 
@@ -207,7 +205,6 @@ def misprints(
 
 
 def _within_digits(method: MethodFile) -> AnyTableau | None:
-    """Returns the method within its tolerance, or within the digits of its decimals."""
     if method.tolerance:
         return meant(method.tableau, method.tolerance, method.further)
     return within_digits(method.tableau, _digits)

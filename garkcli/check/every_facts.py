@@ -160,7 +160,6 @@ def find(
 
 
 def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
-    """Returns the answer with the parameters as unknowns, and the polynomials taken as nonzero."""
     with ring.telling_apart() as told:
         value = answer(ask, tableau)
     return value, list(told.values())

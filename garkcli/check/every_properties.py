@@ -89,7 +89,6 @@ def _is_complete(tableau: Tableau) -> bool:
 def _of_set(
     family: EveryFamily, values: tuple[Interval, ...], unknown: tuple[RealRoot, ...] = ()
 ) -> FamilyFact:
-    """Returns the fact for a set of values: all admitted ones, none, or the set."""
     if not values:
         return FamilyFact(False, unknown=unknown)
     if _is_all(family, values):
@@ -98,7 +97,6 @@ def _of_set(
 
 
 def _is_all(family: EveryFamily, values: tuple[Interval, ...]) -> bool:
-    """Returns whether a set without gaps contains every admitted value."""
     least, greatest = family.ends
     poles = roots_of(map(in_one, family.poles))
     first, last = values[0], values[-1]

@@ -172,7 +172,6 @@ def _again(text: str, source: str, settings: dict[str, str], limit: int) -> Ever
 
 
 def _symplectic(family: EveryFamily) -> FamilyFact:
-    """Returns whether all values give a symplectic method, or the common zeros that do."""
     fact = find(family, is_symplectic)
     if fact.value is not False or not fact.open:
         return fact

@@ -262,7 +262,6 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
 
 
 def _restored(blame: Blame) -> str:
-    """The order with a repair: the claimed one, or the one that is reached."""
     order = "the claimed order"
     if blame.restored is not None:
         order = f"{blame.of.replace('-', ' ')} {blame.restored}"
@@ -372,7 +371,6 @@ def cure_of_lacks(outcome: Outcome) -> str:
 
 
 def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
-    """Yields rules and remarks, with keys that do not depend on the place in the file."""
     seen: Counter[str] = Counter()
     for fault in outcome.faults:
         yield "unreadable", fault, f"{fault.message}\0{seen[fault.message]}"

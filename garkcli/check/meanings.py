@@ -121,7 +121,6 @@ def _keys(kind: str) -> Sense:
 
 
 def _choices() -> Iterator[Sense]:
-    """Yields the values of keys and options: families, rules, schemes, shapes, problems."""
     from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
     from garkcli.families.registry import FAMILIES
     from garkcli.methodfile.shapes import SHAPES
@@ -146,8 +145,6 @@ def _order(order: str) -> str:
 
 
 def _listed(kind: str, texts: Mapping[str, str], sources: Mapping[str, str] | None = None) -> Sense:
-    """Returns the words that ``gark list`` shows with their texts."""
-
     def mean(name: str) -> Meaning:
         source = (sources or {}).get(name) or "gark list"
         return Meaning(kind, name, sentence(texts[name]), source=source)

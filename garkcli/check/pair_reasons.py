@@ -131,7 +131,6 @@ def _missing(missing: Sequence[SimplifyingCondition], names: Sequence[str], bloc
 
 
 def _order_of(condition: SimplifyingCondition) -> int:
-    """Returns the order for which a condition is needed."""
     if condition.letter == "B":
         return condition.number
     return 2 * condition.number + (2 if condition.letter == "even" else 1)

@@ -48,8 +48,6 @@ class InfinitesimalAnalysis(OrderFacts, kw_only=True):
 
 
 def _among_all(order: AnyOrder, tableau: Tableau) -> AnyOrder:
-    """Returns an order of the slow method with the colours counted after the fast one."""
-
     def moved(tree: Tree) -> Tree:
         return tableau.tree(tree.root + SLOW, map(moved, tree.branches))
 

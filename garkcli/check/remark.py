@@ -129,7 +129,6 @@ def _off(
 
 
 def _most(reached: Mapping[Repair, int]) -> tuple[Repair, ...]:
-    """Returns the repairs that give the highest order."""
     return tuple(x for x, n in reached.items() if n == max(reached.values()))
 
 

@@ -119,7 +119,6 @@ def _compare(project: Project, given: Check, baseline: str, output: Output) -> i
 
 
 def _outcomes(project: Project, given: Check, output: Output) -> list[Outcome]:
-    """Returns the outcomes of all files in order, with the options of the report."""
     paths = output.files_meant(given.files, given.settings)
     work = partial(check_file, **given.of("check_file"), settings=given.settings)
     running = counting("files", check_files(work, paths, given.jobs), len(paths))
@@ -148,7 +147,6 @@ def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) ->
 
 
 def _checked(check: Callable[[str], Outcome], path: str) -> Outcome:
-    """Returns the outcome of one file, also after an internal error."""
     try:
         with doing(path):
             return check(path)
@@ -166,6 +164,5 @@ def _crashed(path: str, what: str, cure: str, code: str) -> Outcome:
 
 
 def _ended(path: str, why: str) -> Outcome:
-    """Returns the outcome of a file that ended its worker."""
     cure = "check it alone; where memory is short use fewer --jobs"
     return _crashed(path, f"its check was ended {why}", cure, "worker-lost")

@@ -121,7 +121,6 @@ class Declared(Frozen, Generic[Given]):
         return code
 
     def _check(self, given: Given, output: Output) -> None:
-        """Raises UsageProblem for options that exclude each other, before anything is read."""
         told = {"format": output.format, "output": output.path, "verbose": output.verbosity > 0}
         values = [(x, told[name]) for name, x in self.output.items() if name in told]
         for name, declared in declared_by(self.options).items():
@@ -135,7 +134,6 @@ class Declared(Frozen, Generic[Given]):
             rule.check(value_of)
 
     def _help(self) -> str:
-        """Returns the help, with a paragraph about its methods."""
         text = inspect.getdoc(self.body) or ""
         methods = self.methods
         if not methods:

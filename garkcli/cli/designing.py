@@ -330,16 +330,11 @@ def _half(given: DesignOptions) -> Iterator[None]:
 
 
 def _wishes(given: DesignOptions) -> str:
-    """Returns the options of stability, as they are typed."""
     colour = "" if given.colour is None else f" --colour {given.colour}"
     return "" if given.stability is None else f" --{given.stability}{colour}"
 
 
 def _asked(family: FamilyFile, given: DesignOptions) -> RequiredStability | None:
-    """Returns the stability that an option requests, if any.
-
-    Raises UsageProblem for an unknown colour.
-    """
     from garkcli.tableau.family import RequiredStability
 
     if given.stability is None:
@@ -428,7 +423,6 @@ def _found(family: FamilyFile, given: DesignOptions) -> Design:
 
 
 def _least(found: Design, objective: str, given: DesignOptions) -> Minimum | None:
-    """Returns the minimum of the objective; None, with a message, if it was not found in time."""
     from garkcli.api.design import minimise
 
     try:
@@ -445,7 +439,6 @@ def _least(found: Design, objective: str, given: DesignOptions) -> Minimum | Non
 
 
 def _sets(found: Design, given: DesignOptions) -> tuple[StableValues, ...] | None:
-    """Returns the values with the wanted stability; None, with a message, if time is over."""
     from garkcli.design.design import stable_sets
 
     try:
@@ -605,7 +598,6 @@ def _curve(family: FamilyFile, starts: int, given: DesignOptions, output: Output
 
 
 def _order(family: FamilyFile, given: DesignOptions) -> int:
-    """Returns the order of a search; raises UsageProblem if there is none."""
     order = given.order_of(family)
     if order is None:
         cure = "give --order P, or design: {order: P} in the file"
@@ -637,7 +629,6 @@ def _searched(
 
 
 def _first(asked: FileSearch, name: str) -> list[float]:
-    """Returns the values of the unknowns nearest to a method."""
     from garkcli.design.search.nearest import nearest_member
     from garkcli.methodfile.load import load
 
@@ -682,7 +673,6 @@ def _lost(_task: SearchTask, why: str) -> Timed:
 def _written(
     family: FamilyFile, result: SearchResult, given: DesignOptions, output: Output
 ) -> Sequence[str | None]:
-    """Writes the requested files, of a single one the best proved; returns the file of each."""
     from garkcli.api.design import found_files
 
     found = list(found_files(result, family, _wishes(given)))

@@ -257,7 +257,6 @@ def _place(result: TableResult) -> str:
 
 
 def _tell_wrong(results: Sequence[TableResult]) -> None:
-    """Reports each wrong table and its cure, if the output consists of method files alone."""
     for result in results:
         for finding in result.errors:
             say(f"{_place(result)}: {finding.message}")
@@ -309,7 +308,6 @@ def _nothing(
     results: Sequence[TableResult],
     left_out: Sequence[FoundTable],
 ) -> UsageProblem:
-    """Returns the error if there is nothing to write."""
     from garkcli.bridges.readers.registry import all_readers
 
     for result in results:
@@ -353,7 +351,6 @@ def _no_table(sources: Sequence[str], files: int) -> str:
 
 
 def _written(results: Sequence[TableResult], folder: str) -> Mapping[int, str]:
-    """Writes the method files; returns their names by the numbers of the results."""
     from garkcli.page.writing import write_whole
 
     files = {}

@@ -178,7 +178,6 @@ def list_(given: ListOptions, output: Output) -> None:
 
 
 def _listed(given: Mapping[str, Any]) -> list[Entry]:
-    """Returns the methods that match, sorted."""
     from garkcli.catalogue.entries import MethodFilter, all_entries, sorted_by
 
     others = ("judge", "sort", "folder", "words")

@@ -141,7 +141,6 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
 
 def _exit_code(arguments: list[str]) -> int:
-    """Runs the command line, reports errors, and returns the exit code."""
     try:
         with at_once(), noting_inputs():
             code = _run(arguments)
@@ -196,7 +195,6 @@ def _run(arguments: list[str]) -> int:
 
 
 def _own_up(error: Exception, with_traceback: bool) -> None:
-    """Reports an internal error."""
     if with_traceback:
         import traceback
 

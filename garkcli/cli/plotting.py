@@ -88,7 +88,6 @@ def _panel_of(what: str, method: GarkMethod, file: str) -> Panel:
 
 
 def _possible(method: GarkMethod) -> list[str]:
-    """Returns the pictures that a method may have, as far as one sees without steps."""
     from garkcli.webpage.pictures import NotDrawn, panel_named
 
     found = []
@@ -133,10 +132,6 @@ def _panel(panel: Panel, name: str, output: Output) -> None:
 
 
 def _last_tree(method: GarkMethod) -> Tree:
-    """Returns the tree at which the order of a method ends.
-
-    Raises UsageProblem if no tree is known.
-    """
     from garkcli.api.methods import find_order
 
     witness = find_order(method).witness
@@ -165,7 +160,6 @@ def _tree(tree: Tree, method: GarkMethod, output: Output) -> None:
 
 
 def _tableau(method: GarkMethod, output: Output) -> None:
-    """Writes a tableau as gark tableau does, or its text as SVG."""
     from garkcli.cli.tableaux import coupling_of_slow_stages, write_tableau
 
     if output.format == "text":

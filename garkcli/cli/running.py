@@ -258,7 +258,6 @@ def _against(given: Converge) -> str:
 
 
 def _one(path: str, given: Converge, output: Output) -> int:
-    """Tests one method."""
     from garkcli.report.convergence import REPORT, ConvergenceReport
 
     name = path
@@ -328,7 +327,6 @@ def _entry(path: str, method: GarkMethod, problems: Problems) -> ConvergedMethod
 
 
 def _failed(path: str, name: str, error: GarkError) -> ConvergedMethod:
-    """Reports an error with the name of the file."""
     from garkcli.check.outcome import Outcome
     from garkcli.report.comparison import ConvergedMethod
 
@@ -521,7 +519,6 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
 
 
 def _claims(run: LongRun, given: Energy) -> tuple[RunClaim, ...]:
-    """Returns the claims of the options. An undecided run is neither bounded nor drifting."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
     from garkcli.report.energy import RunClaim

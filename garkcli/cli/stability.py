@@ -128,7 +128,6 @@ def colour_named(tableau: Tableau, colour: str) -> int:
 def _report(
     file: str, method: GarkMethod, given: StabilityOptions, output: Output
 ) -> StabilityReport:
-    """Returns the report on one method: its stability, or the two springs of the options."""
     from garkcli.api.calls import find_stability, two_springs
     from garkcli.report.stability import StabilityReport
     from garkcli.stability.springs_plane import plane_with_ends_of

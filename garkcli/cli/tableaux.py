@@ -286,7 +286,6 @@ def _end_text(parameter: str, end: RealRoot | None) -> str:
 
 
 def _reduce(given: Convert, output: Output) -> None:
-    """Writes the smallest equivalent method, or the method unchanged, with a note."""
     from garkcli.api.methods import reduced
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
@@ -437,10 +436,6 @@ def _as_typed(argument: str, name: str) -> str:
 
 
 def _loaded(files: tuple[str, str], settings: Mapping[str, str]) -> list[MethodFile]:
-    """Returns methods with values for their parameters.
-
-    Raises UsageProblem for an unknown parameter.
-    """
     from garkcli.methodfile.carried import parameter_names
     from garkcli.methodfile.load import loads, noted, read_method_text
 

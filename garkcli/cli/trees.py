@@ -147,10 +147,6 @@ def trees(given: TreesOptions, output: Output) -> None:
 
 
 def _orders(order: int | None, upto: bool) -> range:
-    """Returns the requested orders.
-
-    Raises UsageProblem without any.
-    """
     if order is None:
         raise UsageProblem(
             "which order?", "gark trees 4 lists order 4; --tree shows one tree", code="option-alone"
@@ -218,7 +214,6 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
 
 
 def _free_trees(given: TreesOptions, order: int | None, output: Output) -> None:
-    """Writes a row for each class of equivalent conditions of symplectic methods."""
     from garkcli.report import trees as report
 
     subject = report.subject_of_kind(
@@ -421,7 +416,6 @@ def _subject(given: ConditionsOptions, orders: range, valued: Valued | None) -> 
 def _independent(
     subject: SymplecticSubject, members: bool, valued: Valued | None
 ) -> Iterator[ConditionRow]:
-    """Yields a row for each class, with its value if there is a method."""
     from garkcli.order.conditions import conditions
     from garkcli.report.conditions import ConditionRow
 

@@ -366,7 +366,6 @@ def _of_embedded(analysis: Analysis) -> AnyOrder | None:
 
 
 def _differ(pair: PropertyPair) -> bool:
-    """Returns whether the verdicts differ; numbers of rounded methods are compared to 12 digits."""
     one, other = pair.one.value, pair.other.value
     if any(pair.tolerances) and isinstance(one, Size) and isinstance(other, Size):
         return not isclose(float(one), float(other), rel_tol=1e-12)

@@ -103,7 +103,6 @@ class _Compare:
             yield from self.blocks(BlockGap(kind, l, power=power), first, second)
 
     def blocks(self, place: BlockGap, one: Block, other: Block) -> Iterator[BlockGap]:
-        """Yields the difference in one block, if any."""
         if one is None and other is None:
             return
         is_row = place.seen is None

@@ -50,7 +50,6 @@ def find_matching(one: grids.Grid, other: grids.Grid, likeness: grids.Likeness) 
 
 
 def _own(grid: grids.Grid, l: int, i: int) -> Row:
-    """Returns the node and all weights of a stage."""
     return grid.c[l][i], grid.b[l][i], *[weights[l][i] for weights in grid.further]
 
 
@@ -66,7 +65,6 @@ class _SamenessSearch:
     def completions(
         self, candidates: _Candidates, chosen: dict[Stage, int]
     ) -> Iterator[dict[Stage, int]]:
-        """Yields all assignments of the remaining stages."""
         if not candidates:
             yield chosen
             return
@@ -187,7 +185,6 @@ def find_sameness(
 
 
 def _plainly(grid: grids.Grid) -> Sameness:
-    """Returns the correspondence without renumbering."""
     stages = tuple(tuple(range(s)) for s in grid.stages)
     return Sameness(tuple(range(grid.size)), stages)
 
@@ -215,7 +212,6 @@ def _as_they_are(one: grids.Grid, other: grids.Grid, allowed: fmpq) -> Sameness 
 
 
 def _once_reduced(views: Views) -> Sameness | None:
-    """Matches the reduced methods."""
     has_further = bool(views.one.further or views.other.further)
     for step_only in (False, True) if has_further else (False,):
         sheets = [Sheet(x.tableau) if step_only else x for x in views.sheets or ()]

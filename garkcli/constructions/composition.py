@@ -232,7 +232,6 @@ def adjoint(tableau: Tableau) -> Tableau:
 
 
 def _turned_space(space: StageSpace, nodes: matrix.Vector) -> StageSpace:
-    """The space of the reversed or reflected stages."""
     if isinstance(space, PolynomialSpace):
         modulus = space.modulus(fmpq_poly([1, -1]))
         return PolynomialSpace(modulus / modulus.leading_coefficient())

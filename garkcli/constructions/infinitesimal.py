@@ -485,7 +485,6 @@ class _Infinitesimal:
         return self.program.tableau(result), further
 
     def _result(self) -> multirate.Value:
-        """The value at the end of the step, stage by stage."""
         self._reached(multirate.START)
         for i, interval in enumerate(self.coupling.intervals):
             self._reached(self._after(i, interval))
@@ -517,13 +516,11 @@ class _Infinitesimal:
         return value
 
     def _mixed(self, row: Vector) -> multirate.Value:
-        """A combination of stages, as Y_j − y_n."""
         pairs = [(x, self.values[j]) for j, x in enumerate(row) if x]
         scaled = [{slope: x * weight for slope, weight in value.items()} for x, value in pairs]
         return scaled[0] if len(scaled) == 1 else multirate.summed(*scaled)
 
     def _slow(self, part: int, row: Vector) -> multirate.Value:
-        """A combination of the slopes of one slow part, possibly of later stages."""
         return {
             (multirate.SLOW + part, self.places[j]): x
             for j, x in enumerate(row)
@@ -544,7 +541,6 @@ class _Infinitesimal:
         begin: Number,
         length: Number,
     ) -> multirate.Value:
-        """One step of the fast method from τ = ``begin``."""
         first = self.program.count(multirate.FAST)
         stages = range(first, first + fast.stages)
         times = [begin + length * c for c in fast.c]
@@ -580,7 +576,6 @@ class _Infinitesimal:
         return multirate.summed(moved, along, *parts)
 
     def _forced(self, interval: FastInterval) -> multirate.Value:
-        """The slow slopes with the integrals of their polynomials from 0 to 1."""
         return multirate.summed(
             *(
                 self._slow(part, tuple(x * fmpq(1, k + 1) for x in row))

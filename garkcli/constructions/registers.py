@@ -50,18 +50,15 @@ class _Registers:
         return [int(i == place) for i in range(self._size)]
 
     def slope(self, value: Numbers) -> Numbers:
-        """Adds a stage: the slope at a value."""
         self._seen.append(value)
         return self._unit(len(self._seen))
 
     def steps(self, end: Numbers) -> Steps:
-        """The method with a given value at the end of the step."""
         starts = [x[0] for x in (*self._seen, end)]
         return Steps([x[1:] for x in self._seen], end[1:], starts)
 
 
 def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
-    """A combination of registers."""
     columns = zip(*(register for _, register in terms), strict=True)
     return [sum(x * y for (x, _), y in zip(terms, column, strict=True)) for column in columns]
 

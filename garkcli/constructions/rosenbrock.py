@@ -284,7 +284,6 @@ def transformed_weights(further: Further, gamma: matrices.Matrix) -> Further:
 
 
 def _times(further: Further, matrix: matrices.Matrix) -> Further:
-    """Each row of weights times a matrix."""
     embedded, dense = further.embedded, further.dense
     if embedded is not None:
         embedded = tuple(matrices.apply_left(row, matrix) for row in embedded)

@@ -89,7 +89,6 @@ class ReferenceSolution(Mutable):
 
 
 def _exact(problem: Problem, t_end: fmpq, digits: int) -> tuple[arb, ...]:
-    """The known solution of a problem at one time."""
     assert isinstance(problem, righthandside.RightHandSide)
     with ctx.workprec(ceil((digits + _SPARE) * BITS_OF_A_DIGIT) + 64):
         return tuple(x.mid() for x in righthandside.solution(problem, arb(t_end)))
@@ -248,7 +247,6 @@ class _Runs:
 
 
 def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
-    """The error if even short steps fail."""
     start = to_float((failure.number - 1) * failure.h)
     end = to_float(failure.number * failure.h)
     return UsageProblem(

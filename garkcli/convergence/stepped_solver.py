@@ -198,7 +198,6 @@ class SteppedSolver(Mutable):
         return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))
 
     def _digits(self, h: fmpq, before: StepSizeRow | None) -> int:
-        """The digits for the error expected from the row before and the order."""
         if before is None:
             return FLOAT_DIGITS
         part = before.error.mid() / self.size()

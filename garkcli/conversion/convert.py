@@ -199,7 +199,6 @@ def _is_as_good(text: str, found: RecoveredMethod) -> bool:
 
 
 def _with_head(text: str, method: GarkMethod) -> str:
-    """The file with the description of the old one."""
     if not isinstance(method, MethodFile):
         return text
     version, name, *others = text.splitlines(keepends=True)
@@ -218,7 +217,6 @@ def _claimed(text: str, method: MethodFile, goal: Target) -> Converted:
 
 
 def _failing(method: MethodFile) -> set[str]:
-    """The claims of a file that do not hold."""
     if not method.claims:
         return set()
     reach = max(DEFAULT_LIMIT, highest_order(method.claims) + 1)

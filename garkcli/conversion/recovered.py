@@ -107,7 +107,6 @@ def recovered(
     found: dict[Number, str] = {}
 
     def entry(value: Any, form: Any) -> Number:
-        """The number in the new file."""
         if isinstance(value, fmpq) and not isinstance(form, Affine):
             exact[value] = str(value)
             return value
@@ -167,7 +166,6 @@ def _entry_by_entry(
 
 
 def _numbers(sheet: Sheet) -> Iterator[Number]:
-    """All numbers in a file of the sheet."""
     for row in sheet.tableau.rows:
         yield from row
     for weights in sheet.further.rows:

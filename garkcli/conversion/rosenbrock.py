@@ -98,7 +98,6 @@ def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
 
 
 def _blocks(method: Rosenbrock, further: Further) -> _Parts:
-    """The keys for several colours: each block by its colours."""
     parts: _Parts = {}
     for key, blocks in (("alpha", method.alpha), ("gamma", method.gamma)):
         for l, row in enumerate(blocks, start=1):
@@ -142,7 +141,6 @@ class _Places:
 
     @property
     def tolerance(self) -> Written | None:
-        """The tolerance of the written numbers, by keys of ``tolerance``."""
         found = {}
         for key in self._forms:
             if _kind(key) in self._rounded:

@@ -122,7 +122,6 @@ def all_rows(sheet: Sheet) -> Iterator[Vector]:
 
 
 def _mapped(sheet: Sheet, field: OneField) -> Sheet:
-    """The sheet with its numbers in a larger field."""
     return Sheet(sheet.tableau.changed(field.number), sheet.further.changed(field.number))
 
 

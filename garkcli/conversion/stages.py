@@ -53,7 +53,6 @@ def _compared(x: Number, y: Number) -> int:
 
 
 def _numbered(signatures: Mapping[Stage, _Signature]) -> Classes:
-    """The ranks of signatures in ascending order."""
     place = {signature: k for k, signature in enumerate(sorted({*signatures.values()}))}
     return {stage: place[x] for stage, x in signatures.items()}
 

@@ -66,7 +66,6 @@ class _Worker(Generic[Item, Outcome]):
         self._other.close()
 
     def send(self, number: int, item: Item) -> None:
-        """Sends one more item; a dead worker is noticed when it does not answer."""
         self.items.append(number)
         with suppress(OSError):
             self.connection.send(item)
@@ -173,7 +172,6 @@ class Crew(Generic[Item, Outcome]):
                 yield number, outcome
 
     def _hire(self) -> None:
-        """Starts workers while there are fewer than needed."""
         while len(self.workers) < self.size and self.waiting:
             others = [worker.connection for worker in self.workers]
             is_own = self.limit is not None

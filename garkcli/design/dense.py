@@ -45,7 +45,6 @@ def _dense(asked: Asked, key: str) -> DenseOutput:
 
 
 def _order(asked: Asked) -> WantConditions:
-    """The conditions of all trees, for one power of θ after the other."""
     dense = _dense(asked, "dense-order")
     order = cast("int", asked.value)
     claims = (("dense-order", f'">= {order}"'),)

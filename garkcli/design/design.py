@@ -206,11 +206,6 @@ class _Finding(Frozen):
         return _with_lower(steps)
 
     def _none_of(self, order: int, lower: Step | None) -> NoValue | None:
-        """The answer that none of finitely many values has one order more; None for another.
-
-        Raises:
-            NotDecided: the time limit has passed.
-        """
         if not isinstance(lower, Solutions) or self.criterion is not None or not lower.is_all:
             return None
         left = [x.solution.values for x in lower.found]
@@ -225,7 +220,6 @@ class _Finding(Frozen):
         return None
 
     def _start(self) -> Ideal:
-        """The ideal of the equations for all parameters."""
         ring, count = self.family.ring, len(self.family.parameters)
         roots = Ideal(ring).with_zeros(x.relation for x in self.family.radicals)
         nonzero = [
@@ -313,7 +307,6 @@ class _Finding(Frozen):
         return [*(x.relation for x in self.family.radicals), *self.family.relations]
 
     def _conditions(self, order: int) -> list[FamilyCondition]:
-        """The conditions of an order that some value fails."""
         return [x for x in self.conditions.of_order(order) if x.polynomial]
 
     def _conditions_below(self, order: int) -> list[fmpq_mpoly]:
@@ -529,7 +522,6 @@ class _Finding(Frozen):
         return replace(found, accepted=accepted, unstable=unstable, open=undecided)
 
     def _is_method(self, solution: Solution, root: RealRoot) -> bool:
-        """Whether a real solution is a method with all wants of the file."""
         stable = is_admissible(self.family, solution, root) and is_as_stable(
             self.family, self.whose, solution, root
         )

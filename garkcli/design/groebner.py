@@ -106,7 +106,6 @@ def _at_once(
 
 
 def _is_everything(basis: Sequence[fmpz_mpoly]) -> bool:
-    """Whether a reduced basis generates all polynomials."""
     return bool(basis) and basis[0].is_constant()
 
 

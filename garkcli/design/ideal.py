@@ -526,7 +526,6 @@ def without_multiples(p: Any) -> Any:
 
 
 def _raised(e: groebner.Exponents) -> list[groebner.Exponents]:
-    """A monomial times each unknown."""
     return [(*e[:i], e[i] + 1, *e[i + 1 :]) for i in range(len(e))]
 
 

@@ -151,7 +151,6 @@ def pair_conditions(family: Family) -> PairConditions | None:
 
 
 def _is_fixed(family: Family, x: Number) -> bool:
-    """Whether a coefficient has none of the free parameters."""
     if not isinstance(cast("object", x), Parametric):
         return True
     parts = fraction(cast("Mixed", x), family.ring)

@@ -545,7 +545,6 @@ class _Splitting(Frozen):
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
     def _basis(self, polynomials: Sequence[fmpq_mpoly]) -> Sequence[fmpq_mpoly]:
-        """A Gröbner basis; the polynomials themselves if it would be large and can wait."""
         try:
             with only_small() if self.is_large else nullcontext():
                 ideal = Ideal(self.ring).with_zeros(polynomials)
@@ -570,7 +569,6 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Iterator[Part]:
-        """Splits by a product: one factor vanishes, those before it do not."""
         for k, factor in enumerate(alternatives):
             others = [*nonzero, *alternatives[:k]]
             yield from self.parts([*polynomials, factor], others, values, left)
@@ -611,7 +609,6 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Iterator[Part]:
-        """The parts with v = −B/A."""
         ring = self.ring
         instead: Values = {}
         for name in ring.names:
@@ -652,7 +649,6 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Part:
-        """A part whose coordinates are the unknowns in ``left``."""
         ring = Parameters(left)
 
         def moved(p: fmpq_mpoly) -> fmpq_mpoly:

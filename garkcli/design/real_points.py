@@ -131,7 +131,6 @@ class _MethodSearch:
         self.is_complete = True
 
     def finds_one(self) -> bool:
-        """Whether one of the zeros is a method."""
         if self.real.dimension <= 0:
             return self.has_method(self.real)
         if self.has_sample():
@@ -151,7 +150,6 @@ class _MethodSearch:
         return any(map(self.has_method, self._slices()))
 
     def has_method(self, ideal: Ideal) -> bool:
-        """Whether one of finitely many zeros is a method."""
         check_time()
         if ideal.is_everything:
             return False

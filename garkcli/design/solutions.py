@@ -99,7 +99,6 @@ class _Algebra:
 
     @cached_property
     def _products(self) -> list[fmpq_mat]:
-        """Multiplication by each monomial."""
         size = range(self.size)
         known = {self.monomials[0]: fmpq_mat([[fmpq(i == j) for j in size] for i in size])}
         for e in self.monomials[1:]:

@@ -104,7 +104,6 @@ def joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) ->
 
 
 def _by_power(polynomial: Any, ring: Parameters) -> list[Any]:
-    """The coefficients of 1, z, z², …"""
     powers: dict[int, dict[tuple[int, ...], fmpq]] = {}
     for exponents, a in polynomial.to_dict().items():
         k, *rest = map(int, exponents)

@@ -120,7 +120,6 @@ class Members(Frozen):
         return None
 
     def _conjugates(self, values: Mapping[str, RealRoot]) -> Iterator[tuple[Solution, RealRoot]]:
-        """The values and roots, and all their conjugates."""
         ring = Parameters([*values, *(x.name for x in self.family.radicals)])
         zeros = [x.relation.project_to_context(ring.context) for x in self.family.radicals]
         for name, t in values.items():

@@ -205,7 +205,6 @@ class _PartLine:
         return PartMembers(self.family, self.whose, self.part, self.name, self.tableau)
 
     def values(self) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-        """The stable values of the coordinate, and the undecided ones."""
         members = self.members
         if self.root is None:
             kind: Any = self.wanted.kind
@@ -252,7 +251,6 @@ class _PartLine:
 
     @property
     def _attained(self) -> tuple[Interval, ...]:
-        """The values of the coordinate at methods of the part."""
         if self.root is not None:
             return tuple(point_of(t) for t, _ in real_roots(in_one(self.root)))
         left_out = [content_in(p, self.part.ring, self.name) for p in self.part.nonzero]

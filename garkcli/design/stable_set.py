@@ -207,7 +207,6 @@ class _OnLine:
         return found, still_open
 
     def _is_wanted(self, t: Point) -> bool:
-        """Whether a value meets what is wanted besides."""
         return self.kind.keeps(t) and all(sign_of(p, t) in signs for p, signs in self.wishes)
 
     def _at_root(self, t: RealRoot, left: bool | None, right: bool) -> bool:
@@ -261,12 +260,10 @@ class _OnLine:
         return False if self._is_violated(t) else None
 
     def _is_method(self, t: Point) -> bool:
-        """Whether a value is within the range and no pole."""
         return _is_within(t, self.range) and all(sign_of(p, t) for p in self.poles)
 
     @property
     def essential(self) -> list[Polynomial]:
-        """The essential polynomials of the kind."""
         if self._essential is None:
             self._essential = list(map(self.kind.step.in_t, self.kind.essential))
         return self._essential
@@ -305,7 +302,6 @@ class _InPlane:
         return tuple(strips), tuple(self.undecided)
 
     def _stable(self, t: Point, limits: tuple[Interval, ...] | None = None) -> StableValues:
-        """The stable values of the second parameter at one of the first."""
         root = projection.of_root(t if isinstance(t, RealRoot) else RealRoot.rational(t))
         resultants = [projection.resultant(p, root, "t") for p in self.curves]
         critical = tuple(map(in_one, resultants)) if all(resultants) else None
@@ -337,7 +333,6 @@ class _InPlane:
         )
 
     def _over(self, t: RealRoot, left: _Parts | None, right: _Parts) -> _Parts:
-        """The stable parts over a critical t."""
         if not _is_within(t, self.range):
             return ()
         assert left is not None

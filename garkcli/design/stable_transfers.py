@@ -177,7 +177,6 @@ def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
 
 
 def _product(p: Sequence[fmpq_mpoly], q: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The coefficients of the product of two polynomials."""
     product = [p[0] * 0] * (len(p) + len(q) - 1)
     for i, a in enumerate(p):
         for j, b in enumerate(q):

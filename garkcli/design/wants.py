@@ -277,7 +277,6 @@ def _coefficients(asked: Asked) -> tuple[Any, ...]:
 
 
 def _largest_coefficient(asked: Asked) -> WantConditions:
-    """|a| ≤ M and |b| ≤ M."""
     most: Any = asked.value
     entries = _coefficients(asked)
     return WantConditions(not_negative=(*(most - x for x in entries), *(most + x for x in entries)))

@@ -350,7 +350,6 @@ class _ValueSearch:
         return DesignWithin(self.family, self.whose, self.tolerance, tuple(steps))
 
     def _lower(self, most: int) -> list[StepWithin]:
-        """The highest order with methods, at most ``most``, and the next order."""
         steps: list[StepWithin] = []
         for order in range(1, most + 1):
             steps = [*steps[-1:], self._step(order)]
@@ -365,11 +364,6 @@ class _ValueSearch:
             return StepWithin(order)
 
     def _examined(self, order: int) -> StepWithin:
-        """Results for one order.
-
-        Raises:
-            NotDecided: the time limit has passed.
-        """
         import numpy as np
 
         if self.family.impossible or self.family.unsettled:
@@ -409,7 +403,6 @@ class _ValueSearch:
 
     @property
     def unknowns(self) -> int:
-        """The number of parameters and roots of them."""
         return len(self.printed.family.ring.names)
 
     def _start(self) -> list[fmpq]:
@@ -427,7 +420,6 @@ class _ValueSearch:
     def _solutions(
         self, system: RoundedSystem, order: int, start: Sequence[arb]
     ) -> Iterator[Solved]:
-        """Solutions of the printed conditions up to the rounding."""
         noise = arb(to_float(self.tolerance) ** (2 / 3))
         first = system.solve(start, noise)
         if first is not None:

@@ -333,7 +333,6 @@ def _bits(number: Number) -> int:
 
 
 def _length(p: fmpq_poly) -> int:
-    """The bits of the longest integer in a polynomial."""
     return max(int(p.numer().height_bits()), p.denom().bit_length())
 
 

@@ -170,7 +170,6 @@ class Algebraic:
         return None
 
     def _of_sum(self, poly: fmpq_poly) -> Number:
-        """The element of a polynomial of degree below that of the field."""
         return Algebraic(self.field, poly) if poly.degree() > 0 else poly[0]
 
     def __add__(self, other: object) -> Number:

@@ -91,7 +91,6 @@ class _FormulaParser(Parser):
 
 
 def _cure_of(name: str) -> tuple[str, str]:
-    """The cure for an unknown function, and the one that was meant."""
     if name in _CURES:
         return _CURES[name], ""
     known = (*FUNCTIONS, "sqrt")

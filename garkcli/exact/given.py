@@ -127,7 +127,6 @@ def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
 
 
 def _unreadable(x: Any, where: str) -> MethodError:
-    """The error for a SymPy expression that is no coefficient."""
     if getattr(x, "is_Float", False):
         cure = "give it exactly, as a Rational or a text"
         message = f"{where}: {_shown(x)} is a rounded number"

@@ -166,7 +166,6 @@ def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) 
 
 
 def _multiplicity(p: fmpz_poly, factor: fmpz_poly) -> int:
-    """The multiplicity of an irreducible factor in a polynomial over ℚ."""
     rest, divisor = fmpq_poly(p), fmpq_poly(factor)
     count = 0
     while True:

@@ -112,7 +112,6 @@ def rational_text(number: fmpq) -> str:
 
 
 def _power(number: fmpz, prime: int) -> int:
-    """The multiplicity of a prime in a number."""
     times = 0
     while number % prime == 0:
         number //= prime

@@ -20,7 +20,6 @@ _FIRST = ("collocation", "explicit", "sdirk2", "extrapolated", "deferred")
 
 
 def _families() -> Iterator[MethodFamily]:
-    """The families of all modules here."""
     for name in sorted([file.name for file in pkgutil.iter_modules(families.__path__)], key=_place):
         if name != "registry":
             yield from getattr(import_module(f"garkcli.families.{name}"), "FAMILIES", ())

@@ -90,7 +90,6 @@ def with_values(text: str, root: MappingNode, name: str, values: Mapping[str, st
 
 
 def _with_block(text: str, root: MappingNode, name: str, values: Mapping[str, str]) -> str:
-    """Returns a file with a new key at the end."""
     if not values:
         return text
     # below the last key and comment, before ... of YAML, as far in as the keys are
@@ -104,7 +103,6 @@ def _with_block(text: str, root: MappingNode, name: str, values: Mapping[str, st
 
 
 def _replacements(text: str, there: MappingNode, values: Mapping[str, str]) -> Iterator[Edit]:
-    """Yields the edits for keys that are in the mapping."""
     for key, node in there.value:
         value = values.get(key.value)
         is_plain = isinstance(node, ScalarNode)

@@ -177,7 +177,6 @@ def _history(
 
 
 def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
-    """The energy errors of ``count`` steps, fewer after a blow-up."""
     is_exact = conserves_energy(R, omega)
     if is_exact:
         values: Floats = np.zeros(count + 1)
@@ -217,7 +216,6 @@ def _verdict(
 
 
 def _shape(verdict: histories.Verdict, line: FittedLine) -> Shape:
-    """The shape of a drift: a line if its slope can be distinguished from 0."""
     if verdict not in ("drifts", "undecided"):
         return "none"
     return "line" if abs(line.slope) > line.uncertainty else "curve"

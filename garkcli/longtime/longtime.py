@@ -145,13 +145,11 @@ class _Judge(Frozen):
 
     @cached_property
     def is_symplectic(self) -> bool:
-        """Whether the coefficients make the steps symplectic."""
         problem = self.problem
         return isinstance(problem, Hamiltonian) and is_proved(self.tableau, problem, self.tolerance)
 
     @property
     def escape(self) -> int | None:
-        """The last step before the orbit escapes, if the energy error is large; None otherwise."""
         record = self.record
         if record.blew_up:
             return None
@@ -160,7 +158,6 @@ class _Judge(Frozen):
         return record.excursions.escape if is_wrong else None
 
     def history(self, k: int, noise: float) -> histories.InvariantHistory:
-        """The history of the invariant ``k``, whose errors have the uncertainty ``noise``."""
         record, h = self.record, to_float(self.step)
         # the bound is one of the energy; other invariants are taken to change in proportion
         share = 1.0 if k == 0 else self._size(k) / self._size(0)

@@ -182,7 +182,6 @@ class Trends:
         sums[2] += w @ (x * x)
 
     def _fitted(self, signal: int) -> Windows:
-        """The lines through all windows."""
         W, Wu, Wuu = self._weights.T
         X, Xu, Xx = self._sums[:, :, signal].T
         # the normal equations of level + slope · u, by Cramer's rule

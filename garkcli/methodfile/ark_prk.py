@@ -144,7 +144,6 @@ def _part(at: NumbersReader, node: Node, part: str) -> d.ButcherText | None:
 def _fitted(
     at: NumbersReader, text: d.ButcherText, part: str, shape: tuple[int, int], why: str
 ) -> d.ButcherText:
-    """Returns a part whose matrix has the shape required by the weights of both parts."""
     keys = key_nodes(text.node)
     A = at.numbers.fitted(text.A, keys.get("A", text.node), f"{part}.A", shape, why)
     if text.c is not None:

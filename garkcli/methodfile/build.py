@@ -296,7 +296,6 @@ class Builder(Generic[V]):
         return further if own is None or own.finish is None else own.finish(further)
 
     def _predictor(self, text: d.PredictorText | None) -> Predictor | None:
-        """Returns the predictor of a method of one colour; None without one."""
         if text is None:
             return None
         from garkcli.order.predictor import check_predictor

@@ -129,7 +129,6 @@ def _weights(at: NumbersReader, node: Node, name: str, derivatives: int) -> Rows
 
 
 def _matrix(at: NumbersReader, node: Node, name: str, stages: int) -> Rows:
-    """Returns the matrix, filled with zeros."""
     rows = at.numbers.matrix(node, name) if at.source.items(node, name, _FORM) else ()
     longest = max([len(rows), *map(len, rows)], default=0)
     if longest > stages:

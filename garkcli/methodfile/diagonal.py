@@ -108,7 +108,6 @@ def _is_too_large(
 
 
 def _method(at: NumbersReader, node: Node, l: int) -> d.FamilyText | d.ButcherText | None:
-    """Reads the method of colour ``l``, counted from 1."""
     node = _in_a_word(node) or node
     keys, where = keys_of(node), f"method {l}"
     if isinstance(node, ScalarNode):
@@ -173,7 +172,6 @@ def _written_out(node: ScalarNode) -> str:
 
 
 def _family(at: NumbersReader, node: Node, where: str) -> tuple[d.FamilyText, Entries] | None:
-    """Reads a member of a family with its keys; None after a fault."""
     before = len(at.source.faults)
     family = _family_named(node)
     barred = set() if family is None else OPTIONS.keys() - set(family.keys)

@@ -85,7 +85,6 @@ def load_family(
 
 
 def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
-    """Returns the error for a method in place of a family."""
     if settings:
         message = f"{source} has no free parameter left"
         return MethodError(message, "gark check --set judges one method", code="free-parameters")

@@ -222,7 +222,6 @@ class _FamilyDomain(Domain):
             raise LimitExceeded(message, cure, at.start, at.end)
 
     def _note_divisor(self, number: Number) -> None:
-        """Records the zeros of a divisor, which may cancel."""
         p, _ = parametric.fraction(number, self.ring)
         if not p.is_constant():
             self.divisors.append(p)

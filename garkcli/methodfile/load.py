@@ -89,7 +89,6 @@ def read_method_text(path: str) -> tuple[str, str]:
 
 
 def _of_folder(path: str) -> Remark:
-    """Returns the fault of a folder in place of a method."""
     try:
         os.scandir(path).close()
     except OSError as error:

@@ -199,7 +199,6 @@ def _only(name: str, methods: Sequence[shelving.Shelved]) -> shelving.Shelved:
 
 
 def _unknown(name: str, files: Sequence[str]) -> Remark:
-    """Returns the fault for an argument that is neither a file nor a name."""
     message = "no such file, and no method of this name in the catalogue"
     if files:
         cure = f"did you mean {' or '.join(map(repr, files))}?"

@@ -188,7 +188,6 @@ class Numbers(Mutable):
         self.define(name, value)
 
     def _value(self, node: Node, where: str) -> Expanded:
-        """Returns the value of a text, zero after a fault."""
         if isinstance(node, MappingNode) and is_bare_unknown(node):
             message = f"YAML reads a bare {UNKNOWN} as a key"
             cure = f'quote it: "{UNKNOWN}"'

@@ -114,7 +114,6 @@ def _read(at: Any, node: yaml_nodes.Node, _: str) -> None:
 
 
 def _names_alone(node: yaml_nodes.Node) -> list[str]:
-    """Returns the names in a list without values, or a single one."""
     nodes = node.value if isinstance(node, yaml_nodes.SequenceNode) else [node]
     words = [x.value for x in nodes if isinstance(x, yaml_nodes.ScalarNode)]
     return [x for x in words if x.isidentifier() and x.isascii() and x not in FUNCTIONS]

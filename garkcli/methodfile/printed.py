@@ -265,12 +265,10 @@ def _literals(expression: Expression) -> Iterator[Literal]:
 
 
 def _digits(literal: Literal) -> int:
-    """Returns the number of digits of a literal, without leading zeros."""
     return len(literal.text.lower().partition("e")[0].replace(".", "").lstrip("0"))
 
 
 def _decimals(literal: Literal) -> int:
-    """Returns the number of digits behind the point."""
     mantissa, _, exponent = literal.text.lower().partition("e")
     return len(mantissa.partition(".")[2]) - int(exponent or 0)
 
@@ -315,7 +313,6 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
 
 
 def _radius(ball: arb) -> fmpq:
-    """Returns the radius of a ball, rounded up to a digit or two; 1 if it is infinite."""
     if not ball.is_finite():
         return fmpq(1)
     radius = ball.rad()

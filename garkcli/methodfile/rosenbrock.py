@@ -254,7 +254,6 @@ def _text(
 
 
 def _several(at: NumbersReader, node: Node, entries: g.ReadMapping) -> RosenbrockText | None:
-    """Reads a method of several colours."""
     before = len(at.source.faults)
 
     def rows(key: str) -> Rows | None:
@@ -315,7 +314,6 @@ def _row(at: NumbersReader, entries: g.ReadMapping, name: str, stages: int) -> R
 
 
 def _diagonal(at: NumbersReader, node: Node, stages: int) -> tuple[Coefficient, ...]:
-    """Reads the γ_ii, one for each stage."""
     row = at.numbers.row(node, "gamma")
     if isinstance(node, ScalarNode):
         return row * stages

@@ -412,7 +412,6 @@ def _block_row(at: NumbersReader, l: int, node: Node, b: Weights) -> tuple[Rows 
 
 
 def _block(at: NumbersReader, node: Node, l: int, m: int, b: Weights) -> Rows | None:
-    """Reads the block A^{l,m}; None for null."""
     if is_null(node):
         return None
     where, (rows, columns) = d.block_name(l, m), (len(b[l]), len(b[m]))
@@ -424,7 +423,6 @@ def _block(at: NumbersReader, node: Node, l: int, m: int, b: Weights) -> Rows | 
 
 
 def _node_rows(at: NumbersReader, node: Node | None, b: Weights) -> tuple[Row | None, ...]:
-    """Reads the nodes of each colour; None for those left out."""
     items = [] if node is None else at.source.items(node, "c")
     cure = "give a row per colour, null where they are left out"
     if node is None or not one_each(at, node, "c", items, "row", "colour", len(b), cure):

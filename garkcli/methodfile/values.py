@@ -55,7 +55,6 @@ class Values:
         return gark([method], {})
 
     def _evaluate(self, numbers: Numbers, domain: Domain) -> dict[int, Number]:
-        """Returns the values of expressions by identity; missing ones are reported."""
         known: dict[int, Number] = {}
         for entry in numbers.entries:
             key = id(entry.expression)
@@ -91,7 +90,6 @@ class Values:
 
 
 def _note_faults(numbers: Numbers, entries: Iterable[Coefficient]) -> None:
-    """Reports each coefficient without a real value; no field is constructed."""
     for entry in entries:
         error = _fault_of(entry)
         if error is not None:
@@ -125,7 +123,6 @@ def _note(numbers: Numbers, entry: Coefficient, error: ExpressionError) -> None:
 
 
 def _identities(expression: Expression) -> Iterator[int]:
-    """Yields the identities of an expression and its parts."""
     yield id(expression)
     for part in parts(expression):
         yield from _identities(part)

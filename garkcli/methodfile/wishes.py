@@ -38,7 +38,6 @@ _VALUES = {
 
 
 def _wanted() -> Iterator[Key]:
-    """Yields the demands, each for all colours or for some."""
     from garkcli.constructions.wants import EVERY  # few files have them
 
     for name, want in EVERY.items():

@@ -189,7 +189,6 @@ def _decimal_text(number: Number) -> str:
 
 
 def _rationals(tableau: Tableau) -> Iterator[fmpq]:
-    """Yields the coefficients of a tableau with rational coefficients."""
     yield from (x for x in chain.from_iterable(tableau.rows) if isinstance(x, fmpq))
 
 
@@ -275,7 +274,6 @@ def _further_of_part(further: Further, colour: int, text: NumberText) -> list[st
 
 
 def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
-    """Yields the lines of the block A^{l,m}, null if it does not exist."""
     block = tableau.block(l, m)
     dash = "    - -" if m == 0 else "      -"
     comment = f"  # {block_name(l, m)}" if tableau.size > 1 else ""
@@ -287,7 +285,6 @@ def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
 
 
 def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
-    """Returns the lines of the form ``prk``."""
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
         block = tableau.blocks[tableau.colours[seen_at].space, drives]

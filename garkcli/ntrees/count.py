@@ -178,7 +178,6 @@ class _Growing:
         self.sums = [fmpz(0)] * order
 
     def trees(self, n: int) -> fmpz:
-        """The number of trees of order n with this root."""
         rest = n - self.kind.weight
         arity = self.kind.arity
         if rest <= 0:

@@ -204,7 +204,6 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
 
 
 def _tikz_style(colour: int) -> str:
-    """The style of a vertex with a number."""
     fill, ink = map(_tikz_colour, paint(colour))
     shape = "circle,draw,inner sep=0pt,minimum size=4mm"
     colours = f"fill={fill},text={ink}"
@@ -325,7 +324,6 @@ def _svg_tree(vertices: Vertices, middle: float, ground: float, has_colours: boo
 
 
 def _svg_dot(colour: int, x: float, y: float, has_number: bool) -> list[str]:
-    """A vertex, with the number of its colour if ``has_number``."""
     if not has_number:
         return [f'<circle {_pixels(cx=x, cy=y)} r="{RADIUS / 2:g}" fill="#333333"/>']
     fill, ink = paint(colour)

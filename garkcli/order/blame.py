@@ -108,7 +108,6 @@ def count_entries(method: Tableau, missed: MissedOrder) -> int:
 
 
 def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator[RepairedEntry]:
-    """The entries of blocks and weights of point stages."""
     for l, m in [] if only_weights else named_blocks(method):
         if not (_has_points(method, l) and _has_points(method, m)):
             continue
@@ -278,7 +277,6 @@ def slip_of(method: AnyTableau, missed: MissedOrder, found: AnyOrder) -> Blame |
 def _restoring(
     method: AnyTableau, missed: MissedOrder, failing: Tree
 ) -> Iterator[tuple[Repair, int]]:
-    """Repairs with the orders that they give."""
     if not isinstance(method, Tableau):
         from garkcli.order.suspects import suspects  # slopes, which exact methods do without
 

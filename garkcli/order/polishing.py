@@ -91,7 +91,6 @@ class _Polishing:
         self.end = 1 + arb(2) ** -(bits // 2)
 
     def nearest(self, shifts: Sequence[fmpq]) -> BoxPlace:
-        """The method nearest to the print, starting from some shifts."""
         x = [*shifts]
         slopes: arb_mat | None = None
         goal, before = arb(2) ** -self.bits, arb(2)

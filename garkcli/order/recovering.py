@@ -290,7 +290,6 @@ class Recovery(SearchedBox):
         return limit, None
 
     def _try(self, orders: Mapping[str, int]) -> RecoveryFailure | None:
-        """Moves to a method with further orders, or returns why there is none."""
         before = self.place, self.shape, self.system
         failure = self._reach({**self._reached, **orders})
         if failure is None:
@@ -311,7 +310,6 @@ class Recovery(SearchedBox):
         return RecoveryFailure(is_proved=False)
 
     def _missed(self, orders: Mapping[str, int]) -> dict[str, list[Tree]]:
-        """The trees up to some orders that the method misses now, by the name of the tableau."""
         found = {
             name: [u for q in range(1, order + 1) for u in self.place.missed(name, q)]
             for name, order in orders.items()

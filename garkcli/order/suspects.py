@@ -173,7 +173,6 @@ def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_
 def _candidates(
     search: Recovery, name: str, order: int, among: Container[int] | None = None
 ) -> list[_Candidate]:
-    """The numbers one of which may be wrong if an order is to hold."""
     missed = [u for q in range(1, order + 1) for u in search.origin.missed(name, q)]
     system = search.independent({name: {of_tree(u): [0] for u in missed}}, search.origin)
     if not any(system.values()):

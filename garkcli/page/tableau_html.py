@@ -23,7 +23,6 @@ def tableau_lines(tableau: Tableau, entries: Entries, name: str = "") -> list[st
 def _rows(
     tableau: Tableau, entries: Entries, stages: Sequence[int], colours: Sequence[int]
 ) -> Iterator[str]:
-    """Yields the stages of each colour of ``stages``, then the rows of weights."""
     if len(colours) > 1:
         yield _heads(tableau, entries, colours)
     for line in lines_of(entries, stages, colours):
@@ -72,5 +71,4 @@ def _table(title: str, rows: Iterable[str]) -> str:
 
 
 def _text(text: str) -> str:
-    """Returns a text without control characters, escaped for HTML."""
     return escape(printable(text))

@@ -79,7 +79,6 @@ def _array(
 
 
 def _dense(entries: Entries) -> Iterator[str]:
-    """Yields the polynomials of dense output, one per line."""
     if entries.dense is None:
         return
     yield r"\["

@@ -119,12 +119,10 @@ def _shared_rows(tableau: Tableau, width: int) -> list[str]:
 
 
 def _named(letter: str, tableau: Tableau, *colours: str) -> str:
-    """Returns a letter with the names of its colours, if there are several."""
     return f"{letter}{{{','.join(colours)}}}" if tableau.size > 1 else letter
 
 
 def _dense(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[str]:
-    """Returns the polynomials of dense output, one row for each stage."""
     if entries.dense is None:
         return []
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]
@@ -135,7 +133,6 @@ def _dense(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[s
 
 
 def _predictor(entries: Entries, width: int, text: Text) -> list[str]:
-    """The weights that predict stages, a block for each power of r."""
     lines = []
     for name, matrices in entries.predictor:
         lines += ["", f"predictor, weights of {_SLOPES[name]}, h = r h_old", ""]
@@ -188,7 +185,6 @@ def _columns_that_fit(cells: Sequence[Sequence[str]], width: int) -> list[range]
 
 
 def _numbers(columns: range) -> str:
-    """Returns the numbers of columns from 1 as text."""
     first, last = columns.start + 1, columns.stop
     if first == last:
         return f"column {first}"

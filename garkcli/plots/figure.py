@@ -83,7 +83,6 @@ def _set_axis(drawn: Any, axis: scenes.Axis, most: int) -> None:
 
 
 def _line(shape: scenes.Curve | scenes.Area) -> dict[str, Any]:
-    """Returns the line style of a shape for matplotlib."""
     style = shape.style or 0
     rounds, place = divmod(style, len(scenes.COLOURS))
     dashes = scenes.DASHES[(style + rounds) % len(scenes.DASHES)]
@@ -137,7 +136,6 @@ def _rule(axes: Axes, rule: scenes.RuledLine) -> None:
 
 
 def _add_legend(axes: Axes, named: Sequence[scenes.Curve | scenes.Area], distance: float) -> None:
-    """Adds the legend below the axes."""
     if not named:
         return
     handles = [

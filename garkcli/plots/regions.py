@@ -357,7 +357,6 @@ def _area(
     is_order_star: bool = False,
     edge: float = _EDGE,
 ) -> scene.Area:
-    """Returns the region |R(z)| ≤ 1, or |R(z)| > |e^z|."""
     P, Q = _floats(R.numerator), _floats(R.denominator)
 
     def over(row: Sequence[complex]) -> list[float]:
@@ -403,7 +402,6 @@ def _window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> _W
 
 
 def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
-    """Returns the distances of the zeros and poles from 0, ascending."""
     sizes = []
     for R in functions:
         for p in (R.numerator, R.denominator):

@@ -133,18 +133,15 @@ class _Frame:
         self.bottom = self.top + height
 
     def across(self, x: float) -> float:
-        """Returns the horizontal position of a coordinate."""
         return self.left + self.width * (x - self._x.low) / (self._x.high - self._x.low)
 
     def down(self, y: float) -> float:
-        """Returns the vertical position of a coordinate."""
         return self.bottom - self.height * (y - self._y.low) / (self._y.high - self._y.low)
 
     def path(self, points: Iterable[scene.Point]) -> str:
         return _path((self.across(x), self.down(y)) for x, y in points)
 
     def axes(self, panel: scene.Panel) -> Iterator[str]:
-        """Yields the frame, the marks and the labels of both axes."""
         left, bottom = self.left, self.bottom
         middle = left + self.width / 2, self.top + self.height / 2
         box = {"x": left, "y": self.top, "width": self.width, "height": self.height}

@@ -68,7 +68,6 @@ class _Picture:
     # places
 
     def row(self, y: float) -> int:
-        """Returns the row of a coordinate, from the top."""
         axis = self.panel.y
         return round((axis.high - y) / (axis.high - axis.low) * (self.height - 1))
 
@@ -175,7 +174,6 @@ class _Picture:
     # the frame
 
     def lines(self) -> list[str]:
-        """Returns the note, the frame with its labels, and the legend."""
         panel, cells, spelt = self.panel, self.cells(), self.spelt
         blank = " " * self.margin
         columns = {self.column(mark.at): mark for mark in panel.x.marks(max(self.width // 7, 2))}
@@ -202,7 +200,6 @@ class _Picture:
         return line
 
     def legend(self, cells: _Cells) -> list[str]:
-        """Returns the legend, as many entries on a line as fit."""
         named = [x for x in self.panel.legend if x.label != sign_of(x)]
         # a dot alone is a dot in ASCII, and between blanks a product
         signs = [self.spelt(sign_of(x)) for x in named]

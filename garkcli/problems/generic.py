@@ -91,7 +91,6 @@ class _Form(Frozen):
 
 
 def _forms(draw: Draw, variables: int, sums: int, divisor: int) -> list[_Form]:
-    """Random forms in ``variables`` variables, for ``sums`` sums."""
     forms = []
     for _ in range(_FORMS):
         slopes = [fmpq(draw.sign() * draw.between(3, 12), 20) for _ in range(variables)]

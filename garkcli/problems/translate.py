@@ -52,7 +52,6 @@ class Translator(Frozen):
         return name.name in self.values or name.name in CONSTANTS
 
     def _check_exponent(self, exponent: nodes.Expression) -> None:
-        """Refuses an exponent with variables."""
         for name in names_in(exponent):
             if not self._is_constant(name):
                 message = f"the exponent depends on {name.name}"

@@ -123,7 +123,6 @@ class Subject(Frozen):
             self._spent.append(processor_time() - before)
 
     def _excludes(self, key: str) -> bool:
-        """Whether no method within the rounding has a property."""
         return self.printed is not None and find(key).decide(self.printed).value is False
 
     @cached_property

@@ -84,7 +84,6 @@ def _tree_rows(proof: Proof, d: Plain) -> list[tuple[str, str]]:
 
 
 def _texts(polynomial: fmpq_poly) -> list[str]:
-    """Coefficients, lowest first."""
     return [str(a) for a in polynomial.coeffs()]
 
 
@@ -187,7 +186,6 @@ def _all(found: Iterable[P], tableau: Tableau) -> list[In[P]]:
 
 
 def _witness(proof: Proof) -> In[Witness] | None:
-    """The tree that fails; None if the search ended at its limit."""
     witness = proof.order.witness
     return None if witness is None else In(witness, proof.tableau.degree)
 
@@ -216,7 +214,6 @@ PROOF: Section[Proof] = Section(
 
 
 def _pair(proof: MethodProof) -> Proof | None:
-    """The pair, if the method has the conjugate that it is made with."""
     return None if proof.conjugate is None else proof.pair
 
 
@@ -381,7 +378,6 @@ Print Assumptions all_theorems.
 
 
 def _comment(text: str) -> str:
-    """Text that no comment ends with and no string begins with."""
     return re.sub(r"[^A-Za-z0-9 .,:+/-]", " ", text)
 
 

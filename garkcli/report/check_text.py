@@ -64,7 +64,6 @@ def render(
 
 
 def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
-    """A file in a line, with failed claims below."""
     if not (is_quiet and outcome.ok):
         claims_pair = any(claim.claim == "pair-order" for claim in outcome.claims)
         names = {key: name for key, name in SHORT.items() if key != "pair_order" or claims_pair}

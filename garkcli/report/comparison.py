@@ -236,7 +236,6 @@ def _work(compared: ConvergedMethods) -> list[StepCost]:
 
 
 def _equal(what: str) -> Row[ConvergedMethods]:
-    """A table of what equal errors cost."""
     return Row(
         f"{what}_at_equal_errors",
         shown(EQUAL, MOST_METHODS),
@@ -250,7 +249,6 @@ def _remark_rows(remarks: Sequence[tuple[str, str]], d: Plain) -> list[tuple[str
 
 
 def _problem(compared: ConvergedMethods) -> str:
-    """The problem that all solve, without its split."""
     if not compared.tested:
         return ""
     _, first = compared.tested[0]

@@ -76,7 +76,6 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
 def _results(
     criteria: Criteria, tasks: list[list[Point]], jobs: int, scheduler: str
 ) -> Iterator[Result]:
-    """Yields the results; tasks that end their worker are repeated method by method."""
     ended: list[Sequence[Point]] = []
 
     def crashed(points: Sequence[Point], why: str) -> Result:

@@ -82,7 +82,6 @@ def _shortened(known: Rank, point: Point) -> Point:
 
 
 def _is_as_good(known: Rank, other: Point, point: Point) -> bool:
-    """Whether another point has a method that is not worse."""
     rank = known(other)
     return rank is not None and bool(rank >= known(point))
 
@@ -108,7 +107,6 @@ def _climbed(known: Rank, point: Point) -> Point:
 
 
 def _neighbours(point: Point, step: fmpq) -> Iterator[Point]:
-    """The points around a point, with one or two coordinates changed."""
     size = len(point)
     for signs in checked(product((-1, 0, 1), repeat=size)):
         if size - signs.count(0) in {1, 2}:

@@ -113,7 +113,6 @@ class Minimisation(Mutable):
         """Adds the candidates of a part of larger dimension."""
 
     def _certified(self, candidate: Candidate) -> Candidate:
-        """The candidate with its order by the certificate."""
         solution = candidate.found.solution
         of_method = self.design.family, self.design.whose, solution
         certified = Found(

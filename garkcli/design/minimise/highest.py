@@ -180,12 +180,6 @@ class _Line:
                     yield Toward(self._limit((left, right), is_right), end, is_right)
 
     def _limit(self, cell: tuple[RealRoot | None, RealRoot | None], is_right: bool) -> Size:
-        """The limit of the level at an end of an interval.
-
-        It is the y of a point where curves meet the line at the end, or 0 or infinity, and rational
-        numbers between these decide which: near enough to the end no curve has any of them as its
-        y.
-        """
         check_time()
         end = cell[1] if is_right else cell[0]
         meeting, gaps = self._meeting(end)
@@ -250,7 +244,6 @@ def _stationary(of_curves: Iterable[fmpq_mpoly]) -> Iterator[Polynomial]:
 
 
 def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot | None]]:
-    """The open intervals between points."""
     return list(pairwise([None, *points, None]))
 
 

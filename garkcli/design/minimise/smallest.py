@@ -217,7 +217,6 @@ class Smallest(Minimisation):
         return not (self.step.nonzero or family.positive or family.stable or family.radicals)
 
     def _is_bounded(self, part: Part, best: RealRoot) -> bool:
-        """Whether no method of a part has a smaller value, up to rounding for irrational ones."""
         if part.dimension == 0 or (part.is_free and part.dimension == 1):
             return self.is_settled(part)
         return self._is_above(part, self._bound(best))
@@ -228,7 +227,6 @@ class Smallest(Minimisation):
         return best.exact is not None and best in [*sharp, *(x.value for x in self.limits)]
 
     def _bound(self, best: RealRoot) -> fmpq:
-        """A rational value itself, else a short number below it by at most ``SLACK`` of it."""
         if best.exact is not None and self._is_sharp(best):
             return best.exact
         about = midpoint(best.ball(BITS))
@@ -295,7 +293,6 @@ class Smallest(Minimisation):
         return value_at(quotient.numerator / quotient.denominator, solution.real[index])
 
     def _formula(self, part: Part) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-        """The objective as a function of the coordinates of a part."""
         quotient = self.objective.formula(self.subject(part.values), part.ring)
         return fraction(part.ring.quotient(quotient.numerator, quotient.denominator), part.ring)
 
@@ -318,7 +315,6 @@ class Smallest(Minimisation):
             self.limits.append(ObjectiveLimit(toward.value, name, toward))
 
     def _over_interval(self, part: Part, name: str, interval: Interval) -> None:
-        """Adds one method for an interval on which the objective is constant."""
         if interval.is_point:
             assert interval.start is not None
             root = interval.start
@@ -380,7 +376,6 @@ class Smallest(Minimisation):
         return midpoint(root.ball(BITS))
 
     def _over_smaller(self, part: Part, zeros: list[fmpq_mpoly]) -> None:
-        """Adds the candidates of a subset of a part."""
         for smaller in parts_within(part, zeros):
             if smaller.dimension < part.dimension:
                 self.over(smaller)

@@ -121,7 +121,6 @@ _KEYS = g.mapping(
 
 
 def _read(at: PartReader, entries: g.ReadMapping, where: str) -> ConstructionText | None:
-    """Reads the methods and their substeps."""
     before, node = len(at.source.faults), entries.node
     steps = [*_steps(at, entries, where)]
     if "processor" in entries:

@@ -114,7 +114,6 @@ _KEYS = g.mapping(
 
 
 def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText:
-    """Reads the method and the numbers of its substeps."""
     plan = _Plan(
         entries.get("sequence", "harmonic"),
         entries.get("order", 0),

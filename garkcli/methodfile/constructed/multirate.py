@@ -280,8 +280,6 @@ class StepPredictor(Frozen):
 
 
 def _mis(part: PartText) -> Callable[[TableauOf, Values], mri.Coupling]:
-    """Returns the coupling by a constant forcing."""
-
     def coupling(tableau_of: TableauOf, values: Values) -> mri.Coupling:
         row = _embedded_of(part)
         embedded = None if row is None else values.vector(row)
@@ -299,7 +297,6 @@ def _embedded_of(part: PartText) -> Row | None:
 def _generalized(
     at: PartReader, entries: g.ReadMapping
 ) -> Callable[[TableauOf, Values], mri.Coupling]:
-    """Returns the coupling by α, β and γ."""
     stages = len(entries["beta"])
     parts = [
         _whole(at, entries[key], entries.nodes[key], key, stages + 1)
@@ -326,7 +323,6 @@ def _coupling_by_name(
 
 
 def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText | None:
-    """Reads the methods and their coupling."""
     before = len(at.source.faults)
     kept: tuple[PartText, ...] = ()
     rounding = None
@@ -350,7 +346,6 @@ def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText | 
 
 
 def _coupled(at: PartReader, entries: g.ReadMapping) -> Make:
-    """Returns two methods with a coupling by name, or by matrices."""
     coupling = entries.get("coupling", SLOWEST_FIRST)
     is_exact = entries["fast"] == EXACT
     if isinstance(coupling, g.ReadMapping) and "gamma" in coupling:

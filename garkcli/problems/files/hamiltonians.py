@@ -75,7 +75,6 @@ class HamiltonianMaker(texts.Maker):
         )
 
     def _initial(self) -> dict[str, fmpq] | None:
-        """Returns the initial values by names; None if they are incomplete."""
         node = self.text.initial
         if node is None:
             return None
@@ -97,14 +96,12 @@ class HamiltonianMaker(texts.Maker):
         return values if len(self.source.faults) == before else None
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
-        """Returns names with the cure if they may not occur in a formula, or "" if they may."""
         others = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
         return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
 
     def _transformed(
         self, lagrangians: list[texts.FormulaTerm], start: dict[str, fmpq]
     ) -> tuple[list[texts.FormulaTerm], dict[str, fmpq]]:
-        """Returns the Hamiltonian terms, and the initial values with momenta."""
         velocities = set(self.v)
         moving = [x for x in lagrangians if x.made.free_symbols & velocities]
         if not moving:
@@ -176,7 +173,6 @@ class HamiltonianMaker(texts.Maker):
     def _refuse_constants(
         self, terms: Sequence[texts.FormulaTerm], invariants: Sequence[texts.FormulaTerm]
     ) -> None:
-        """Reports a Hamiltonian without motion, and constant invariants."""
         from garkcli.problems.vectorfield import is_constant
 
         total = sum(x.made for x in terms)

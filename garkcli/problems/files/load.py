@@ -89,7 +89,6 @@ class _Variables(Frozen):
                 self.source.fault(key, message, _ANOTHER, code="name-taken")
 
     def _derived(self) -> dict[str, str]:
-        """Returns the names that belong to variables, and their meaning."""
         if self.form == "rhs":
             return {TIME: "time"}
         letters = {"p": "momentum"} | ({"v": "velocity"} if self.form == "lagrangian" else {})
@@ -169,7 +168,6 @@ class _ProblemReader:
         )
 
     def _places(self, root: Node, entries: Entries) -> Entries:
-        """Returns the names of the variables and their nodes; faults are reported."""
         places: Entries = {}
         if "variables" not in entries:
             cure = "name the positions, for instance variables: [x, y]"

@@ -92,7 +92,6 @@ class SidesMaker(Maker):
         }
 
     def _exact(self) -> ByName | None:
-        """Returns the exact solution by names; None without one, or after a fault."""
         node = self.text.exact
         if node is None:
             return None
@@ -106,7 +105,6 @@ class SidesMaker(Maker):
         return solution if len(self.source.faults) == before else None
 
     def _initial(self, exact: ByName | None) -> Start | None:
-        """Returns the initial values by names; None if they are incomplete."""
         started = None if exact is None else self._start_of(exact)
         node = self.text.initial
         if node is None:
@@ -133,7 +131,6 @@ class SidesMaker(Maker):
                 self.source.fault(term.node, message, cure, code="no-solution")
 
     def _start_of(self, exact: ByName) -> Start | None:
-        """Returns the exact solution at t = 0; None if it has no value there."""
         start = {}
         for name, term in exact.items():
             where = f"{term.where} at t = 0"
@@ -148,7 +145,6 @@ class SidesMaker(Maker):
         terms: Sequence[ByName],
         invariants: Sequence[FormulaTerm],
     ) -> None:
-        """Reports right-hand sides that are all zero, and invariants that are constant."""
         parts = ([x[name].made for x in terms if name in x] for name in self.text.variables)
         if not any(sum(made) != 0 for made in parts):
             message = "nothing moves: the right-hand sides sum to 0"
