@@ -33,10 +33,7 @@ class Work(Mutable, eq=False):
     """A piece of work.
 
     Attributes:
-        what: its name, a few words.
         total: the number of its parts; None if unknown.
-        listener: the listener, if any.
-        done: the number of parts that are done.
     """
 
     what: str

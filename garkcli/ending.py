@@ -34,7 +34,6 @@ class _RunningWork(Mutable, eq=False):
     """A run of the command line.
 
     Attributes:
-        signals: the signals that end it.
         undoing: the number of things that have to be undone.
     """
 

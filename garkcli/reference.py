@@ -16,20 +16,13 @@ class Reference(Frozen, kw_only=True):
 
     Attributes:
         authors: each as printed, such as ``J. C. Butcher``.
-        title: the title of the work.
         year: four digits, perhaps with a letter.
         type: one of ``WORKS``; empty if the other fields determine it.
-        journal: its journal.
-        volume: the volume of the journal or series.
         number: the number of the issue or report.
-        pages: first and last page.
         book: the title of the book of a chapter, or of proceedings.
         editors: the editors of that book.
-        edition: such as ``2``.
-        publisher: the publisher of a book.
         institution: the institution of a report or thesis.
         where: the place in the work, such as ``table 2``.
-        doi: without the address before it.
         url: an address of its own.
         note: anything else that readers need.
         coefficients: the source of the digits of the file.

@@ -133,7 +133,6 @@ class _Entry(Frozen):
 
     Attributes:
         rule: makes a block, or the first of two for a pair.
-        summary: one line for people.
         makes_both: whether the opposite block is its symplectic conjugate.
     """
 

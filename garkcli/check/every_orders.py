@@ -29,7 +29,6 @@ class EveryOrder(Frozen):
     """An order of a family.
 
     Attributes:
-        tableau: the tableau with this order.
         fact: the order, with the exceptional values; ``zeros`` are the polynomials at whose common
             zeros it is higher.
         witness: a tree whose condition fails for some values, its elementary weight a rational

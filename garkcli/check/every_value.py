@@ -34,15 +34,9 @@ class EveryValue(Frozen):
     """The facts about a family for all values of its parameters.
 
     Attributes:
-        file: the file.
         family: its family, with the fixed values substituted.
         limit: where the searches for orders and for B, C and D stop.
-        order: the order of the method.
-        conjugate_order: the order of its symplectic conjugate; None if a weight is zero.
-        pair_order: the order of the symplectic pair; None if a weight is zero.
-        obstacle: why there is no conjugate; empty if there is one.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
-        symplectic: whether it is its own conjugate.
         embedded_order: the order with the embedded weights in place of b; None without.
     """
 

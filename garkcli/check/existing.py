@@ -42,9 +42,6 @@ class ExistenceProof(Shown, Frozen):
     """A proof that a method whose numbers are within their radii has an order.
 
     Attributes:
-        name: of the printed method.
-        order: the order within the tolerance.
-        numbers: the printed numbers that its entries are made of.
         tableau: its entries say how: traces and exact numbers.
         conditions: all trees up to the order, each with its column of W (``order.existence``).
         witness: trees with factors whose sum of conditions vanishes for no method within the radii;

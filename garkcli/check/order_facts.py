@@ -185,13 +185,7 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
     """The orders of a method that has several kinds of them.
 
     Attributes:
-        tableau: the tableau of the method.
-        orders: its orders.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None for exact coefficients.
-        embedded: the facts about its embedded weights, or None.
-        dense: the facts about its dense output, or None.
-        further: its embedded and dense weights.
     """
 
     tableau: Tableau
@@ -247,12 +241,7 @@ class OrderFacts(Shown, Frozen):
     """The orders of a method that is not a GARK method.
 
     Attributes:
-        tableau: the tableau of the method.
-        order: its order.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None for exact coefficients.
-        embedded: the facts about its embedded weights, or None.
-        further: its embedded weights.
         nonautonomous_order: the order on problems ẏ = f(t, y), with the nodes of the file.
     """
 

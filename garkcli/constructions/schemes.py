@@ -25,14 +25,10 @@ class Scheme(Frozen):
     """A composition of one method.
 
     Attributes:
-        name: its name in method files.
         order: the order of the result, for people.
-        summary: one line.
         parts: makes the substeps from the order of the method and the requested order, both 0 for a
             scheme of one order.
-        tolerance: the rounding of its numbers; empty if exact.
         has_orders: whether it exists for any order.
-        reference: its publication.
     """
 
     name: str
@@ -240,13 +236,9 @@ class Splitting(Frozen):
     """A splitting by name.
 
     Attributes:
-        name: its name in method files.
         order: the order with exact flows, or flows of that order, for people.
-        summary: one line.
         flows: makes the flows for a number of parts.
         terms: the number of parts; 0 for any number.
-        tolerance: the rounding of its numbers; empty if exact.
-        reference: its publication.
     """
 
     name: str

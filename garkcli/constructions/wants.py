@@ -141,8 +141,6 @@ class OfKind(Frozen):
     """Requirements on methods of one kind.
 
     Attributes:
-        name: the name of the kind.
-        has: whether a tableau is of this kind.
         own: requirements for these methods only, by key.
         meant: the tableaus that other requirements are about, by key.
         instead: meanings that replace the usual ones, by key.

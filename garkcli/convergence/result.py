@@ -33,7 +33,6 @@ class Cost(Frozen):
     """The cost of the steps of one row.
 
     Attributes:
-        steps: their number.
         evaluations: evaluations of V^{l} or F^{l} at one stage, including those of Newton's method.
         iterations: Newton iterations, over all steps and implicit blocks.
         jacobians: Jacobians of implicit blocks, each with a factorisation.
@@ -84,7 +83,6 @@ class Visible(Frozen):
         order: the order of the method by these trees only.
         is_sharp: whether no higher order can be observed. A problem may hide more trees than its
             form suggests, or let errors cancel.
-        trees: the trees in words, one line.
     """
 
     order: int

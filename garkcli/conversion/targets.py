@@ -20,8 +20,6 @@ class Target(Frozen):
     """A form that ``--to`` names.
 
     Attributes:
-        name: its name.
-        summary: one line.
         convert: makes the entries in this form; raises ``CannotConvert`` with the reason.
         claims: the new keys of claims; without it each claim that holds for the result stays.
         makes_another: whether the result is another method.

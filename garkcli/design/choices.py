@@ -23,9 +23,6 @@ class Choice(Frozen):
     """A value for one unknown.
 
     Attributes:
-        name: the unknown.
-        value: the text as given.
-        order: the order of the methods.
         before, after: the dimension of the methods of that order without the choice and with it; −1
             if there are none, not even with complex values.
     """
@@ -76,8 +73,6 @@ class Chosen(Frozen):
 
     Attributes:
         elements: the free parameters as elements of the field of the solution.
-        root: the real root of its modulus.
-        order: the exact order of the method, conjugate or pair.
         embedded: the order of its embedded weights; None if it has none.
     """
 

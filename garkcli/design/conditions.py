@@ -44,7 +44,6 @@ class Cleared(Frozen):
         blocks: D A.
         weights: E b, the weights of each colour.
         D, E: the common denominators.
-        one: 1 in the ring of the entries.
     """
 
     tableau: Tableau
@@ -167,7 +166,6 @@ class FamilyCondition(Frozen):
     """One order condition of a spanning set.
 
     Attributes:
-        tree: the tree of the condition; its colours count from 0.
         polynomial: vanishes if and only if the condition holds; free of denominators.
     """
 

@@ -43,7 +43,6 @@ class Flat(Frozen):
 
     Attributes:
         tableau: entries are rational numbers and rational functions.
-        ring: the parameters and the constants.
         constants: numbers for the other unknowns of the ring, all of one field.
     """
 

@@ -113,8 +113,6 @@ class Part(Frozen):
     """Solutions with common coordinates.
 
     Attributes:
-        ring: the coordinates, some of the unknowns.
-        values: every unknown as a rational function of them.
         nonzero: polynomials in the coordinates that vanish at no solution of this part.
         ideal: of the equations for the coordinates; trivial if they are free. Some of its zeros may
             be zeros of ``nonzero``.
@@ -341,11 +339,9 @@ class Pieces(Frozen):
     the zeros of divisors are further parts.
 
     Attributes:
-        equations: the polynomials.
         nonzero: polynomials whose zeros do not count.
         changes: unknowns that are replaced by others.
         kept: unknowns preferred as coordinates.
-        parts: the zeros.
     """
 
     equations: tuple[fmpq_mpoly, ...]
@@ -465,7 +461,6 @@ class _Splitting(Frozen):
     """Takes solution sets apart; polynomials are in the ring of all unknowns.
 
     Attributes:
-        ring: the unknowns.
         kept: unknowns preferred as coordinates.
         is_large: whether only small Gröbner bases are made as long as some unknown is linear.
         steps: an iterator that ends with the last step allowed, None without a limit; with it the

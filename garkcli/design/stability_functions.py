@@ -29,8 +29,6 @@ class FamilyFunction(Frozen):
 
     Attributes:
         name: ``all``, or the name of the one colour with λ ≠ 0.
-        numerator: P.
-        denominator: Q.
     """
 
     name: str

@@ -196,8 +196,6 @@ class StabilityKind(ABC):
     everything, and perhaps a condition besides, such as R(∞) = 0.
 
     Attributes:
-        members: the methods.
-        step: the step of the family.
         signs: polynomials in x and the parameters: if one is negative the method is not stable at
             x.
         narrowing: polynomials in the parameters whose zeros decide the condition besides.
@@ -442,7 +440,6 @@ class TwoSprings(Frozen):
     """A slow and a fast spring.
 
     Attributes:
-        slow: (hω_s)² ≥ 0.
         fast: the term of the fast spring, counted from 0.
         greatest: the bound on x = (hω_f)²; None if there is none.
     """

@@ -151,11 +151,7 @@ def _told_of(values: StableValues, wanted: RequiredStability) -> StableValues:
 
 
 class _PartLine:
-    """A part along the coordinate on which a step depends.
-
-    Attributes:
-        name: the coordinate.
-    """
+    """A part along the coordinate on which a step depends."""
 
     def __init__(self, family: Family, whose: Whose, part: Part, wanted: RequiredStability) -> None:
         self.family, self.whose, self.part, self.wanted = family, whose, part, wanted
@@ -283,8 +279,6 @@ class PartMembers(Members):
 
     Attributes:
         part: the part.
-        name: the coordinate.
-        tableau: of the method, in the coordinates of the part.
     """
 
     part: Part

@@ -29,7 +29,6 @@ class Asked(Frozen):
         value: a count, a smoothness, or a number, which may have parameters; True for a flag.
         colours: the colours with the want, counted from 0.
         further: the embedded weights, dense output and predictor.
-        radicals: the roots among the coefficients, the last unknowns of ``ring``.
     """
 
     tableau: Tableau
@@ -100,9 +99,7 @@ class Want(Frozen):
     """A property that files may want.
 
     Attributes:
-        key: in method files.
         kind: the form of its value.
-        summary: the property in words.
         meaning: makes the conditions; raises ``NotDecided`` if the time limit has passed.
     """
 

@@ -20,8 +20,6 @@ class Option(Frozen):
     """An option that chooses a member of a family: its size, or another one.
 
     Attributes:
-        name: its key in method files.
-        text: its description, a sentence.
         words: the allowed words; empty for a number.
         smallest: the smallest integer allowed; None for a coefficient.
         default: the default word; empty if the option is required.
@@ -64,15 +62,9 @@ class MethodFamily(Frozen):
     """A family of diagonal methods.
 
     Attributes:
-        name: its name in method files.
         recipe: makes the recipe of a member from its size and all options.
-        smallest: the smallest size.
-        largest: the largest size; equal to ``smallest`` for a single method.
         order: its order in terms of the size, for people.
-        summary: one line.
         counted: the option that is its size.
-        options: the other options.
-        reference: where it was published.
     """
 
     name: str

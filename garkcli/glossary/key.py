@@ -13,9 +13,7 @@ class FileKind(Frozen):
     """A kind of file.
 
     Attributes:
-        name: its name.
         files: the name of all such files.
-        page: the page about it.
         keys: the keys that distinguish it from other files.
         smallest: the smallest file, in words.
         start: how to begin one.

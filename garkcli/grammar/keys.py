@@ -55,13 +55,8 @@ class Key(Frozen):
 
     Attributes:
         line: an example: a line of a file with its name, a colon and a value.
-        kind: the kind of its value.
-        text: its meaning, in full sentences.
-        default: its default, or None.
-        is_needed: whether it is required.
         page: a page about it; empty for the page about such files.
         is_word: whether ``gark explain`` finds it by its own name.
-        is_listed: whether the page lists it.
         also: other spellings, which are read as this key.
     """
 
@@ -205,7 +200,6 @@ class KeyRelation(Frozen):
     """Keys that a key requires, or excludes.
 
     Attributes:
-        key: the key.
         message: the message, with ``{way}`` for the alternative that a mapping has instead.
         cure: the cure, or cures by the alternative, with one for all others under ``""``.
         needs: the keys of which one is required.

@@ -89,8 +89,6 @@ class Trend(Frozen):
 
     Attributes:
         slope: the slope of the fitted line, per step.
-        uncertainty: of ``slope``.
-        finding: whether the trend is a drift.
         shape: of the trend; "none" if it is within oscillation and noise.
         move: the size of an undecided trend that is not a line.
         net: the distance of the levels at the start and end of the run.

@@ -160,17 +160,12 @@ class Blame(Frozen):
     """The diagnosis of the conditions of the first failing order.
 
     Attributes:
-        order: the first failing order.
-        failing: the number of its conditions that fail.
-        total: the number of its conditions.
         in_every: the blocks (l, m) that take part in every failing condition.
         in_none: the blocks that take part in none.
         culprit: among ``in_every``, the block whose conditions fail most often; None if there is no
             single one.
         only_coupling: whether every failing condition mixes colours, so the diagonal methods are
             right.
-        repairs: single entries of the method that restore the claimed order.
-        of: the key of the missed claim in a file.
         names: the colours of the tableau whose conditions fail.
         restores: other claims that fail, and hold with the first of ``repairs``: consequences of
             the same fault.

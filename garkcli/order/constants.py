@@ -41,7 +41,6 @@ class Norms(Frozen):
     """Norms of the error coefficients e(u) of some trees.
 
     Attributes:
-        trees: their number.
         two_squared: Σ e(u)² if the coefficients are exact, else None.
         two: (Σ e(u)²)^½, a float.
         largest: max |e(u)|, a float.

@@ -40,7 +40,6 @@ class Functional(Frozen):
     """Weights at the stages, and the values they should give.
 
     Attributes:
-        weights: the weights of each colour.
         exact_at: the order at which their elementary weights should be 1/γ(u); at all others, and
             always if it is None, they should be zero.
     """
@@ -123,7 +122,6 @@ class Estimator(Frozen):
         order: of the first trees at which the estimate is nonzero, so that it is O(h^order); None
             if none was found.
         constants: the norms of its coefficients at that order; None if there are too many trees.
-        is_zero: whether b̂ = b.
     """
 
     sums: Vector

@@ -19,7 +19,6 @@ class SimplifyingCondition(Frozen):
     Attributes:
         letter: B, C or D; or ``even``: b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
         number: n of B(n), k of C(k), D(k) and ``even``.
-        l: a colour.
         m: the second colour of the block A^{l,m}; ``l`` for B.
     """
 

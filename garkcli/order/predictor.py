@@ -42,7 +42,6 @@ class StageOrder(Frozen):
     """The order of the prediction of one stage.
 
     Attributes:
-        stage: counted from 0.
         order: for every ratio of step sizes.
         equal_steps: for steps of one size.
         missed: the condition that fails one order above ``order``; None if the search stopped.

@@ -50,9 +50,7 @@ class RoundedTableau(Frozen, eq=False):
     """A rounded tableau, with the method that it is taken to mean.
 
     Attributes:
-        tableau: the printed tableau.
         tolerance: the rounding of its coefficients, or of most.
-        search: the search for the method.
         name: its name among the tableaus derived from the method.
     """
 

@@ -18,9 +18,7 @@ class WrongSum(Frozen):
     are None. All count from 0.
 
     Attributes:
-        total: the sum.
         wanted: the required sum, 1 or the node.
-        is_embedded: whether the weights are embedded ones.
     """
 
     l: int

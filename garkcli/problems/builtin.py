@@ -28,11 +28,8 @@ class BuiltIn(Frozen):
     """A built-in problem.
 
     Attributes:
-        name: its name for ``--problem``.
-        summary: one line for ``gark list``.
         formula: H, or the sum of the right-hand sides, for people.
         sees: the trees that it sees, for people.
-        make: makes the problem.
         takes_seed: whether its coefficients depend on the seed.
         stiff: makes the problem with a stiffness, if it has one.
     """

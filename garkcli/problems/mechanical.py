@@ -28,13 +28,7 @@ class Mechanical(Frozen):
     """H = T + Σ potentials(q).
 
     Attributes:
-        variables: names of the positions.
-        potentials: the parts of the potential, from the positions.
-        initial: q(0), then p(0).
-        t_end: the final time of a convergence test.
-        kinetic: T, from positions and momenta.
         invariants: first integrals besides H: names, and expressions in positions and momenta.
-        long_run: a step size and a time for long runs.
     """
 
     variables: tuple[str, ...]

@@ -47,11 +47,9 @@ class StraightLineCode(Frozen):
     ``{k0}``, … for the constants.
 
     Attributes:
-        arguments: the number of arguments.
         temporaries: the texts of the temporaries, each in terms of those before.
         results: the texts of the expressions; "0" for those that are zero.
         constants: rational numbers, and None for π.
-        is_for_balls: whether it is for balls.
     """
 
     arguments: int

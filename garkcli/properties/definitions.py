@@ -15,10 +15,7 @@ class Definition(Frozen):
     """The definition of a claim.
 
     Attributes:
-        key: the name of the claim, also in ``gark explain``.
         text: the definition, in whole sentences.
-        source: the reference.
-        kind: the kind of its value.
         meaning: the methods for which it is defined; empty for all.
     """
 

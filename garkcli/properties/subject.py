@@ -57,13 +57,9 @@ class Subject(Frozen):
     """A method with its known results.
 
     Attributes:
-        tableau: the method.
         order: its order, or a lower bound.
-        simplifying: its B, C and D.
         limit: the limit of the search for these.
         tolerance: smaller numbers count as zero; 0 for an exact method.
-        further: its embedded weights and its dense output.
-        rounding: the rounding of the printed coefficients.
         printed: for a rounded method the printed one, with the largest error of its coefficients as
             ``tolerance``.
     """
@@ -221,9 +217,6 @@ class Property(Frozen):
     Attributes:
         key: its name in ``expect``.
         text: its definition, in whole sentences.
-        source: the reference of the definition.
-        kind: the kind of its values.
-        decide: decides it for a method.
         asks: what it asks of the coefficients.
         meaning: the methods for which it is defined; empty for all.
         is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.

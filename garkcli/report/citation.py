@@ -35,7 +35,6 @@ class Cited(Frozen):
     """A publication with the methods that are from it.
 
     Attributes:
-        methods: their names.
         text: the reference in one line; empty without one.
         reference: its fields; None if it is plain text.
     """

@@ -69,7 +69,6 @@ class Valued(Frozen):
 
     Attributes:
         only_failing: whether conditions that hold are counted but not shown.
-        parameters: the free ones, of which values are rational functions.
     """
 
     method: AnyTableau

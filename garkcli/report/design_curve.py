@@ -24,13 +24,7 @@ DIGITS = 7
 
 
 class CurveReport(NamedTuple):
-    """The report of a curve.
-
-    Attributes:
-        file: with the unknowns.
-        search: for the methods.
-        curve: the optima.
-    """
+    """The report of a curve."""
 
     file: str
     search: Search

@@ -228,8 +228,6 @@ class SymplecticSubject(Frozen):
     Attributes:
         kind: the kind; ``pair`` also where a method's structure has no name.
         structure: its colours, and how roots move among them.
-        names: the names of the colours.
-        orders: the orders asked for.
         method: its tableau, with its rounding where it is rounded; None without one.
     """
 

@@ -71,11 +71,9 @@ class OscillatorStability(Frozen):
 
     Attributes:
         step: M(z), in the variables (ωq, p).
-        trace: tr M as a function of x = z².
         determinant: det M as a function of x.
         discriminant: 4D² − N² for tr M = N/D, in x; decides if det M = 1.
         stable: the x ≥ 0 for which all powers of M are bounded, as intervals.
-        phase: the phase lag.
     """
 
     step: StepFunction

@@ -39,7 +39,6 @@ class Colours(Frozen):
     """The joint stability of several colours.
 
     Attributes:
-        names: the names of the colours.
         R: R(z_1, …, z_N); None if too large, or late.
         lines: the number of lines that determine it.
         radii: points on the boundary of the region of absolute monotonicity; empty if late, or for

@@ -147,11 +147,8 @@ class StabilityWithin(Frozen):
     """Stability of a rounded method; None for undecided.
 
     Attributes:
-        a_stable: A-stability.
-        l_stable: A-stability with R(∞) = 0.
         real: the end of the interval of −z with |R(z)| ≤ 1 that begins at 0.
         imaginary: the end of the interval of y² with |R(iy)| ≤ 1 that begins at 0.
-        ssp: the SSP coefficient.
     """
 
     a_stable: bool | None

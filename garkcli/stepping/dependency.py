@@ -58,9 +58,7 @@ class DependencyGraph(Frozen):
     """The computations of a method on a problem.
 
     Attributes:
-        evaluations: every evaluation of a vector field.
         arguments: the stage values that each evaluation uses, positions before momenta.
-        sums: the evaluations in each stage value.
         coefficients: their coefficients, and with stage None the weights; equal numbers have equal
             texts.
     """

@@ -261,7 +261,6 @@ class RunWork(Frozen):
 
     Attributes:
         evaluations: evaluations of V^{l} or F^{l} at one stage, including those of Newton's method.
-        iterations: Newton iterations over all implicit blocks.
         jacobians: Jacobians of implicit blocks, each with a factorisation.
     """
 

@@ -35,8 +35,6 @@ class Program(Frozen):
             iterations of each implicit block, and the number of Jacobians. ``record``, unless None,
             is called with the numbers without time after each step.
         coefficients: the stage and evaluation of the coefficient a in each w = h a; no stage for b.
-        codes: the codes in the text.
-        size: the length of a state.
         evaluations: field evaluations outside of Newton's method in one step.
         implicit: the blocks that are solved by Newton's method, in order.
         chains: the Jacobians with too many unknowns to be written out, by the indices of their

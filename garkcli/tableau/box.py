@@ -29,7 +29,6 @@ class Box(Frozen, eq=False):
     """All methods whose printed numbers are off by at most their radii.
 
     Attributes:
-        numbers: the printed numbers.
         radii: their radii t_k > 0.
         make: makes the method of such numbers; further weights are colours that no stage sees, as
             in ``embedded.as_colours``.

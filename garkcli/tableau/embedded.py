@@ -92,8 +92,6 @@ class Further(Frozen):
     """Further weights of a method, each None if there are none.
 
     Attributes:
-        embedded: the embedded weights of each colour.
-        dense: the weights of dense output.
         predictor: the weights that predict the stages of a method of one colour.
     """
 

@@ -26,7 +26,6 @@ class Radical(Frozen):
     """A root among the coefficients of a family: an unknown of its own.
 
     Attributes:
-        name: the name of the unknown.
         relation: a polynomial with this zero.
         is_even: whether it is an even root, which means the nonnegative zero.
         meant: which zero it is, if there are several real ones.
@@ -100,10 +99,8 @@ class Family(Frozen, kw_only=True):
     """A family of methods.
 
     Attributes:
-        name: its name for people.
         tableau: its entries are rational numbers and ``Parametric`` ones.
         ring: the parameters, after them unknowns for radicals.
-        parameters: the names of the free parameters.
         ranges: for each the least and the greatest value, None if unbounded.
         radicals: the roots among the coefficients.
         relations: polynomials that vanish at every solution.
@@ -115,7 +112,6 @@ class Family(Frozen, kw_only=True):
         claims_of_wanted: claims that follow from the requirements, with their values.
         unsettled: the keys of requirements that were not worked out in time.
         real: the keys of requirements whose ``relations`` hold for real values only.
-        further: its embedded weights and its dense output.
         impossible: requirements that no value meets, with the reason.
         levels: the required levels, such as -ssp, each with the least value.
         embedded_order: the required order of the embedded weights, if the file has one.

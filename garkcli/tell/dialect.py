@@ -116,11 +116,8 @@ class Plain(Mutable):
 
     Attributes:
         digits: of decimals.
-        width: of the terminal.
         colours: names of the colours of a method; where there is one it is not named.
         names: of the colours in trees, where they are not numbers.
-        parameter: the free parameter, where there is one.
-        look: what the output can show.
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
         told: failures that were reported: the second time they are "as above".

@@ -130,8 +130,6 @@ class Answer(Frozen, Generic[V_out]):
 
     Attributes:
         value: None if there is none, or none is decided.
-        status: how it is known.
-        reason: why it is so.
         level: where it is reported, if not where its row says.
         witness: of an order whose value has none.
         names: of the colours in trees, where they are not numbers.
@@ -270,9 +268,6 @@ class Row(Generic[T_in]):
 
     Attributes:
         key: its name in JSON; its label and its sentence are found by it.
-        kind: of its values; that it fits what ``get`` returns is checked where a row is made.
-        get: the value, or an ``Answer``, of a result.
-        level: where it is reported, or that from its answer.
         has_null: whether there may be no value.
         is_optional: whether JSON leaves it out then.
         label: where it is not the one of the key.

@@ -37,13 +37,8 @@ class Minimisation(Mutable):
     """Collects the values to compare.
 
     Attributes:
-        design: of the family.
-        step: its methods are compared.
         extent: the methods among which the best one is best.
-        candidates: methods with their values.
-        limits: values that are approached but not attained.
         gradients: coordinates with the numerators of derivatives in them.
-        parts: of the solution set.
         share: the reading of ``time.monotonic`` at which the search for critical points by Gröbner
             bases ends; None for no limit.
         is_open: whether the stability of methods that may be better is undecided.

@@ -48,7 +48,6 @@ class HighAt(Frozen):
     """A number at which the greatest level is attained.
 
     Attributes:
-        t: the number.
         is_sample: whether it stands for an interval without critical numbers.
     """
 

@@ -21,13 +21,7 @@ from garkcli.frozen import Frozen
 
 
 class Within(Frozen):
-    """The condition that a rational function N/D of t has its value in a set.
-
-    Attributes:
-        numerator: N.
-        denominator: D.
-        intervals: the set.
-    """
+    """The condition that a rational function N/D of t has its value in a set."""
 
     numerator: Polynomial
     denominator: Polynomial
@@ -100,8 +94,6 @@ class Toward(Frozen):
     """The limit at an end that is not allowed.
 
     Attributes:
-        value: the limit; None if it is infinite.
-        end: the end; None for infinity.
         is_right: whether the end is the right one of an interval.
     """
 

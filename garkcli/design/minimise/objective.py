@@ -33,9 +33,6 @@ class Objective(Frozen):
     """A rational function of the coefficients to minimise.
 
     Attributes:
-        key: its name.
-        summary: the function in words.
-        formula: a rational function of the coefficients.
         bounded: numbers that are bounded if the function is.
     """
 
@@ -73,7 +70,6 @@ class LevelObjective(Frozen):
 
     Attributes:
         key: its name, which begins with a minus sign.
-        summary: the number in words.
         value: the level y of one method, by its own engine.
         signs: the condition for a tableau with one parameter; None if only a search maximises it.
         is_square: whether users read √y.
@@ -109,9 +105,6 @@ class ObjectiveSubject(Frozen):
     """Methods with their embedded weights and orders.
 
     Attributes:
-        tableau: of the methods.
-        order: of the methods.
-        further: their embedded weights and dense output.
         embedded_order: the wanted order of the embedded weights; None if none is wanted.
         dense_order: the wanted order of the dense output; None if none is wanted.
     """
@@ -145,8 +138,6 @@ class SearchMeasure(Frozen):
     """A number that only a search minimises.
 
     Attributes:
-        key: its name.
-        summary: the number in words.
         squared: the square of the number, for one method with rational coefficients.
     """
 
@@ -163,7 +154,6 @@ class WeightedSum(Frozen):
     """A weighted sum of objectives.
 
     Attributes:
-        key: the text of the sum.
         terms: weights with objectives; weights are negative for levels, positive for others.
     """
 
@@ -177,12 +167,7 @@ class WeightedSum(Frozen):
 
 
 class Either(Frozen):
-    """A name that means different levels for different methods.
-
-    Attributes:
-        key: the name.
-        meant: the level for a method.
-    """
+    """A name that means different levels for different methods."""
 
     key: str
     meant: Callable[[Tableau], LevelObjective]

@@ -30,10 +30,8 @@ class Candidate(Frozen):
 
     Attributes:
         value: of the objective; None if infinite.
-        found: the method and its conjugates over ℚ.
         index: the number of its real root of ``found``.
         is_constant: whether the objective is constant near it.
-        proof: the proof that it is best.
     """
 
     value: RealRoot | None
@@ -47,9 +45,7 @@ class ObjectiveLimit(Frozen):
     """A limit of the objective that is not attained there.
 
     Attributes:
-        value: the limit; None if infinite.
         parameter: the parameter that tends to the end.
-        toward: the end.
     """
 
     value: RealRoot | None

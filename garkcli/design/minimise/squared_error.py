@@ -131,7 +131,6 @@ class Quotient(Frozen):
     """A value as numerator and denominator, the latter a square.
 
     Attributes:
-        numerator: a polynomial, or a number.
         denominator: a polynomial or a number, zero at no method.
     """
 
