@@ -42,7 +42,6 @@ class Work(Mutable, eq=False):
     done: int = 0
 
     def reach(self, done: int) -> None:
-        """Records that ``done`` parts are done."""
         self.done = done
         if self.listener is not None:
             self.listener.changed()
@@ -63,7 +62,6 @@ def listener() -> Listener | None:
 
 @contextmanager
 def telling(who: Listener | None) -> Iterator[None]:
-    """Tells only ``who`` inside; None tells nobody."""
     token = _listener.set(who)
     try:
         yield

@@ -119,7 +119,6 @@ def noting_inputs() -> Iterator[None]:
 
 
 def note_input(path: str) -> None:
-    """Notes a file that is read, or will be."""
     known = _inputs.get()
     if known is None:
         return
@@ -136,7 +135,6 @@ def is_input(status: os.stat_result) -> bool:
 
 
 def is_inside(path: str, folder: str) -> bool:
-    """Whether a path is in a folder once links are followed, or is that folder."""
     place, root = os.path.realpath(path), os.path.realpath(folder)
     try:
         return os.path.commonpath([place, root]) == root

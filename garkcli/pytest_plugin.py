@@ -35,7 +35,6 @@ EVERY_VALUE = "every-value"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The options and settings, each with its help."""
     group = parser.getgroup("gark", "method files of gark")
     group.addoption(
         "--gark",
@@ -99,7 +98,6 @@ class GarkFile(pytest.File):
             is_first = False
 
     def _claims(self) -> list[tuple[str, Place]]:
-        """The claims with their places, without any mathematics."""
         from garkcli.errors import MethodFileError
         from garkcli.methodfile.load import described, read_method_text
 
@@ -114,7 +112,6 @@ class GarkFile(pytest.File):
 
     @cached_property
     def outcome(self) -> Outcome:
-        """The outcome of ``gark check``."""
         from garkcli.check.check_file import check_file
         from garkcli.frozen import replace
 
@@ -163,7 +160,6 @@ class GarkItem(pytest.Item):
             raise pytest.skip.Exception(f"undecided: {reason}", _use_item_location=True)
 
     def _is_about(self, finding: Finding) -> bool:
-        """Whether a finding is not about another claim."""
         is_whole = self.place == TOP
         return (
             is_whole
@@ -172,7 +168,6 @@ class GarkItem(pytest.Item):
         )
 
     def _text(self, finding: Finding, outcome: Outcome) -> str:
-        """A finding with its line and the cure."""
         from garkcli.errors import excerpt, printable
 
         place = printable(_shown(self.path, self.config))
@@ -192,7 +187,6 @@ class GarkItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """The line of the claim."""
         line, _ = self.place
         return self.path, max(line - 1, 0), f"{self.path.name}: {self.name}"
 

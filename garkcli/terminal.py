@@ -9,18 +9,15 @@ TERMINAL = 80
 
 
 def is_terminal(stream: object) -> bool:
-    """Returns whether a stream is a terminal; False if it is closed."""
     isatty = getattr(stream, "isatty", None)
     return bool(isatty is not None and isatty())
 
 
 def is_drawn_on(stream: object) -> bool:
-    """Returns whether a stream is a terminal that can move its cursor."""
     return is_terminal(stream) and os.environ.get("TERM") != "dumb"
 
 
 def width_of_terminal() -> int:
-    """Returns the columns of the terminal, or 80."""
     from shutil import get_terminal_size
 
     return get_terminal_size((TERMINAL, 24)).columns

@@ -73,7 +73,6 @@ class Meter(Mutable):
             self.digits = min(max(self.digits, needed), _MOST_DIGITS)
 
     def table(self, first: int) -> list[list[StepSizeRow]]:
-        """For each step size a row of each truncation."""
         table: list[list[StepSizeRow]] = []
         for k in range(MAX_ROWS):
             count = first * 2**k

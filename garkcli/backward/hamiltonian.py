@@ -128,7 +128,6 @@ def defect(equation: ModifiedEquation, tree: FreeTree, zero: fmpq = ZERO) -> boo
 
 
 def is_zero(x: Number, zero: fmpq) -> bool:
-    """Whether a number is 0, or a rational number of size at most ``zero``."""
     return not x or (zero > 0 and isinstance(x, fmpq) and abs(x) <= zero)
 
 

@@ -49,7 +49,6 @@ def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
 
 
 def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
-    """Returns the entry of a method outside the index."""
     # the index is read without any of this
     from garkcli.methodfile.load import loads
 
@@ -92,7 +91,6 @@ def _blank(method: Shelved) -> Entry:
 
 
 def _claimed(read: MethodFile, method: Shelved) -> Entry:
-    """Returns an entry with the claims of a file as its facts."""
     from garkcli.catalogue.facts import blank, head, shape
     from garkcli.methodfile.expectations import AtLeast
 

@@ -131,7 +131,6 @@ def _what_fails(outcome: Outcome) -> str:
 
 
 def head(method: MethodFile, name: str, file: str) -> Entry:
-    """Returns the bibliographic fields of an entry."""
     book = method.bibliography
     return {
         "name": name,

@@ -110,7 +110,6 @@ def known_of(method: GarkMethod, text: str = "") -> Known | None:
 
 
 def _of_analysis(analysis: Analysis) -> GarkMethod:
-    """Returns the analysed method without dense output."""
     from garkcli.tableau.garkmethod import GarkMethod
 
     embedded = None

@@ -241,7 +241,6 @@ def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
 
 
 def analyse_any(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> AnyAnalysis:
-    """Returns the analysis of a method of any kind; see ``analyse``."""
     return analyse_any_tableau(method.tableau, limit, method.tolerance, method.further)
 
 
@@ -251,7 +250,6 @@ def analyse_any_tableau(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> AnyAnalysis:
-    """Returns the analysis of a tableau of any kind; see ``analyse``."""
     if tableau.is_gark:
         return analyse(tableau, limit, tolerance, further)
     from garkcli.constructions.nprk import is_nprk  # few methods need these

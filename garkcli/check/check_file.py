@@ -91,7 +91,6 @@ def check_every(
 
 
 def _refused(file: errors.HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
-    """Returns the outcome for a file that cannot be decided for all values."""
     faults = (errors.Remark(message, cure, code=code),)
     return Outcome(file.source, file.source, faults=faults, text=file.text)
 
@@ -148,7 +147,6 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
 
 
 def _constants(analysis: AnyAnalysis) -> ErrorConstants | None:
-    """Returns the error constants; None if no condition is known to fail."""
     if analysis.order.is_lower_bound:
         return None
     from garkcli.order.constants import error_constants

@@ -208,7 +208,6 @@ def capped(value: object, limit: int) -> object:
 
 
 def claimed_text(value: object) -> str:
-    """Returns a value in YAML."""
     if isinstance(value, (list, tuple)):
         inside = ", ".join(claimed_text(x) for x in value)
         return f"[{inside}]"

@@ -202,7 +202,6 @@ def by_samples(family: EveryFamily, ask: Question) -> FamilyFact:
 
 
 def told(value: object) -> Worded:
-    """Returns an answer as a word or a number."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, (Size, str)):
@@ -306,7 +305,6 @@ def zeros_reason(polynomials: Sequence[str]) -> Reason:
 
 
 def _any_zero(polynomials: Sequence[str]) -> Reason:
-    """Returns the text for the vanishing of one of several polynomials."""
     if len(polynomials) == 1:
         return zeros_reason(polynomials)
     shown = joined(", ", [*map(Formula, polynomials[:MOST])])

@@ -56,7 +56,6 @@ def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> 
 
 
 def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
-    """Returns ``can_vanish`` of an irreducible polynomial."""
     used = unknowns_of(p)
     names = [ring.names[k] for k in used]
     has_roots = any(name not in ranges for name in names)
@@ -74,7 +73,6 @@ def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) ->
 
 
 def is_within(value: RealRoot, ends: Range) -> bool:
-    """Returns whether a number lies in a closed range."""
     least, greatest = ends
     below = least is not None and value < RealRoot.rational(least)
     above = greatest is not None and RealRoot.rational(greatest) < value
@@ -187,7 +185,6 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
 
 
 def _common(name: str, one: Range, other: Range) -> Range:
-    """Returns the intersection of two ranges of a parameter."""
     both = [one, other]
     starts = [start for start, _ in both if start is not None]
     ends = [end for _, end in both if end is not None]
@@ -201,7 +198,6 @@ def _common(name: str, one: Range, other: Range) -> Range:
 
 
 def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
-    """Returns the rules of a ring in one with fewer parameters."""
     shift = len(old.names) - len(new.names)
     for rule in old.rules:
         yield Rule(rule.index - shift, rule.degree, rule.instead.project_to_context(new.context))
@@ -333,7 +329,6 @@ class EveryFamily(Frozen):
 
     @cached_property
     def relations(self) -> list[fmpq_mpoly]:
-        """The relations of the roots among the coefficients."""
         ring = self.ring
         return [ring.context.gen(rule.index) ** rule.degree - rule.instead for rule in ring.rules]
 
@@ -494,7 +489,6 @@ def ranged_last(family: Family) -> list[str]:
 
 
 def exact_value(root: RealRoot) -> Number | None:
-    """Returns a value as a number; None if its field is too large."""
     return number_of(root, MOST_DEGREE)
 
 

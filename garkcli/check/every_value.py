@@ -200,7 +200,6 @@ def _fact(key: str, facts: EveryValue) -> FamilyFact:
 
 
 def _holds(claim: ClaimText, fact: FamilyFact, limit: int) -> bool | None:
-    """Returns whether a claim is true for all values; None if undecided."""
     wanted = claim.value
     if fact.is_undecided and not fact.differs:
         return None
@@ -221,7 +220,6 @@ def _holds(claim: ClaimText, fact: FamilyFact, limit: int) -> bool | None:
 
 
 def _is_bound(wanted: object) -> bool:
-    """Returns whether a claim only has lower bounds."""
     if isinstance(wanted, list):
         return all(x is None or _is_bound(x) for x in wanted)
     return isinstance(wanted, AtLeast)

@@ -105,7 +105,6 @@ def _why_not(search: Recovery, order: int) -> str:
 
 
 def _traced(search: Recovery) -> tuple[Tableau, list[int]]:
-    """Returns the tableau with traces of the printed numbers in it, and their indices."""
     count = len(search.box.numbers)
     everything = _made(search, [Trace(k) for k in range(count)])
     used = sorted({k for x in _entries(everything) for k in _numbers_in(told(x))})

@@ -51,7 +51,6 @@ _MOST = 3
 
 
 def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
-    """Returns the condition that fails and its residual."""
     return _told(witness, Code(format_tree(witness.tree, colours)))
 
 
@@ -98,7 +97,6 @@ def _told(witness: Witness, condition: Code | Reason) -> Reason:
 
 
 def bound_numbers(conditions: Simplifying) -> str:
-    """Returns the numbers that the bounds of the order are made of."""
     numbers = {
         "r": conditions.r,
         "η": conditions.eta,
@@ -269,7 +267,6 @@ def _restored(blame: Blame) -> str:
 
 
 def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
-    """The number of failing conditions, and the blocks in all or in none of them."""
     names = blame.names or own
     letter = "Â" if blame.of == "conjugate-order" else "A"
     verb = "fails" if blame.failing == 1 else "fail"

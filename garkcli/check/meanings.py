@@ -176,7 +176,6 @@ def fault_meaning(code: str) -> Meaning:
 
 
 def field_meanings(word: str) -> list[Meaning]:
-    """Returns the meanings of a field of JSON reports, one for each that differs."""
     wanted = plain(word)
     meanings = []
     for name, text in field_entries().items():
@@ -247,7 +246,6 @@ def explain(word: str) -> list[Meaning]:
 
 
 def _known(word: str) -> list[tuple[Sense, str]]:
-    """Returns the senses of a word, or of the label of a line from a report."""
     every = _by_plain()
     for pattern, general in GENERAL.items():
         word = word if word in every else pattern.sub(general, word)
@@ -290,6 +288,5 @@ def _by_plain() -> dict[str, list[tuple[Sense, str]]]:
 
 
 def known_words() -> list[str]:
-    """All words that have a meaning, sorted."""
     words = {name for sense in every_sense() for name in sense.names}
     return sorted(words | set(field_entries()))

@@ -130,7 +130,6 @@ class LinearSubject(Frozen):
     def of(
         method: AnyTableau, order: int, limit: int, keys: frozenset[str], reason: Reason
     ) -> LinearSubject:
-        """Returns the subject for that method, exact or rounded, and the order of the original."""
         conditions = simplifying(method, limit)
         return LinearSubject(Subject.read(method, order, conditions, limit, NOTHING), keys, reason)
 
@@ -210,7 +209,6 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
         tolerance: fmpq | None,
         further: Further,
     ) -> Self:
-        """Returns the analysis of a tableau; see ``analyse``."""
         method = meant(tableau, tolerance, further)
         spans = StageSpans(tableau) if method is tableau else None
         orders = orders_of.of(method, limit, spans)
@@ -229,7 +227,6 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
         return self.orders.order
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """Returns the order that a claim is about and its tableau; None for other claims."""
         whose: O | None = self.orders
         if claim.startswith("embedded-"):
             whose = None if self.embedded is None else self.embedded.orders
@@ -288,7 +285,6 @@ class OrderFacts(Shown, Frozen):
         return NoProperties(self.tolerance or fmpq(0), self.no_property)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """Returns the order that a claim is about and its tableau; None for other claims."""
         whose: OrderFacts | EmbeddedFacts | None = self
         if claim.startswith("embedded-"):
             whose, claim = self.embedded, claim.removeprefix("embedded-")

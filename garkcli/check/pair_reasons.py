@@ -36,7 +36,6 @@ class PairReason(Frozen):
 
     @property
     def text(self) -> str:
-        """The reason in one line."""
         return "; ".join(self.parts)
 
 
@@ -96,7 +95,6 @@ def _is_sharp(analysis: Analysis) -> tuple[bool, str]:
 
 
 def _held(order: int, has_blocks: bool) -> str:
-    """Returns the conditions of an order, with several colours on each block."""
     k = (order - 1) // 2
     parts = [f"B({order})"] if order else ["nothing"]
     if k > 0:
@@ -109,7 +107,6 @@ _MOST_BLOCKS = 4
 
 
 def _missing(missing: Sequence[SimplifyingCondition], names: Sequence[str], blocks: int) -> str:
-    """Returns the conditions that fail, and the blocks on which they do."""
     parts = []
     for letter, number in added(_order_of(missing[0])):
         there = [x for x in missing if x.letter == letter]

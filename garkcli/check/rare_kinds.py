@@ -40,7 +40,6 @@ class InfinitesimalAnalysis(OrderFacts, kw_only=True):
         return {"slow_order": _among_all(order_of(slow_part(method), limit), printed(method))}
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """Returns the order that a claim is about and its tableau; None for other claims."""
         return (self.slow_order, self.tableau) if claim == "slow-order" else super().view(claim)
 
     def __repr__(self) -> str:

@@ -81,7 +81,6 @@ class RosenbrockOrders(order_facts.ClaimedOrders):
         return replace(order, **{name: getattr(most, name) for name in told})
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """Returns the order that a claim is about and its tableau; None if there is none."""
         order: AnyOrder | None = getattr(self, claim.replace("-", "_"))
         if order is None:
             return None

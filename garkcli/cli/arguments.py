@@ -114,7 +114,6 @@ def named(place: str) -> Any:
 
 
 def completed(place: str) -> Callable[..., list[str]]:
-    """Returns the completion with the words of a list."""
     return lambda _context, _parameter, start: [x for x in named(place) if x.startswith(start)]
 
 
@@ -220,8 +219,6 @@ def workers(_: click.Context, __: click.Parameter, jobs: int | None) -> int | No
 
 
 def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:
-    """Returns a callback that reads the value of an option, or each of several."""
-
     def callback(_: click.Context, parameter: click.Parameter, given: Any) -> Any:
         option = max(parameter.opts, key=len)
         if isinstance(given, tuple):

@@ -53,7 +53,6 @@ class Declared(Frozen, Generic[Given]):
 
     @property
     def methods(self) -> list[opt.Option]:
-        """The arguments that stand for methods."""
         return [x for x in self._own if x.is_argument and x.kind.settings.get("type") is _METHODS]
 
     @property
@@ -68,7 +67,6 @@ class Declared(Frozen, Generic[Given]):
         return [x for each in found if isinstance(each, tuple) for x in each]
 
     def made(self) -> click.Command:
-        """Returns the command of click."""
         return GroupedCommand(
             self.name,
             COMMANDS[self.name].examples,
@@ -272,7 +270,6 @@ def _show_help(context: click.Context, _: click.Parameter, wanted: bool) -> None
 
 
 def help_option() -> click.Option:
-    """Returns the option that shows the help of its command."""
     return GroupedOption(
         ["-h", "--help"],
         OUTPUT_HEADING,
@@ -309,7 +306,6 @@ def declared(
 
 
 def declaration_of(name: str) -> Declared[Any]:
-    """Returns the command of that name, from the file in the table."""
     import_module(f"garkcli.cli.{COMMANDS[name].file}")
     return _DECLARED[name]
 

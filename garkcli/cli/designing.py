@@ -210,7 +210,6 @@ class DesignOptions(opt.Derivable):
         return None if seconds is None else monotonic() + seconds
 
     def order_of(self, family: FamilyFile) -> int | None:
-        """Returns the wanted order, of the command line or of the file."""
         return self.order or family.order
 
 
@@ -386,7 +385,6 @@ def _refuse_other_wishes(family: FamilyFile, asked: RequiredStability, is_of_spr
 
 
 def _as_stable(family: FamilyFile, asked: RequiredStability | None) -> FamilyFile:
-    """Returns a family with a further demand for stability, if any."""
     if asked is None or asked in family.stable:
         return family
     return replace(family, stable=(*family.stable, asked))
@@ -539,7 +537,6 @@ def _emit(
 
 
 def file_names(folder: str, source: str) -> Iterator[str]:
-    """Yields the names of the files for the methods found in a file."""
     stem = "" if source in _STANDARD_INPUT else Path(source).name.split(".")[0]
     return (str(Path(folder, f"{stem or 'method'}-{k}.gark.yaml")) for k in count(1))
 

@@ -29,7 +29,6 @@ PROOFS = ("json", *(x for x in FORMATS if x != "json"), "coq")
 
 
 def targets() -> list[str]:
-    """Returns the words for --to."""
     from garkcli.bridges.registry import bridges
 
     return [*bridges(), CERTIFICATE]
@@ -333,7 +332,6 @@ def _nothing(
 
 
 def _is_method_file(source: str) -> bool:
-    """Returns whether a source has the keys of a file that other commands read."""
     from garkcli.grammar.nodes import MappingNode, composed, keys_of
     from garkcli.methodfile.load import read_method_text
 

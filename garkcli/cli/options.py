@@ -269,12 +269,10 @@ def workers(most: int) -> Kind[int]:
 
 
 def hidden_default(kind: Kind[T]) -> Kind[T]:
-    """The kind without the default of the Python argument in the help."""
     return _with(kind, default=None)
 
 
 def alone(kind: Kind[T], value: T) -> Kind[T]:
-    """The kind with a value for the flag alone."""
     return _with(kind, is_flag=False, flag_value=value, default=None)
 
 
@@ -326,7 +324,6 @@ class Options(Frozen):
 
 
 def declared_by(command: type) -> dict[str, tuple[Option, ...] | Bundle]:
-    """Returns the options of a command by the names of their values."""
     if not issubclass(command, Options):
         return {}
     values = zip(fields(command), command.__struct_defaults__, strict=True)
@@ -334,7 +331,6 @@ def declared_by(command: type) -> dict[str, tuple[Option, ...] | Bundle]:
 
 
 def rules_of(command: type) -> list[Rule]:
-    """Returns the rules of a command in the order in which they are examined."""
     return [rule for x in command.__mro__ for rule in x.__dict__.get("rules", ())]
 
 

@@ -104,7 +104,6 @@ class Output:
 
     @property
     def look(self) -> Look:
-        """The look of a report at its place."""
         from garkcli.page.look import Look
 
         if self.path is not None:
@@ -138,7 +137,6 @@ class Output:
             self.save(self.path, [text.encode()])
 
     def save(self, path: str, pieces: Iterable[str | bytes]) -> None:
-        """Writes a file, and notes it."""
         from garkcli.page.writing import write_whole
 
         if write_whole(path, pieces):
@@ -203,7 +201,6 @@ class Output:
 
 
 def _chosen(format: str) -> str | None:
-    """Returns the format if the command line has one."""
     source = click.get_current_context().get_parameter_source("format")
     is_said = source is not click.core.ParameterSource.DEFAULT
     return format if is_said and format != AUTO else None

@@ -54,7 +54,6 @@ def find_project() -> Project:
 
 
 def _folders() -> Iterator[str]:
-    """Yields the current folder and those above it."""
     try:
         folder = os.getcwd()
     except OSError:  # it was removed

@@ -14,8 +14,6 @@ MOST_PATHS = 1_000
 
 
 def _written(kind: g.ValueKind, is_quoted: bool) -> g.ValueKind:
-    """Returns a kind whose values have to be quoted in TOML, or must not be."""
-
     def read(at: Any, node: Node, where: str) -> Any:
         value = kind.read(at, node, where)
         if value is None or (node.tag == QUOTED) == is_quoted:

@@ -497,7 +497,6 @@ def _followed(tableau: Tableau, given: Energy, output: Output) -> Oscillator | P
 
 
 def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Symplecticity | None:
-    """Returns the symplecticity of the steps; None if the problem is not Hamiltonian."""
     from garkcli.longtime.symplecticity import (
         Symplecticity,
         holds,

@@ -218,7 +218,6 @@ def _for(encoding: str | None, text: str, format: str, width: int | None = None)
 
 
 def look_of(stream: object, has_colour: bool) -> Look:
-    """Returns what a stream can show."""
     from garkcli.page.look import Look
 
     encoding = getattr(stream, "encoding", None) or "utf-8"

@@ -125,7 +125,6 @@ def write_tableau(
 
 
 def coupling_of_slow_stages(method: GarkMethod) -> Coupling | None:
-    """Returns the coupling of a multirate infinitesimal method; None for others."""
     from garkcli.methodfile.build import MethodFile
 
     if not isinstance(method, MethodFile) or method.form != "multirate" or method.derivation:

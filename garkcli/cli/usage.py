@@ -66,7 +66,6 @@ def _is_a_method(word: str) -> bool:
 
 
 def usage_text(error: click.ClickException) -> str:
-    """Returns a usage error with the usage and a cure."""
     context: click.Context | None = getattr(error, "ctx", None)
     message = _message(error, context)
     lines = []
@@ -120,7 +119,6 @@ def _commands_with(option: str, context: click.Context | None) -> Iterator[str]:
 
 
 def _cure_of_choice(word: str, words: list[str]) -> str:
-    """Returns the cure for a word that is not in a list; methods have a list of their own."""
     near = nearest(word, words)
     if near:
         return f"did you mean {near!r}?"

@@ -73,7 +73,6 @@ class PropertyPair(Frozen):
 
     @property
     def is_known(self) -> bool:
-        """Whether the property is decided for both methods."""
         return not (self.one.is_undecided or self.other.is_undecided)
 
 

@@ -94,7 +94,6 @@ class _Compare:
     def weights(
         self, kind: str, power: int, one: CellRows | None, other: CellRows | None
     ) -> Iterator[BlockGap]:
-        """Yields the differences in the weights or nodes of all colours."""
         if one is None and other is None:
             return
         for l in range(len(one or other or ())):
@@ -154,12 +153,10 @@ class Met(Frozen):
 
     @property
     def first_only(self) -> tuple[tuple[Condition, Condition], ...]:
-        """The conditions that only the first method fulfils."""
         return tuple(x for x in self.pairs if x[0].holds)
 
     @property
     def second_only(self) -> tuple[tuple[Condition, Condition], ...]:
-        """The conditions that only the second method fulfils."""
         return tuple(x for x in self.pairs if x[1].holds)
 
 
@@ -197,7 +194,6 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
 
 
 def _in_both(one: Admissible, other: Admissible) -> Admissible:
-    """Returns the trees that both graphs have."""
     rows = zip(one.branches, other.branches, strict=True)
     kinds = zip(one.kinds, other.kinds, strict=True)
     return Admissible(

@@ -58,8 +58,6 @@ class Grid(Frozen):
         return [block for row in self.A for block in row]
 
     def with_colours(self, order: Sequence[int]) -> Grid:
-        """Returns the method with its colours in another order."""
-
         def chosen(rows: CellRows) -> CellRows:
             return tuple(rows[l] for l in order)
 
@@ -75,7 +73,6 @@ class Grid(Frozen):
 
     @property
     def of_the_step(self) -> Grid:
-        """The method without further weights."""
         return replace(self, embedded=None, powers=())
 
 
@@ -102,7 +99,6 @@ def grid_of(sheet: Sheet) -> Grid:
 
 
 def enclosed_grid(method: GarkMethod) -> Grid:
-    """Returns the entries as enclosures with ``DIGITS`` digits."""
     cells = entries(method.tableau, DIGITS).in_decimals(DIGITS)
     powers = tuple(map(_enclosed, method.further.powers))
     embedded = None if method.embedded is None else _enclosed(method.embedded)

@@ -81,7 +81,6 @@ class _SamenessSearch:
                 yield from self.completions(rest, {**chosen, stage: j})
 
     def _narrowed(self, candidates: _Candidates, stage: Stage, image: int) -> _Candidates:
-        """Returns the candidates of the other stages that fit ``image``."""
         rest: _Candidates = {}
         for other, images in candidates.items():
             if other == stage:

@@ -85,7 +85,6 @@ def in_turn(substeps: Sequence[Substep]) -> Tableau:
 
 
 def count_stages(tableau: Tableau) -> int:
-    """The number of stages of all spaces."""
     return sum(space.stages for space in tableau.spaces)
 
 
@@ -108,7 +107,6 @@ _CURE = "compose methods of the same form and structure"
 
 
 def _fields(tableau: Tableau) -> tuple[object, ...]:
-    """A key of the vector fields that a method is for."""
     return tuple((x.part, x.term, x.kind) for x in tableau.colours), frozenset(tableau.edges())
 
 
@@ -294,7 +292,6 @@ def _side_by_side(tableaus: Sequence[Tableau], weights: matrix.Vector, l: int) -
 
 
 def _diagonal(blocks: Sequence[matrix.Matrix], widths: Sequence[int]) -> Iterator[matrix.Vector]:
-    """The rows of a block diagonal matrix whose blocks have ``widths`` columns."""
     for k, block in enumerate(blocks):
         before = [ZERO] * sum(widths[:k])
         after = [ZERO] * sum(widths[k + 1 :])

@@ -109,17 +109,14 @@ def plan(method: Derivatives, embedded: Weights | None = None) -> int:
 
 
 def is_derivatives(tableau: Tableau) -> bool:
-    """Whether a tableau is that of a method that uses derivatives."""
     return tableau.uses_derivatives
 
 
 def embedded_of(rows: Sequence[Vector], tableau: Tableau) -> Weights:
-    """The embedded weights of f, f' f, … in a method with this tableau."""
     return weights_of(rows[0], jets_of(tableau))
 
 
 def words_of(tableau: Tableau) -> str:
-    """The numbers of stages and derivatives in words."""
     space = jets_of(tableau)
     stages = counted(space.stages // space.order, "stage")
     return f"multiderivative, {counted(space.derivatives, 'derivative')}, {stages}"
@@ -127,7 +124,6 @@ def words_of(tableau: Tableau) -> str:
 
 @lru_cache(maxsize=32)
 def _flow(order: int) -> Method:
-    """The collocation for the exact solution."""
     return collocation_at(flow_nodes(order))
 
 

@@ -64,7 +64,6 @@ class FastInterval(Frozen):
 
     @property
     def rows(self) -> Iterator[tuple[int, Vector]]:
-        """The rows of slow slopes, each with its part, from 0."""
         for part, powers in enumerate(self.forcing):
             for row in powers:
                 yield part, row
@@ -104,7 +103,6 @@ class Coupling(Frozen):
 
     @cached_property
     def every(self) -> tuple[FastInterval, ...]:
-        """All intervals, the embedded one last."""
         return self.intervals if self.embedded is None else (*self.intervals, self.embedded)
 
 
@@ -354,7 +352,6 @@ def fitting(values: Iterable[tuple[float, float]]) -> int:
 
 @lru_cache(maxsize=32)
 def collocation(stages: int) -> Method:
-    """Collocation at equidistant nodes, the last one 1."""
     return collocation_at(tuple(fmpq(k, stages) for k in range(1, stages + 1)))
 
 
@@ -498,7 +495,6 @@ class _Infinitesimal:
         self.values.append(value)
 
     def _after(self, i: int, interval: FastInterval) -> multirate.Value:
-        """The value at the end of a fast problem."""
         value = self._mixed(interval.begin)
         drift = self._mixed(interval.drift)
         count = self.plan.fast[i]
@@ -528,7 +524,6 @@ class _Infinitesimal:
         }
 
     def _node(self, interval: FastInterval, tau: Number) -> Number:
-        """The time of the fast part."""
         nodes = self.coupling.nodes
         return dot(interval.begin, nodes) + tau * (dot(interval.drift, nodes) + interval.width)
 
@@ -560,7 +555,6 @@ class _Infinitesimal:
         stages: range,
         length: Number,
     ) -> multirate.Value:
-        """The fast slopes and the slow ones at their times, with the weights of the fast method."""
         scaled = [length * w for w in weights]
         moved = multirate.of_slopes(multirate.FAST, stages, [interval.width * w for w in scaled])
         moments = [

@@ -32,7 +32,6 @@ START: Value = {}
 
 
 def summed(*values: Value) -> Value:
-    """The sum of combinations of slopes."""
     total: dict[Slope, Number] = {}
     for value in values:
         for slope, weight in value.items():

@@ -66,7 +66,6 @@ def _entry(matrix: Matrix, j: int, k: int) -> Number:
 
 
 def is_nprk(tableau: Tableau) -> bool:
-    """Whether a tableau is that of a nonlinearly partitioned method."""
     return all(colour.kind == ARGUMENT for colour in tableau.colours)
 
 

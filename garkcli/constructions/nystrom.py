@@ -79,12 +79,10 @@ class Nystrom(Frozen):
 
     @property
     def in_positions(self) -> Tableau:
-        """The tableau with the conditions of the step in q only."""
         return _without(self.tableau, VELOCITIES)
 
     @property
     def in_velocities(self) -> Tableau:
-        """The tableau with the conditions of the step in q′ only."""
         return _without(self.tableau, POSITIONS)
 
     @property
@@ -144,7 +142,6 @@ def _without(tableau: Tableau, l: int) -> Tableau:
 
 
 def is_nystrom(tableau: Tableau) -> bool:
-    """Whether a tableau is that of a Nyström method."""
     return tuple(colour.kind for colour in tableau.colours) == KINDS
 
 

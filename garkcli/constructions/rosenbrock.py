@@ -78,7 +78,6 @@ class Rosenbrock(Frozen):
 
     @property
     def without_row_sums(self) -> Rosenbrock:
-        """The method with c and d None if they are row sums."""
         plain = replace(self, c=None, d=None)
         c, d = plain.nodes
         return replace(self, c=None if self.c == c else self.c, d=None if self.d == d else self.d)
@@ -151,7 +150,6 @@ class Rosenbrock(Frozen):
 
     @property
     def diagonal(self) -> matrices.Vector:
-        """The γ_ii of all stages."""
         blocks = [row[l] for l, row in enumerate(self.gamma)]
         return tuple(row[i] for block in blocks for i, row in enumerate(block))
 
@@ -228,7 +226,6 @@ class Rosenbrock(Frozen):
 
 
 def is_rosenbrock(tableau: Tableau) -> bool:
-    """Whether a tableau is that of a Rosenbrock method with its Jacobian."""
     kinds = [colour.kind for colour in tableau.colours]
     N = len(kinds) // 2
     return bool(kinds) and kinds == [nature.NOT_ONE] * N + [nature.ONE_BRANCH] * N

@@ -31,7 +31,6 @@ EMBEDDED = "embedded-"
 
 
 def _order(key: str, asked: Asked) -> WantConditions:
-    """The conditions of the order of a view, with b or the embedded weights."""
     tableau = as_embedded(asked, key) if key.startswith(EMBEDDED) else asked.tableau
     try:
         found = seen(tableau, {**VIEWS, **DAE_VIEWS}[key.removeprefix(EMBEDDED)])
@@ -90,7 +89,6 @@ def _of_steps() -> Iterator[Want]:
 
 
 def _slow_part(tableau: Tableau) -> Tableau:
-    """The method if the fast part is 0."""
     found = slow_part(tableau)
     assert isinstance(found, Tableau)
     return found

@@ -180,12 +180,10 @@ def _stiffness(
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:
-    """The default final time of a test."""
     return 4 / problem.omega if isinstance(problem, Oscillator) else problem.t_end
 
 
 def most_steps(problem: Oscillator | Problem) -> int:
-    """The most steps of a row."""
     if isinstance(problem, Oscillator):
         return MAX_STEPS
     from garkcli.convergence import stepped_solver

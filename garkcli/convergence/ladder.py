@@ -132,7 +132,6 @@ def is_complete(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> bool:
 
 
 def _first_small(is_small: Sequence[bool]) -> int:
-    """The index from which on the errors stay small."""
     start = len(is_small)
     while start > 0 and is_small[start - 1]:
         start -= 1

@@ -105,12 +105,10 @@ class LinearSolver(Mutable):
         return False
 
     def rounding(self) -> arb:
-        """The approximate error from the rounding of the coefficients."""
         time = arb(self.t_end / self.unit)
         return self.size() * self.spoilt * max(arb(1), time)
 
     def over(self, t_end: fmpq) -> LinearSolver:
-        """The solver up to another time."""
         return replace(self, t_end=t_end)
 
     def timed(self, row: StepSizeRow) -> StepSizeRow:

@@ -29,7 +29,6 @@ REACHED = 0.1
 
 
 def cost_of(state: Stepper, seconds: float | None = None) -> Cost:
-    """The cost of the steps of ``state`` so far."""
     work = state.work
     return Cost(state.done, work.evaluations, work.iterations, work.jacobians, seconds)
 

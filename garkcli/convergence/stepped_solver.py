@@ -63,7 +63,6 @@ class SteppedSolver(Mutable):
 
     @property
     def most_steps(self) -> int:
-        """The most steps of a row."""
         return MAX_STEPS
 
     @property
@@ -95,7 +94,6 @@ class SteppedSolver(Mutable):
         return _GENERIC_DECADES if self.visible.is_sharp else _DECADES
 
     def over(self, t_end: fmpq) -> SteppedSolver:
-        """The solver up to another time."""
         return replace(self, t_end=t_end)
 
     def size(self) -> arb:
@@ -217,7 +215,6 @@ class SteppedSolver(Mutable):
     def _invariant_errors(
         self, y: Sequence[Any], digits: int, h: fmpq
     ) -> tuple[arb | None, list[arb]]:
-        """|I(y) − I(y_0)| of the energy, if any, and of the other invariants."""
         if not conserved_names(self.problem):
             return None, []
         round_off = self._round_off(digits, h)

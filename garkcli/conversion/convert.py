@@ -144,7 +144,6 @@ def _converted(text: str, method: GarkMethod, goal: Target) -> Converted:
 
 
 def _refuse_forms(to: str, stages: int | None) -> None:
-    """Refuses forms that Rosenbrock methods do not have."""
     cure = f"--to {' or --to '.join(FORMS[1:])}"
     if to not in FORMS:
         raise CannotConvert(f"a Rosenbrock method has no form {to}", cure)

@@ -58,7 +58,6 @@ class RecoveredMethod(Frozen, eq=False):
     is_exact: bool
 
     def text_with(self, proposals: Mapping[Number, str]) -> Callable[[Number], str]:
-        """The notation of coefficients with some exact numbers."""
         known = {**self.exact, **proposals}
 
         def text(number: Number) -> str:
@@ -174,7 +173,6 @@ def _numbers(sheet: Sheet) -> Iterator[Number]:
 
 
 def is_as_good(made: GarkMethod, found: RecoveredMethod) -> bool:
-    """Whether a method has at least the orders of the recovered one."""
     return all(map(ge, orders_of(made), found.orders))
 
 

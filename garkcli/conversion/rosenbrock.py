@@ -170,7 +170,6 @@ class _Places:
 
 
 def _kind(key: str) -> str:
-    """The key of ``tolerance`` for the numbers of a key."""
     return {"e": "embedded"}.get(key, key if key in {"embedded", "dense"} else "others")
 
 

@@ -156,12 +156,10 @@ def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[i
 
 
 def arranged(sheet: Sheet, spaces: Sequence[Sequence[Place]]) -> Sheet:
-    """The method with the stages of each space rearranged."""
     return regrouped(sheet, spaces, [colour.space for colour in sheet.tableau.colours])
 
 
 def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
-    """The nodes of stages; 0 for added ones."""
     return tuple(
         ZERO if place is None else tableau.spaces[place[0]].nodes[place[1]] for place in places
     )

@@ -68,7 +68,6 @@ class Cleared(Frozen):
         return cls(tableau, blocks, b, D, E, ring.constant(fmpq(1)))
 
     def of_colour(self, l: int) -> Cleared:
-        """The tableau of one colour by itself."""
         colour = self.tableau.colours[l]
         space = self.tableau.spaces[colour.space]
         key = colour.space, l

@@ -52,7 +52,6 @@ def minors(rows: Sequence[Sequence[fmpq_mpoly]], size: int) -> list[fmpq_mpoly]:
 
 
 def slopes(polynomials: Sequence[fmpq_mpoly], size: int) -> list[list[fmpq_mpoly]]:
-    """The gradients of polynomials in the first ``size`` unknowns."""
     return [[p.derivative(i) for i in range(size)] for p in polynomials]
 
 

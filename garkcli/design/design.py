@@ -529,7 +529,6 @@ class _Finding(Frozen):
 
 
 def _reached(order: int, ideal: Ideal, start: Ideal, witness: Tree | None = None) -> Step:
-    """The step of an order from its ideal; ``start`` holds all values."""
     if ideal.is_everything:
         return NoValue(order, ideal, witness=witness)
     if ideal.basis == start.basis:
@@ -582,7 +581,6 @@ def _each_once(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
 
 
 def _with_lower(steps: Sequence[Step]) -> list[Step]:
-    """Steps in which lower orders have the methods of the higher ones."""
     completed: list[Step] = []
     is_reached = False
     for step in reversed(steps):

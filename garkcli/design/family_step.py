@@ -52,12 +52,10 @@ class Flat(Frozen):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the parameters."""
         return tuple(x for x in self.ring.names if x not in self.constants)
 
     @property
     def field(self) -> NumberField | None:
-        """The field of the constants; None for ℚ."""
         fields = (x.field for x in self.constants.values() if isinstance(x, Algebraic))
         return next(fields, None)
 
@@ -68,7 +66,6 @@ class Flat(Frozen):
         return fmpq_mpoly_ctx.get([*names, *[THETA] * (self.field is not None)], Ordering.lex)
 
     def over(self, p: fmpq_mpoly) -> fmpq_mpoly:
-        """A polynomial of the ring as one in the parameters and θ."""
         gens = dict(zip(self.context.names(), self.context.gens(), strict=True))
         variables = VARIABLES[len(self.names)][:0:-1]
         values = {name: gens[x] for name, x in zip(self.names, variables, strict=True)}
@@ -79,7 +76,6 @@ class Flat(Frozen):
         return p.compose(*(values[name] for name in self.ring.names), ctx=self.context)
 
     def along(self, p: fmpq_mpoly) -> Polynomial:
-        """A polynomial of the ring as one in the single parameter."""
         return in_t(self.over(p), self.field)
 
     def polynomials(
@@ -208,7 +204,6 @@ class FamilyStep(Frozen):
         return projection.resultant(p, modulus, THETA).project_to_context(without)
 
     def in_t(self, p: fmpq_mpoly) -> Polynomial:
-        """A polynomial in the single parameter, and θ perhaps, as one in t."""
         is_over_field = THETA in p.context().names()
         return in_t(p, self.field if is_over_field else None)
 
@@ -221,7 +216,6 @@ class FamilyStep(Frozen):
         return [projection.coefficient_of(p, k) for k in range(p.degrees()[0] + 1)]
 
     def at_y(self, p: fmpq_mpoly, y: fmpq) -> Polynomial:
-        """A polynomial at one value of the variable of the step."""
         first, *others = p.context().gens()
         return self.in_t(p.compose(first * 0 + y, *others))
 

@@ -110,7 +110,6 @@ def _is_everything(basis: Sequence[fmpz_mpoly]) -> bool:
 
 
 def remainder(p: fmpz_mpoly, basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    """A multiple of the remainder of a polynomial on division by a basis."""
     if not basis or not p:
         return p
     vector = fmpz_mpoly_vec(list(basis), context)
@@ -173,7 +172,6 @@ def reduced(
 
 
 def leading(p: fmpz_mpoly) -> Exponents:
-    """The exponents of the leading monomial."""
     return tuple(int(x) for x in p.monoms()[0])
 
 
@@ -183,7 +181,6 @@ def degrevlex(exponents: Exponents) -> tuple[int, ...]:
 
 
 def divides(a: Exponents, b: Exponents) -> bool:
-    """Whether a monomial divides another."""
     return all(x <= y for x, y in zip(a, b, strict=True))
 
 

@@ -198,7 +198,6 @@ class Ideal:
         )
 
     def contains(self, polynomial: fmpq_mpoly) -> bool:
-        """Whether a polynomial is in the ideal."""
         return not groebner.remainder(self._integral(polynomial), self.basis, self._context)
 
     @property
@@ -277,7 +276,6 @@ class Ideal:
 
     @property
     def without_unit(self) -> list[fmpq_mpoly]:
-        """The basis elements without UNIT."""
         size = len(self.ring.names)
         free = (p for p in self.basis if not any(p.degrees()[size:]))
         return [rational(p, self.ring) for p in free]
@@ -352,7 +350,6 @@ class Ideal:
 
     @property
     def _supports(self) -> set[frozenset[int]]:
-        """The unknowns of each leading monomial."""
         return {frozenset(i for i, k in enumerate(groebner.leading(p)) if k) for p in self.basis}
 
     @property

@@ -54,7 +54,6 @@ def further_member(further: Further, ring: Parameters, values: Mapping[str, Numb
 
 
 def value_of(polynomial: fmpq_mpoly, ring: Parameters, values: Mapping[str, Number]) -> Number:
-    """A polynomial in the parameters at one point."""
     return _At([values[name] for name in ring.names]).polynomial(polynomial)
 
 
@@ -92,7 +91,6 @@ class _At:
 
 
 def no_method(which: str) -> VanishingDenominator:
-    """The error that values are poles."""
     return VanishingDenominator("a denominator is zero: no method has these values", which)
 
 

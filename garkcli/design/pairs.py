@@ -85,19 +85,16 @@ class PairConditions:
         return ""
 
     def zeros(self, defects: Iterable[Number]) -> list[fmpq_mpoly]:
-        """The nonzero numerators."""
         ring = self.family.ring
         numerators = (fraction(cast("Mixed", x), ring)[0] for x in defects)
         return [p for p in numerators if p]
 
     @property
     def off_diagonal(self) -> list[Edge]:
-        """The blocks between different colours."""
         return [(l, m) for l, m in self.family.tableau.edges() if l != m]
 
     @cached_property
     def start(self) -> Ideal:
-        """The ideal of the radicals."""
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
     def point(self, ideal: Ideal, draw: Draw | None = None) -> Ideal | None:
@@ -158,7 +155,6 @@ def _is_fixed(family: Family, x: Number) -> bool:
 
 
 def _are_positive(family: Family, start: Ideal, numbers: list[Number]) -> bool:
-    """Whether numbers in the radicals of a family are all positive."""
     if not all(_is_fixed(family, x) for x in numbers):
         return False
     gens = family.ring.context.gens()[: len(family.parameters)]

@@ -132,16 +132,13 @@ class Part(Frozen):
 
     @property
     def dimension(self) -> int:
-        """The dimension of its complex points."""
         return self.ideal.dimension
 
     @property
     def equations(self) -> list[fmpq_mpoly]:
-        """The equations for the coordinates."""
         return [rational(p, self.ring) for p in self.ideal.basis]
 
     def expressed(self, polynomial: fmpq_mpoly, ring: Parameters) -> Mixed:
-        """A polynomial in all unknowns, ``ring``, as a function of the coordinates."""
         values = cast("Mapping[str, Number]", self.values)
         return cast("Mixed", value_of(polynomial, ring, values))
 
@@ -155,7 +152,6 @@ class Part(Frozen):
         return values
 
     def extended(self, solution: Solution) -> Solution:
-        """A solution in the coordinates, extended to all unknowns."""
         return replace(solution, values=self.at(solution.values))
 
 
@@ -277,7 +273,6 @@ def charts(part: Part) -> list[RationalChart]:
 
 
 def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
-    """Unknowns that are entries of a diagonal: stability depends on them."""
     unknowns: dict[str, None] = {}
     for block in tableau.blocks.values():
         for i, row in enumerate(block):
@@ -413,7 +408,6 @@ class Pieces(Frozen):
 
     @property
     def dimension(self) -> int:
-        """The dimension of the complex zeros; −1 if there are none."""
         return max((part.dimension for part in self.parts), default=-1)
 
     @property
@@ -549,7 +543,6 @@ class _Splitting(Frozen):
         return [rational(p, self.ring) for p in ideal.basis]
 
     def _without(self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
-        """The product of the distinct factors that are not in ``nonzero``."""
         product = self.ring.constant(fmpq(1))
         for factor in factors([p]):
             if factor not in nonzero:

@@ -34,7 +34,6 @@ class Solved(Frozen, eq=False):
 
     @property
     def free(self) -> list[int]:
-        """The unknowns that the conditions leave free."""
         bound = {column for _, column in self.pivots}
         return [k for k in range(len(self.point)) if k not in bound]
 

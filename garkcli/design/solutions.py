@@ -50,13 +50,11 @@ class Solution(Frozen):
 
     @cached_property
     def real_values(self) -> tuple[dict[str, RealRoot], ...]:
-        """The unknowns as real numbers, at each real root."""
         names = self.values.items()
         return tuple({key: value_at(x, root) for key, x in names} for root in self.real)
 
 
 def value_at(value: Number, root: RealRoot) -> RealRoot:
-    """The real value of an element of ℚ[u]/modulus at a real root u of the modulus."""
     if not isinstance(value, Algebraic):
         return RealRoot.rational(value)
     element = Polynomial.from_flint(value.poly)
@@ -119,7 +117,6 @@ class _Algebra:
         return fmpq_mat([(self._traces * matrix).entries() for matrix in self._products])
 
     def combined(self, form: Sequence[int]) -> fmpq_mat:
-        """Multiplication by a linear form in the unknowns."""
         total = fmpq_mat(self.size, self.size)
         for a, matrix in zip(form, self.matrices, strict=True):
             total += a * matrix

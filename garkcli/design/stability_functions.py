@@ -64,7 +64,6 @@ def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction
 def function_of(
     tableau: Tableau, ring: Parameters, name: str, shares: Sequence[Number]
 ) -> FamilyFunction:
-    """R with λ times ``shares`` for the colours."""
     system = stage_system(tableau, [((w,),) for w in shares])
     [weights] = system.B
     damped: list[tuple[Any, ...]] = []
@@ -78,7 +77,6 @@ def function_of(
 def _in_lowest_terms(
     P: Sequence[Any], Q: Sequence[Any], ring: Parameters
 ) -> tuple[Coefficients, Coefficients]:
-    """P and Q without common factors, divided by Q(0)."""
     common = common_denominator([*P, *Q], ring)
     p = joined(P, common, ring)
     q = joined(Q, common, ring)
@@ -90,7 +88,6 @@ def _in_lowest_terms(
 
 
 def joined(coefficients: Sequence[Any], common: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
-    """A polynomial in z times a common denominator, as one in z and the parameters."""
     larger = Parameters(["_z", *ring.names])
     terms = {}
     for k, a in enumerate(coefficients):

@@ -101,7 +101,6 @@ class Members(Frozen):
             return None
 
     def _numbers(self, values: Mapping[str, RealRoot], most: int) -> dict[str, Number] | None:
-        """The roots and other values as numbers of one field; None if it is too large."""
         family = self.family
         required = dict(values)
         for radical in family.radicals:
@@ -140,7 +139,6 @@ class Members(Frozen):
         return Flat(tableau, self.family.ring, self.constants)
 
     def step(self, tableau: Tableau, fields: Sequence[Matrix]) -> FamilyStep:
-        """The step of the methods for every value."""
         return family_step(self.flat(tableau), fields)
 
     def over(

@@ -95,7 +95,6 @@ class StablePart(Frozen):
 
     @property
     def is_decided(self) -> bool:
-        """Whether no value of a coordinate is undecided."""
         return not any(x.undecided for x in self.kinds)
 
 
@@ -270,7 +269,6 @@ class _PartLine:
 
 
 def point_of(x: RealRoot) -> Interval:
-    """The interval of a single number."""
     return Interval(x, x, has_start=True, has_end=True)
 
 
@@ -359,7 +357,6 @@ def content_in(p: fmpq_mpoly, ring: Parameters, name: str) -> Polynomial:
 
 
 def points(size: int) -> Iterator[tuple[fmpq, ...]]:
-    """Points with short coordinates."""
     return checked(islice(product(VALUES, repeat=size), MOST_POINTS))
 
 
@@ -382,7 +379,6 @@ def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solut
 
 
 def _sampled(part: Part) -> Iterator[RationalChart]:
-    """Charts of a part with a number in each interval of its sets."""
     names = part.ring.names
     *_, name = [names[0], *(x for x, _ in part.sets if x in names)]
     values = values_on(part, name)
@@ -449,7 +445,6 @@ def _is_in_one(
 
 
 def has_stable_method(family: Family, whose: Whose, parts: Sequence[StablePart]) -> bool | None:
-    """Whether a part has a stable method; None if none is found but one may exist."""
     if any(True for x in parts for _ in methods_on(family, whose, x.part)):
         return True
     is_none = all(x.is_decided and not all(y.found for y in x.kinds) for x in parts)

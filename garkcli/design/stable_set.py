@@ -188,7 +188,6 @@ class _OnLine:
         self._conditions: dict[str, list[Polynomial]] = {}
 
     def run(self) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-        """The set and the undecided values."""
         kind, in_t = self.kind, self.kind.step.in_t
         critical = [Polynomial([-x, 1]) for x in self.range if x is not None]
         known = self.members.critical

@@ -110,7 +110,6 @@ class StripPart(Frozen):
     has_end: bool
 
     def over(self, t: RealRoot) -> Interval | None:
-        """The interval over one t; None if an end is unknown there."""
         ends: list[RealRoot | None] = []
         for end in (self.start, self.end):
             value = end.at(t) if isinstance(end, Branch) else end

@@ -94,7 +94,6 @@ class Step(Frozen):
 
     @property
     def has_methods(self) -> bool | None:
-        """Whether methods of the file have the order; None if undecided."""
         return None
 
     @property

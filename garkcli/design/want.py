@@ -119,7 +119,6 @@ def stability(kind: str, asked: Asked, is_embedded: bool = False) -> WantConditi
 
 
 def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly]:
-    """The nonzero numerators of rational functions."""
     nonzero = []
     for x in functions:
         numerator, _ = fraction(x, ring)
@@ -129,6 +128,5 @@ def numerators(functions: Iterable[object], ring: Parameters) -> list[fmpq_mpoly
 
 
 def sign_polynomial(function: object, ring: Parameters) -> fmpq_mpoly:
-    """A polynomial with the sign of a rational function, except at its poles."""
     numerator, denominator = fraction(function, ring)
     return numerator * denominator

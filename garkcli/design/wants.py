@@ -40,7 +40,6 @@ MOST_PRODUCTS = 200
 
 
 def order_meaning(tableau: Tableau, asked: Asked) -> WantConditions:
-    """The conditions of a tableau up to the wanted order."""
     conditions = FamilyConditions(tableau, asked.ring)
     one = asked.ring.constant(fmpq(1))
     zeros: list[object] = []
@@ -91,7 +90,6 @@ def as_embedded(asked: Asked, key: str) -> Tableau:
 
 
 def _embedded_order(asked: Asked) -> WantConditions:
-    """The order of the method with b̂ in place of b, at least."""
     return order_meaning(as_embedded(asked, "embedded-order"), asked)
 
 

@@ -340,7 +340,6 @@ class _ValueSearch:
         self.printed = RoundedConditions(rounding.at((), self.bits), whose)
 
     def design(self, wanted: int | None) -> DesignWithin:
-        """The steps up to the wanted order, or to the highest with values."""
         steps: list[StepWithin] = []
         if wanted is not None:
             steps = [self._step(wanted)]

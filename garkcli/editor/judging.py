@@ -118,7 +118,6 @@ def _orders(outcome: Outcome) -> tuple[str, ...]:
 
 
 def span_of(lines: list[str], remark: Remark) -> TextSpan:
-    """Returns the word at the place of a remark."""
     line, start = max(remark.line, 1) - 1, max(remark.column, 1) - 1
     text = lines[line] if line < len(lines) else ""
     found = _TOKEN.match(text, start)

@@ -50,7 +50,6 @@ class Server(LanguageServer):
             self._show(document, Judgement())
 
     def forget(self, uri: str) -> None:
-        """Ends the check of a file."""
         if uri in self.running:
             self.running.pop(uri).cancel()
 
@@ -110,7 +109,6 @@ async def judged_apart(text: str, source: str) -> Judgement:
 
 
 def ranged(document: TextDocument, span: TextSpan) -> lsp.Range:
-    """Returns a span in the units of the editor."""
     here = lsp.Range(lsp.Position(span.line, span.start), lsp.Position(span.line, span.end))
     return document.position_codec.range_to_client_units(document.lines, here)
 

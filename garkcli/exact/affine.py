@@ -158,7 +158,6 @@ class Affine:
 
 
 def constant(number: Any) -> arb:
-    """An enclosure of a number at the current precision."""
     if isinstance(number, Algebraic):
         return to_ball(number, digits_here())
     return arb(number)
@@ -179,7 +178,6 @@ class Forms:
 
     @staticmethod
     def of(row: Iterable[Any], numbers: int) -> Forms:
-        """Forms and exact numbers as one row over ``numbers`` printed numbers."""
         row = list(row)
         slopes, remainders = np.zeros((len(row), numbers)), np.zeros(len(row))
         centres = []
@@ -249,7 +247,6 @@ class Forms:
         return Forms(centres, x * self.slopes, rest * (1 + UNIT) + LEAST)
 
     def minus(self, other: Forms, share: fmpq) -> Forms:
-        """The difference with share · other, form by form."""
         ball, factor = arb(share), to_float(share)
         centres = [x - ball * y for x, y in zip(self.centres, other.centres, strict=True)]
         if self.are_numbers:

@@ -45,7 +45,6 @@ class Interval(Frozen):
 
 
 def contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
-    """Whether [left, right] lies in an interval."""
     start, end = interval.start, interval.end
     if start is not None and left < start:
         return False
@@ -57,13 +56,11 @@ def contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
 
 
 def has(intervals: Iterable[Interval], point: Point) -> bool:
-    """Whether a number lies in one of several intervals."""
     x = point if isinstance(point, RealRoot) else RealRoot.rational(point)
     return any(contains(interval, x, x) for interval in intervals)
 
 
 def ends_of(intervals: Iterable[Interval]) -> list[Polynomial]:
-    """Polynomials that vanish at the ends of intervals."""
     ends = (end for x in intervals for end in (x.start, x.end) if end is not None)
     return [Polynomial.from_flint(end.polynomial) for end in dict.fromkeys(ends)]
 

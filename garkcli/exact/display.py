@@ -101,7 +101,6 @@ def _bits(digits: int) -> int:
 
 
 def digits_here() -> int:
-    """Decimal digits of the current precision."""
     return int(ctx.prec * DIGITS_OF_A_BIT)
 
 

@@ -154,7 +154,6 @@ def enclose(expression: Expression) -> arb:
 
 
 def midpoint(ball: arb) -> fmpq:
-    """The exact centre of a ball."""
     mantissa, exponent = ball.mid().man_exp()
     return fmpq(mantissa) * fmpq(2) ** int(exponent)
 

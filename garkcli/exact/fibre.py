@@ -59,7 +59,6 @@ class FibreRoot(Frozen, eq=False):
         return replace(self, low=low, high=high)
 
     def ball(self, bits: int) -> arb:
-        """An enclosure to ``bits`` bits after the point."""
         finer = self.refined(bits)
         with ctx.workprec(2 * bits):
             return arb(finer.low).union(arb(finer.high))
@@ -207,7 +206,6 @@ class Fibre:
         return None
 
     def have_common_zero(self, polynomials: Sequence[fmpq_mpoly]) -> bool:
-        """Whether polynomials have a common zero on the line, real or complex."""
         common = Polynomial([])
         for p in polynomials:
             common = gcd(common, self.polynomial(p))

@@ -292,7 +292,6 @@ Number: TypeAlias = fmpq | Algebraic
 
 
 def poly_of(number: Number) -> fmpq_poly:
-    """A number as a polynomial in the θ of its field."""
     return number.poly if isinstance(number, Algebraic) else fmpq_poly([number])
 
 

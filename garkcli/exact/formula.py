@@ -206,7 +206,6 @@ def _cut(text: str) -> str:
 
 
 def _power(base: Value, exponent: fmpq, at: nodes.Expression, of: nodes.Expression) -> Value:
-    """A power; the base is positive if the exponent is not an integer."""
     if exponent < 0:
         _check_divisor(base, of)
     if exponent.q == 1:

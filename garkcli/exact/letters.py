@@ -40,7 +40,6 @@ class Letters:
         self._free = [letter for letter in LETTERS if letter not in {*taken, DIAGONAL}]
 
     def letter(self, root: AlgebraicRoot, latex: bool = False) -> str | None:
-        """The letter of a root; None if all are taken."""
         if root not in self.of:
             if root == self._diagonal:
                 self.of[root] = DIAGONAL
@@ -66,11 +65,9 @@ def lettered(letters: Letters | None) -> Iterator[None]:
 
 
 def letters_now() -> Letters | None:
-    """The letters of the text that is made."""
     return _letters.get()
 
 
 def letter_of(root: AlgebraicRoot, latex: bool = False) -> str | None:
-    """The letter of a root in the text that is made; None if it has none."""
     letters = _letters.get()
     return None if letters is None else letters.letter(root, latex)

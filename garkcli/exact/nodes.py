@@ -34,7 +34,6 @@ class Literal(Expression):
 
 
 def is_decimal(literal: Literal) -> bool:
-    """Whether a number is written as a decimal."""
     return "." in literal.text or "e" in literal.text.lower()
 
 
@@ -95,7 +94,6 @@ class RealPower(Expression):
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:
-    """The direct subexpressions."""
     match expression:
         case Chain(operands=operands):
             return operands

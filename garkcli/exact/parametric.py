@@ -118,7 +118,6 @@ class Parameters:
         return Parametric(self, numerator, denominator)
 
     def reduced(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
-        """The polynomial with all rules applied."""
         for rule in reversed(self.rules):
             while polynomial.degrees()[rule.index] >= rule.degree:
                 parts: dict[int, dict[tuple[int, ...], fmpq]] = {}
@@ -293,7 +292,6 @@ def terms_of_product(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
 
 
 def terms_of_sum(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
-    """An upper bound of the number of terms of a sum."""
     if not p or not q:
         return len(p) + len(q)
     degrees = [max(pair) for pair in zip(p.degrees(), q.degrees(), strict=True)]
@@ -334,7 +332,6 @@ def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
 
 
 def unknowns_of(p: fmpq_mpoly) -> list[int]:
-    """The indices of the variables that occur."""
     return [k for k, degree in enumerate(p.degrees()) if degree > 0]  # of 0 they are −1
 
 

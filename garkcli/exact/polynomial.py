@@ -52,7 +52,6 @@ class Polynomial:
 
     @property
     def field(self) -> NumberField | None:
-        """The number field of the coefficients; None if all are rational."""
         for a in self.coefficients:
             if isinstance(a, Algebraic):
                 return a.field
@@ -63,7 +62,6 @@ class Polynomial:
         return self.field is None
 
     def to_flint(self) -> fmpq_poly:
-        """The polynomial for python-flint; its coefficients must be rational."""
         return fmpq_poly(list(self.coefficients))  # type: ignore[arg-type]
 
     def __bool__(self) -> bool:
@@ -240,7 +238,6 @@ def squared_on_axis(p: Sequence[Any]) -> list[Any]:
 
 
 def in_one(p: fmpq_mpoly, variable: int = 0) -> Polynomial:
-    """A polynomial in which only ``variable`` occurs, in one variable."""
     powers = {int(e[variable]): fmpq(a) for e, a in p.to_dict().items()}
     return Polynomial([powers.get(k, ZERO) for k in range(max(powers, default=-1) + 1)])
 

@@ -137,7 +137,6 @@ def in_t(p: fmpq_mpoly) -> Polynomial:
 
 
 def at_y(p: fmpq_mpoly, y: fmpq) -> Polynomial:
-    """p(y, t) for one y."""
     _, t = PLANE.gens()
     return in_t(p.compose(PLANE.constant(y), t))
 
@@ -257,7 +256,6 @@ def _beside_number(p: fmpq_mpoly, variables: tuple[int, int], along: Along) -> i
         return None
 
     def at_number(q: fmpq_mpoly, place: int) -> Polynomial:
-        """A polynomial in one variable and the number."""
         powers = (coefficient_of(q, k, place) for k in range(q.degrees()[place] + 1))
         return Polynomial([in_one(c, 2)(number) for c in powers])
 

@@ -92,7 +92,6 @@ def expanded(
 
 
 def names_in(expression: nodes.Expression) -> Iterator[nodes.Name]:
-    """Every name in ``expression``, in the order of the text."""
     if isinstance(expression, nodes.Name):
         yield expression
     for part in parts(expression):

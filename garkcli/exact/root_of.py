@@ -56,7 +56,6 @@ def root_nearest(polynomial: Expression, near: Expression, start: int, end: int)
 
 
 def _root(factor: fmpz_poly, number: int) -> Expression:
-    """The real root of an irreducible polynomial with an index."""
     if factor.degree() == 1:
         return Literal(fmpq(-factor[0], factor[1]))
     coefficients = tuple(int(a) for a in factor.coeffs())

@@ -15,7 +15,6 @@ from garkcli.deadline import check_time
 
 
 def pivot_columns(matrix: fmpq_mat) -> list[int]:
-    """The columns that are independent of those to their left."""
     reduced, _ = matrix.rref()
     return leading_columns(reduced)
 

@@ -39,7 +39,6 @@ def _row(text: str) -> Vector:
 
 
 def named(name: str) -> Method:
-    """One of the methods of ``STAGES``."""
     below, b = _ROWS[name]
     rows = [_row(row) for row in below.split(";") if row]
     return butcher(_lower(rows), _row(b), name=name)

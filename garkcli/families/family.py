@@ -35,7 +35,6 @@ class Option(Frozen):
 
     @property
     def example(self) -> str:
-        """An example of a value."""
         if self.shown:
             return self.shown
         if self.words:
@@ -79,17 +78,14 @@ class MethodFamily(Frozen):
 
     @property
     def size(self) -> str:
-        """The key of its size in method files."""
         return self.counted.name
 
     @property
     def is_single(self) -> bool:
-        """Whether it has one method, up to options."""
         return self.smallest == self.largest
 
     @property
     def needed(self) -> tuple[Option, ...]:
-        """The options that a member cannot do without."""
         size = () if self.is_single else (self.counted,)
         return (*size, *(option for option in self.options if option.default == ""))
 

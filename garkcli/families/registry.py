@@ -114,7 +114,6 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
 
 
 def _size_of(family: MethodFamily, size: int | None) -> int:
-    """The size of a member, within the bounds of the family."""
     if size is None and family.is_single:
         return family.smallest
     if size is None:
@@ -137,7 +136,6 @@ def _size_of(family: MethodFamily, size: int | None) -> int:
 
 
 def _complete(family: MethodFamily, options: Options) -> Options:
-    """A value for every option of the family, and for no other."""
     for name in options:
         if name not in family.keys:
             message = f"the family {family.name} has no option {name[:MAX_NAME]!r}"

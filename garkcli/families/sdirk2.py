@@ -22,7 +22,6 @@ GAMMA = Option(
 
 
 def sdirk2(_: int, options: Options) -> Recipe:
-    """The method with a given γ."""
     return Recipe(2, _method, (cast("Expression", options["gamma"]),))
 
 

@@ -108,7 +108,6 @@ class _Message(Frozen):
     words: tuple[str, ...]
 
     def is_told_by(self, message: str) -> bool:
-        """Returns whether a message is this one with its holes filled."""
         if not all(word in message for word in self.words):
             return False
         filled = ".*".join(map(re.escape, self.words))

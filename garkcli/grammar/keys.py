@@ -343,7 +343,6 @@ def mapping(
 
 
 def closed(properties: Schema, *needed: str) -> Schema:
-    """Returns the schema of a mapping with these keys and no others."""
     return {
         "type": "object",
         "properties": properties,
@@ -368,8 +367,6 @@ def count(least: int = 0, most: int | None = None) -> ValueKind:
 
 
 def word(words: Callable[[], Iterable[str]]) -> ValueKind:
-    """Returns the kind of one of several words; a mapping describes them."""
-
     def schema() -> Schema:
         known = words()
         if isinstance(known, Mapping):
@@ -479,7 +476,6 @@ def defined(name: str, read: Read = as_it_is) -> ValueKind:
 
 
 def declared(module: str, name: str) -> Any:
-    """Returns a declaration from a module, which is imported."""
     return getattr(import_module(module), name)
 
 

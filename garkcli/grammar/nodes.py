@@ -26,14 +26,12 @@ Extent: TypeAlias = tuple[int, int]
 
 
 def keys_of(node: Node) -> set[str]:
-    """Returns the text keys of a mapping; none for other nodes."""
     if not isinstance(node, MappingNode):
         return set()
     return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
 
 
 def key_nodes(node: Node) -> dict[str, ScalarNode]:
-    """Returns the nodes of the keys of a mapping, the first of equal ones."""
     nodes: dict[str, ScalarNode] = {}
     for key, _ in node.value if isinstance(node, MappingNode) else ():
         if isinstance(key, ScalarNode):
@@ -126,7 +124,6 @@ MAX_NESTING = 12
 
 
 def position(mark: Any) -> tuple[int, int]:
-    """Returns the line and the column of a mark, from 1; 1 and 1 without a mark."""
     if mark is None:
         return 1, 1
     return mark.line + 1, mark.column + 1

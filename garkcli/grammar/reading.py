@@ -46,7 +46,6 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
 
 
 def _not_quoted(path: str, kind: FileKind) -> Remark:
-    """Returns the fault for a file that may not be quoted."""
     if is_elsewhere(path):
         message = f"a link to a file elsewhere, which has no key of a {kind.name}"
         return Remark(message, "name the file that is meant", code="elsewhere")

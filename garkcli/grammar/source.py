@@ -160,7 +160,6 @@ class Source:
     def expression_fault(
         self, node: Node, where: str, error: errors.ExpressionError, cause: str = ""
     ) -> None:
-        """Reports an error in the text of a number."""
         told = error.message, error.help, error.start, where, cause
         self.fault(node, *told, code=error.code, meant=error.meant)
 
@@ -217,7 +216,6 @@ class Source:
         return root
 
     def _kind_of(self, root: MappingNode) -> FileKind | None:
-        """Returns the other kind of file to which the keys belong; None if in doubt."""
         keys, own = keys_of(root) - {"gark"}, set(self.kind.keys)
         others = (
             kind
@@ -319,7 +317,6 @@ class Source:
             self.fault(unknown[MAX_FAULTS], message, "fix these first", code="more-faults")
 
     def check_version(self, node: Node | None) -> None:
-        """Reports a version of the format that is not supported."""
         if node is not None and self.scalar(node, "gark") != "1":
             message = "gark: this program reads version 1 of the format"
             self.fault(node, message, "write gark: 1", code="wrong-version")
@@ -368,7 +365,6 @@ class Source:
         return None
 
     def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
-        """Returns one of several words."""
         text = self.scalar(node, where)
         words = list(known)
         if text is None or text in words:
@@ -378,7 +374,6 @@ class Source:
         return None
 
     def unknown_word(self, node: Node, message: str, word: str, known: Iterable[str]) -> None:
-        """Reports a word at ``node`` that is not known, with the one that was meant."""
         words = list(known)
         cure, meant = errors.did_you_mean(word, words), errors.nearest(word, words)
         self.fault(node, message, cure, code="unknown-word", meant=meant)

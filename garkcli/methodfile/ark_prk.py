@@ -55,7 +55,6 @@ PRK = mapping(
 
 
 def ark(at: NumbersReader, node: Node) -> d.ArkText | None:
-    """Reads the form ``ark``; None if it is not a method."""
     entries: ReadMapping | None = ARK.read(at, node, "ark")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None

@@ -265,7 +265,6 @@ class Builder(Generic[V]):
         raise TypeError(f"no content: {content!r}")
 
     def part(self, part: d.PartText) -> Tableau:
-        """Returns a part of a construction, built as if it stood alone."""
         if id(part) not in self._parts:
             tableau = Builder(part, self.values).tableau
             self._at(part.description.node, lambda: tableau.demand_fields("a construction"))

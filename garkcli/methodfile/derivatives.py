@@ -83,7 +83,6 @@ class DerivativesText(d.OwnContent):
 
 
 def derivatives(at: NumbersReader, node: Node) -> DerivativesText | None:
-    """Reads the form ``derivatives``; None if it is not a method."""
     entries: g.ReadMapping | None = DERIVATIVES.read(at, node, "derivatives")
     if entries is None or not entries.is_right:
         return None

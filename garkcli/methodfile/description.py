@@ -211,7 +211,6 @@ class MethodsText(Content):
         return tuple(method.further for method in self.methods)
 
     def places(self) -> Iterator[Place]:
-        """Yields the numbers; A^{l,m} belongs to colour l."""
         for l, method in enumerate(self.methods):
             yield from method.places(l)
         for (l, _), block in self.transfer.blocks.items():
@@ -233,7 +232,6 @@ class TableauText(Content):
         return [""] * len(self.b)
 
     def places(self) -> Iterator[Place]:
-        """Yields the numbers; A^{l,m} belongs to colour l."""
         for l, blocks in enumerate(self.A):
             for block_rows in blocks:
                 yield from places_of(block_rows or (), l)
@@ -254,7 +252,6 @@ class ArkText(Content):
         return [""] * len(self.b)
 
     def places(self) -> Iterator[Place]:
-        """Yields the numbers; A^{m} belongs to colour m."""
         for m, rows in enumerate(self.A):
             yield from places_of([*rows, self.b[m]], m)
         yield from super().places()
@@ -319,7 +316,6 @@ class PartText(Frozen):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding of its coefficients."""
         content, rounding = self.description.content, self.description.rounding
         if rounding is None and isinstance(content, ConstructionText):
             return content.tolerance

@@ -65,7 +65,6 @@ _KEYS = {key.name: key for key in FAMILY.inside()}
 def methods(
     at: NumbersReader, node: Node, structure: d.Structure, transfer: Node | None
 ) -> d.MethodsText | None:
-    """Reads the form ``methods``; None if it is not a method."""
     if keys_of(node) & {"A", "b", "family", "stages"} or _in_a_word(node) is not None:
         items = [node]  # one method needs no brackets around it
     else:

@@ -190,7 +190,6 @@ OF_ORDERS = {
 
 
 def highest_order(claims: tuple[ClaimText, ...], keys: Collection[str] = OF_ORDERS) -> int:
-    """Returns the largest number in the claims with some keys; 0 without one."""
     return max([_largest(claim.value) for claim in claims if claim.key in keys], default=0)
 
 

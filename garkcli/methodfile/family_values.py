@@ -99,7 +99,6 @@ class FamilyValues(Values):
         return value
 
     def _plain(self, expression: Expression) -> fmpq | None:
-        """Returns the value of an expression if it is a rational number."""
         if any(roots_in(expression)):
             return None
         try:

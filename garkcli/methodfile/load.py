@@ -217,7 +217,6 @@ _OTHER_KINDS: dict[Form, str] = {
 
 
 def _free(reader: MethodReader, description: Description) -> MethodFileError:
-    """Returns the error for a family of methods, or the other faults of the file."""
     if reader.source.faults:
         return reader.source.error()
     kind = _OTHER_KINDS.get(description.form)

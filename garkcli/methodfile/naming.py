@@ -96,7 +96,6 @@ def called(argument: str) -> str:
 
 
 def is_both(path: str) -> bool:
-    """Returns whether a path is also the name of a method."""
     return can_be_name(path) and look_up(path) is not None
 
 
@@ -133,7 +132,6 @@ def _family(name: str) -> MethodFamily | None:
 
 
 def is_catalogued(name: str) -> bool:
-    """Returns whether a catalogue has a method of exactly this name."""
     method = look_up(name)
     return method is not None and method.name == name and method.shelf != FAMILY
 
@@ -233,7 +231,6 @@ def _first(names: Sequence[str]) -> str:
 
 
 def every_shelf() -> list[shelving.Shelf]:
-    """All shelves in the order of search."""
     return list(chain.from_iterable(_in_turn()))
 
 

@@ -52,7 +52,6 @@ class NprkText(d.OwnContent):
 
 
 def nprk(at: NumbersReader, node: Node) -> NprkText | None:
-    """Reads the form ``nprk``; None if it is not a method."""
     entries: g.ReadMapping | None = NPRK.read(at, node, "nprk")
     if entries is None or not entries.is_right:
         return None

@@ -140,7 +140,6 @@ class Free(Between, kw_only=True):
     where: str = ""
 
     def within(self, other: Between) -> Free:
-        """Returns the parameter with a further range."""
         ranges, bounds = (*self.ranges, *other.ranges), (*self.bounds, *other.bounds)
         return replace(self, ranges=ranges, bounds=bounds)
 

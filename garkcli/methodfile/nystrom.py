@@ -133,7 +133,6 @@ class NystromText(d.OwnContent):
 
     @property
     def beside(self) -> tuple[d.FurtherText, ...]:
-        """The further weights of each component."""
         if self.embedded is None and self.dense is None:
             return ()
         embedded, dense = self.embedded, self.dense or (None, None)
@@ -169,7 +168,6 @@ class NystromText(d.OwnContent):
 
 
 def nystrom(at: NumbersReader, node: Node) -> NystromText | None:
-    """Reads the form ``nystrom``; None if it is not a method."""
     fields: g.ReadMapping | None = NYSTROM.read(at, node, "nystrom")
     if fields is None or not fields.is_right or not fields["b"]:
         return None

@@ -176,7 +176,6 @@ def _is_whole(expression: Expression) -> bool:
 
 
 def _approximation(value: Number) -> fmpq:
-    """Returns the error of a fraction."""
     if not isinstance(value, fmpq) or value.q < LONG_DENOMINATOR:
         return fmpq(0)
     q = int(value.q)

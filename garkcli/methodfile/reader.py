@@ -225,7 +225,6 @@ class MethodReader(NumbersReader):
 
     @staticmethod
     def _tolerance(own: Tolerance | None, content: d.Content) -> Tolerance | None:
-        """Returns the tolerance of the file, or that of its parts; None if all is exact."""
         inside = content.tolerance if isinstance(content, d.ConstructionText) else None
         if own is not None or not inside:
             return own
@@ -243,7 +242,6 @@ class MethodReader(NumbersReader):
 
     @property
     def shaped(self) -> Shaped | None:
-        """The tableau of its ``unknown``, or None."""
         return self.content.shaped
 
     def _opened(self, name: str) -> Opened:

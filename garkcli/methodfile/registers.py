@@ -119,7 +119,6 @@ class RegistersText(OwnContent):
 
 
 def shu_osher(at: NumbersReader, node: Node) -> RegistersText | None:
-    """Reads the form ``shu-osher``; None if it is not a method."""
     entries: g.ReadMapping | None = SHU_OSHER.read(at, node, "shu-osher")
     if entries is None or not entries.is_right:
         return None
@@ -140,7 +139,6 @@ def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
 
 
 def low_storage(at: NumbersReader, node: Node) -> RegistersText | None:
-    """Reads the form ``low-storage``; None if it is not a method."""
     entries: g.ReadMapping | None = LOW_STORAGE.read(at, node, "low-storage")
     if entries is None or not entries.is_right:
         return None

@@ -215,7 +215,6 @@ class RosenbrockText(description.OwnContent):
 
 
 def rosenbrock(at: NumbersReader, node: Node) -> RosenbrockText | None:
-    """Reads the form ``rosenbrock``; None if it is not a method."""
     entries: g.ReadMapping | None = ROSENBROCK.read(at, node, "rosenbrock")
     if entries is None or not entries.is_right:
         return None

@@ -51,7 +51,6 @@ class RoundedFamily(Frozen, eq=False):
         return family_at(self.family, shifts, bits)
 
     def generic(self) -> FamilyFile:
-        """Returns the family with an indeterminate for each rounded number and each root."""
         family = self.family
         return loads_family(
             family.text,

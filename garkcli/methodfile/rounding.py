@@ -135,7 +135,6 @@ class Rounded:
         source.close()
 
     def largest(self, *kinds: str) -> fmpq:
-        """Returns the largest error of the numbers of some kinds: empty for A, b and c."""
         return max((self._largest.get(kind, fmpq(0)) for kind in kinds), default=fmpq(0))
 
     def box(self, text: PartText) -> Box:
@@ -217,7 +216,6 @@ def _all_parts(expression: nodes.Expression) -> Iterator[nodes.Expression]:
 
 
 def _copied(expression: nodes.Expression, kept: Container[int]) -> nodes.Expression:
-    """Returns a copy of an expression that shares only the parts in ``kept``."""
     if id(expression) in kept:
         return expression
     match expression:
@@ -240,7 +238,6 @@ def is_of_unknowns(expression: nodes.Expression, given: Container[int]) -> bool:
 def _rounded_in(
     expression: nodes.Expression, value: Number
 ) -> Iterator[tuple[nodes.Expression, Number]]:
-    """Yields the rounded numbers in an expression and their values."""
     if is_long_fraction(expression, value):
         yield expression, value
         return

@@ -43,11 +43,9 @@ class FileSearch(Frozen):
 
     @property
     def search(self) -> Search:
-        """The search, made once in each process."""
         return _search(self)
 
     def do(self, task: SearchTask) -> Timed:
-        """Returns the result of a task and the time it took."""
         return do(self.search, task)
 
 

@@ -50,7 +50,6 @@ class UnknownLayout(Frozen):
 
     @property
     def unknowns(self) -> tuple[str, ...]:
-        """The names in the layout, row by row."""
         texts = chain.from_iterable(chain([self.c], *self.A, self.b, self.embedded or ()))
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
@@ -533,7 +532,6 @@ def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
 
 
 def _keys(layout: UnknownLayout) -> dict[str, Any]:
-    """Returns the keys of the equivalent method file."""
     (first, *more), rows = layout.A, layout.embedded
     beside: dict[str, Any] = {} if rows is None else {"embedded": rows[0]}
     match layout.kind:

@@ -150,7 +150,6 @@ class Package(Shelf):
 
     @cached_property
     def entries(self) -> Mapping[str, Mapping[str, Any]]:
-        """The entries of the index by name."""
         return {x["name"]: x for x in json.decode(self._index)["methods"]}
 
     def named(self, key: str) -> Sequence[Shelved]:
@@ -162,7 +161,6 @@ class Package(Shelf):
         return [self._entered(json.decode(line.removesuffix(",")))]
 
     def called(self, method: Shelved) -> Sequence[str]:
-        """Returns the aliases of a method, from the index."""
         aliases: Sequence[str] = self.entries[method.name]["aliases"]
         return aliases
 

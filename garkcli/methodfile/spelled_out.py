@@ -246,7 +246,6 @@ def colours_in(at: NumbersReader, node: Node, name: str) -> list[Node] | None:
 
 
 def are_too_many(at: NumbersReader, colours: Sized, node: Node) -> bool:
-    """Returns whether there are more colours than allowed, and reports it."""
     if len(colours) <= d.MAX_COLOURS:
         return False
     message = f"{len(colours)} colours (limit {d.MAX_COLOURS})"
@@ -269,7 +268,6 @@ def butcher(at: NumbersReader, node: Node, where: str, names: Names) -> d.Butche
 def _method(
     at: NumbersReader, entries: Entries, names: Names
 ) -> tuple[Rows, Row, Row | None] | None:
-    """Reads A, b and c of a method with one colour; None if they are not a method."""
     name_of_A, name_of_b, name_of_c = names
     A = at.numbers.matrix(entries["A"], name_of_A)
     b = at.numbers.row(entries["b"], name_of_b)
@@ -292,7 +290,6 @@ def _method(
 
 
 def nodes_fit(at: NumbersReader, node: Node, name: str, c: Row, stages: int) -> bool:
-    """Returns whether there is one node for each stage, and reports if not."""
     cure = "give one node for each stage, or leave c out"
     return one_each(at, node, name, c, "entry", "stage", stages, cure)
 
@@ -403,7 +400,6 @@ def _blocks(at: NumbersReader, entries: Entries, linear: Node | None) -> d.Table
 
 
 def _block_row(at: NumbersReader, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
-    """Reads the blocks A^{l,m} of colour l, None for absent ones."""
     where = f"row {l + 1} of blocks"
     items = at.source.items(node, f"A, {where}")
     cure = "write null for a block that does not exist"
@@ -549,7 +545,6 @@ def _parts(at: NumbersReader, entries: Entries, where: str) -> tuple[int, Node |
 
 
 def polynomials(at: NumbersReader, node: Node, where: str, stages: int, degree: int) -> Rows | None:
-    """Reads one row for each stage, with one coefficient for each power of θ."""
     rows = at.numbers.matrix(node, where)
     if not rows or not stages:
         return None
@@ -569,7 +564,6 @@ def polynomials(at: NumbersReader, node: Node, where: str, stages: int, degree: 
 def refuse_partial(
     at: NumbersReader, further: Sequence[d.FurtherText], names: Sequence[str], node: Node
 ) -> None:
-    """Reports further weights that only some colours have."""
     for key in d.BESIDE:
         given = [getattr(text, key) is not None for text in further]
         if any(given) and not all(given):

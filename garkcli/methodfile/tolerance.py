@@ -46,16 +46,13 @@ class Tolerance(FrozenBut):
 
     @property
     def is_single(self) -> bool:
-        """Whether there is one number for the whole file."""
         return not self.places and not self.is_of_digits
 
     @property
     def is_of_digits(self) -> bool:
-        """Whether some tolerances depend on the last digits."""
         return DIGITS in self.offs.values()
 
     def largest(self, entries: Iterable[Coefficient]) -> fmpq:
-        """Returns the largest tolerance of some entries."""
         offs = [x for x in self.offs.values() if isinstance(x, fmpq)]
         if self.is_of_digits:
             offs.append(coarsest_unit([x.expression for x in entries]))

@@ -127,7 +127,6 @@ class Wishes(Frozen):
     entries: tuple[Coefficient, ...] = ()
 
     def count(self, key: str) -> int | None:
-        """Returns the whole number of a key, None if the key is absent."""
         values = [wish.value for wish in self.wishes if wish.want.key == key]
         return next((x for x in values if isinstance(x, int)), None)
 

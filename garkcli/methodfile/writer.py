@@ -66,7 +66,6 @@ def _spelled_out(tableau: Tableau, text: NumberText, further: Further) -> list[s
 
 
 def _defined(letters: Defined) -> list[str]:
-    """Returns the parameters that stand for roots."""
     return [f"{NAMES[x]}: {quoted(format_expression(root))}" for root, x in letters.items()]
 
 
@@ -158,8 +157,6 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Furthe
 
 
 def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
-    """Returns the tableau of the rounded entries, with its stages at the rounded nodes."""
-
     def rounded(cells: Sequence[Cell]) -> Vector:
         return tuple(_rounded(cell, entries.digits) for cell in cells)
 

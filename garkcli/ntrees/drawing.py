@@ -169,7 +169,6 @@ def _lying(tree: Tree, colours: bool) -> list[str]:
 
 
 def paint(colour: int) -> tuple[str, str]:
-    """The fill of a colour, and the ink on it."""
     return PALETTE[colour % len(PALETTE)]
 
 

@@ -193,7 +193,6 @@ def format_latex(tree: Tree, colours: bool | Sequence[str] = True) -> str:
 
 
 def _name(tree: Tree, colours: bool | Sequence[str]) -> str:
-    """The name of a root's colour, or its number from 1."""
     return str(tree.root + 1) if isinstance(colours, bool) else colours[tree.root]
 
 

@@ -55,7 +55,6 @@ class StageVectors(ABC, Generic[Vectors]):
         return self._some(table, order, l, is_bare=False)
 
     def _some(self, table: TreeTable, order: int, l: int, is_bare: bool) -> Vectors:
-        """The stage vectors of trees, or of bare stems."""
         key = order, self._natures[l], is_bare
         if key not in self._vectors:
             kind = table.admissible.kinds[l]

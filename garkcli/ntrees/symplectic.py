@@ -120,7 +120,6 @@ class ConditionClass(Frozen):
         return tuple(sorted(twins, key=Tree.sort_key))
 
     def _admissible_rootings(self) -> Iterator[Tree]:
-        """The rootings with a condition, with repeats if vertices are alike."""
         return filter(self.structure.is_admissible, self.structure.rootings(self.centred))
 
     @property

@@ -65,7 +65,6 @@ class Columns(Frozen):
 
     @classmethod
     def empty(cls, length: int, exact: DTypeLike) -> Columns:
-        """Columns to be filled; ``exact`` is the type of σ and γ."""
         ids = [np.empty(length, np.int64) for _ in range(2)]
         small = [np.empty(length, np.int16) for _ in range(3)]
         return cls(*ids, *small, *[np.empty(length, exact) for _ in range(2)])
@@ -94,13 +93,11 @@ class Columns(Frozen):
         return Columns(*[column[which] for column in self.all()])
 
     def write(self, start: int, trees: Columns) -> None:
-        """Writes trees at position ``start`` and following."""
         stop = start + len(trees)
         for column, values in zip(self.all(), trees.all(), strict=True):
             column[start:stop] = values
 
     def freeze(self) -> Columns:
-        """Makes the columns read-only."""
         for column in self.all():
             column.flags.writeable = False
         return self
@@ -241,7 +238,6 @@ class Texts:
             self._insides.update(named)
 
     def _of_children(self, trees: Columns) -> list[Inside]:
-        """The insides of trees whose parents' insides are known."""
         insides = self._insides
         root = self.columns.root
         order = self.columns.order
@@ -469,7 +465,6 @@ class Places(Frozen):
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> Places:
-        """The places of all trees up to an order."""
         starts: list[tuple[int, ...]] = []
         first = 0
         counts = counts_upto(admissible, order)
@@ -484,11 +479,9 @@ class Places(Frozen):
 
     @property
     def size(self) -> int:
-        """The number of trees."""
         return self.starts[-1][-1]
 
     def trees(self, order: int, root: int | None = None) -> range:
-        """The ids of the trees of one order, with any root colour or one."""
         starts = self.starts[order - 1]
         if root is None:
             return range(starts[0], starts[len(starts) // 2])
@@ -501,7 +494,6 @@ class Places(Frozen):
 
 
 def _count_bare(admissible: Admissible, counts: Sequence[Counts], order: int, root: int) -> int:
-    """The number of bare stems of an order with a root colour."""
     kind = admissible.kinds[root]
     rest = order - kind.weight
     if rest <= 0:
@@ -544,7 +536,6 @@ class _Root(Frozen):
                     yield Segment(*made), growth
 
     def fill(self, ids: range, arity: Arity) -> Iterator[Segment]:
-        """Writes the trees into the columns."""
         kind = self.admissible.kinds[self.root]
         if ids and self.order == kind.weight:
             self.lower.write(ids.start, Columns.vertex(self.root, kind))

@@ -109,7 +109,6 @@ def coupling_graph(tableau: Tableau) -> Admissible:
 
 
 def are_few(tableau: Tableau, order: int, most: int) -> bool:
-    """Whether the trees of an order can be listed and are at most ``most``."""
     return tableau.is_listed and sum(counts_of(coupling_graph(tableau), order)) <= most
 
 

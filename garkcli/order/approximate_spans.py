@@ -239,7 +239,6 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
 
 
 def _largest(matrix: arb_mat) -> tuple[tuple[int, int], float]:
-    """The place and size of the largest entry."""
     sizes = [*map(float, _absolute(matrix.entries()))]
     largest = max(sizes)
     return divmod(sizes.index(largest), matrix.ncols()), largest

@@ -103,7 +103,6 @@ def named_blocks(tableau: Tableau) -> list[Edge]:
 
 
 def count_entries(method: Tableau, missed: MissedOrder) -> int:
-    """The number of entries that may be wrong."""
     return sum(1 for _ in _entries(method, missed.is_embedded, missed.keeps_shape))
 
 
@@ -295,7 +294,6 @@ def _fits_node(method: AnyTableau, repair: Repair) -> bool:
 
 
 def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:
-    """The blocks in the elementary weight of ``tree``, with multiplicities."""
     return Counter(
         named_block(tableau, (vertex.root, branch.root))
         for vertex in tree.vertices()

@@ -63,7 +63,6 @@ class DenseOrder(Shown, Frozen):
 
     @property
     def is_lower_bound(self) -> bool:
-        """Whether nothing is known to fail."""
         return self.witness is None
 
     def __repr__(self) -> str:

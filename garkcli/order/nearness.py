@@ -67,7 +67,6 @@ class Nearness(Frozen):
 
 
 def nearness(search: Recovery, order: int) -> Nearness:
-    """Returns the distance from the print to the method of a search."""
     place = search.settled
     shifts = np.array([to_float(x) for x in place.shifts])
     sizes = [_two_digits(x) for x in np.abs(shifts)]

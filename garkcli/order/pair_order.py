@@ -92,7 +92,6 @@ def missing_of_block(
 
 
 def _missing(defects: Defects, order: int) -> Iterator[SimplifyingCondition]:
-    """The conditions added by an order that do not hold."""
     tableau = defects.tableau
     diagonal = [(l, l) for l in range(tableau.size)]
     for letter, number in added(order):

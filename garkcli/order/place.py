@@ -79,7 +79,6 @@ class BoxPlace:
 
     @property
     def is_inside(self) -> bool:
-        """Whether all shifts are at most 1."""
         return all(abs(x) <= 1 for x in self.shifts)
 
     @cached_property
@@ -103,7 +102,6 @@ class BoxPlace:
         return from_colours(self._method, self.search.printed_further)[1]
 
     def exact(self, name: str) -> Tableau:
-        """A derived tableau of this method."""
         if name not in self._exact:
             with arithmetic(self.search.bits):
                 self._exact[name] = self.search.targets[name](self._method)
@@ -206,7 +204,6 @@ class BoxPlace:
         return midpoint(arb(float(size))) / tree.density
 
     def may_meet(self, name: str, tree: Tree) -> bool:
-        """Whether the radii explain the residual of a tree."""
         with arithmetic(self.search.bits):
             return may_vanish(self._tree_row(name, tree), 0)
 
@@ -267,7 +264,6 @@ class SearchedBox:
             self.with_weights(name, partial(_power, power))
 
     def with_weights(self, name: str, weights: Callable[[Further], Weights]) -> None:
-        """Adds the tableau with some of its further weights as b."""
         self.targets.setdefault(name, partial(self._with, weights))
 
     def _with(self, weights: Callable[[Further], Weights], whole: Tableau) -> Tableau:

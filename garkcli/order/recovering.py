@@ -54,7 +54,6 @@ class RecoveryFailure(Frozen, eq=False):
 
     @property
     def trees(self) -> list[Tree]:
-        """The trees of these rows."""
         return [label.tree for _, label in self.labels if label.tree is not None]
 
 
@@ -114,7 +113,6 @@ class Recovery(SearchedBox):
         return max((self.box.radii[k] for k in found), default=fmpq(0))
 
     def finer(self, bits: int) -> Recovery:
-        """The search with at least ``bits`` bits."""
         other = copy(self)
         other.bits = max(self.bits, bits)
         return other
@@ -153,7 +151,6 @@ class Recovery(SearchedBox):
         return min(limit, dense.degree), None
 
     def excludes_dense(self, order: int) -> bool:
-        """Whether it is proved that dense output has a smaller order."""
         self.settled  # noqa: B018 -- it looks for that
         reached, failure = self._dense
         if order > len(self.printed_further.powers):
@@ -175,7 +172,6 @@ class Recovery(SearchedBox):
         return True
 
     def order_of(self, name: str, limit: int) -> tuple[int, RecoveryFailure | None, list[Tree]]:
-        """The order of a tableau as by ``recover_order``, computed once."""
         with np.errstate(all="ignore"):  # numbers beyond floats leave all open
             return self._order_of(name, limit)
 
@@ -199,7 +195,6 @@ class Recovery(SearchedBox):
     # what gives a method its shape
 
     def _recover_shape_and_orders(self) -> None:
-        """Recovers the shape, with the orders that are known already."""
         if self._start_at_recovered():
             return
         self.recover_shape()

@@ -120,7 +120,6 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def defects(self) -> Defects:
-        """The defects of all methods that it may mean, in balls."""
         return BoxDefects(self.tableau, self.search.origin.in_balls(self.name), self.search.bits)
 
     def meets(self, tree: Tree) -> bool:
@@ -345,7 +344,6 @@ def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
 
 
 def tree_missed(tableau: Tableau, order: int, share: int, grain: fmpq) -> Tree | None:
-    """The tree of an order that differs most from share/γ(u); None within ``grain``."""
     bits = bits_for(grain)
     trees = TreeResiduals(tableau, enclose_tableau(tableau, bits))
     with ctx.workprec(bits):

@@ -58,7 +58,6 @@ class FormDefects:
         self._words: dict[tuple[int, ...], Forms] = {}
 
     def of(self, label: Label) -> Forms:
-        """The defects of a label, one form or one for each stage."""
         if label not in self._known:
             self._known[label] = getattr(self, f"_{label.kind}")(label)
         return self._known[label]

@@ -130,7 +130,6 @@ def _changes(
 
 
 def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) -> bool:
-    """Whether the residuals of an order are of the size of rounding."""
     sizes = (x.residual for x in conditions(rounded.tableau, missed))
     return bool(missed) and all(within(x, unnatural(order)) for x in sizes)
 
@@ -221,7 +220,6 @@ def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candid
 
 
 def without(rows: Floats, direction: Floats) -> Floats:
-    """The rows, or one column, without their part in a direction."""
     rest: Floats = rows - np.multiply.outer(direction, direction @ rows) / (direction @ direction)
     return rest
 

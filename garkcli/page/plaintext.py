@@ -182,7 +182,6 @@ def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
 
 
 def _columns(line: str) -> int:
-    """Returns the width of a line, without colour codes."""
     return len(re.sub(_COLOURS, "", line))
 
 

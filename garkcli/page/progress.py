@@ -55,7 +55,6 @@ def watching(what: str) -> Iterator[None]:
 
 
 def _bars() -> Draws:
-    """Returns a process that draws, if the system can fork."""
     if hasattr(os, "fork"):
         with suppress(OSError):
             return Process()
@@ -119,7 +118,6 @@ class Tasks:
         self.tell()
 
     def changed(self) -> None:
-        """Updates the tasks from time to time."""
         if monotonic() >= self._next:
             self.tell()
 
@@ -129,7 +127,6 @@ class Tasks:
         self.tell()
 
     def hush(self) -> None:
-        """Ends the drawing."""
         if not self._is_hushed:
             self._is_hushed = True
             self.bars.end()
@@ -145,7 +142,6 @@ class Tasks:
         return told or [Task(0, self._what, 0, None)]
 
     def tell(self) -> None:
-        """Sends the tasks to what draws them."""
         if not self._is_hushed:
             self._next = monotonic() + EVERY
             self.bars.draw(self.at_work)
@@ -167,7 +163,6 @@ class Bars:
         return max(0.0, self._due - monotonic())
 
     def draw(self, tasks: Sequence[Task]) -> None:
-        """Draws the tasks over the previous ones, if it is time."""
         now = monotonic()
         for task in tasks:
             self._begun.setdefault(task.number, (now, task.done))
@@ -219,7 +214,6 @@ class Bars:
             self._live = None
 
     def end(self) -> None:
-        """Erases the tasks for good."""
         self.wipe()
 
 
@@ -283,7 +277,6 @@ class Process:
         os.waitpid(self._process, 0)
 
     def _send(self, message: bytes) -> bool:
-        """Sends a message; returns False if the process is gone."""
         with suppress(OSError):
             os.write(self._commands, message + b"\n")
             return True

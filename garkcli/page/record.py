@@ -50,7 +50,6 @@ class Record(Generic[Whole]):
         self.is_open = is_open
 
     def data(self, whole: Whole) -> dict[str, Any]:
-        """Returns the object as plain data."""
         found = {}
         for field in self.fields:
             value = field.value(whole)
@@ -59,7 +58,6 @@ class Record(Generic[Whole]):
         return found
 
     def text(self, whole: Whole) -> str:
-        """Returns the object as a JSON document."""
         return f"{to_json(self.data(whole))}\n"
 
     @property
@@ -75,5 +73,4 @@ class Record(Generic[Whole]):
         return schema
 
     def every(self, name: str, parts: Callable[[Owner], Iterable[Whole]]) -> Field[Owner]:
-        """Returns a field with a list of these objects, one for each part."""
         return Field(name, array(self.schema), lambda owner: [self.data(x) for x in parts(owner)])

@@ -45,7 +45,6 @@ def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
 
 
 def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
-    """Returns a row of the tableau, with lines between blocks."""
     above = f"border-top:{_LINE};" if is_first else ""
     cells = [_cell(head, above)]
     for group in groups:

@@ -22,7 +22,6 @@ LONGEST = 64
 
 
 def room_for_entry(width: int) -> int:
-    """The longest exact entry in lines of a width."""
     return min(LONGEST, width - len(_MARGIN))
 
 
@@ -87,7 +86,6 @@ def _grid(tableau: Tableau, entries: Entries, text: Text) -> list[str]:
 
 
 def _listing(tableau: Tableau, entries: Entries, width: int, text: Text) -> list[str]:
-    """Returns the lines with one block after the other."""
     names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
     vectors = [("c", entries.c), ("b", entries.b)]
@@ -167,7 +165,6 @@ def block_lines(name: str, cells: Sequence[Sequence[str]], width: int) -> list[s
 
 
 def _columns_that_fit(cells: Sequence[Sequence[str]], width: int) -> list[range]:
-    """Returns the columns of a block in groups that fit between the margin and ``width``."""
     gap = len(_GAP)
     room = width - len(_MARGIN) + gap  # the last column has no gap behind it
     groups = []

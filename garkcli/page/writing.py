@@ -146,7 +146,6 @@ def _encoded(pieces: Iterable[str | bytes]) -> Iterator[bytes]:
 
 
 def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -> None:
-    """Writes into an existing file or device; a file only once all pieces are there."""
     data = _encoded(pieces)
     if is_file:
         data = iter([b"".join(data)])

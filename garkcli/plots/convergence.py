@@ -71,7 +71,6 @@ class _Figure(Frozen):
         return _Figure(wide, high, scaled)
 
     def place(self, x: float, y: float) -> scene.Point:
-        """Returns the place of a point given in decades."""
         return x / self.wide, y / self.high
 
     def heights(self, x: float) -> list[float]:
@@ -85,7 +84,6 @@ class _Figure(Frozen):
 
 
 def _extent(numbers: Sequence[float]) -> float:
-    """Returns the range of numbers; 1 if they are equal."""
     return max(numbers) - min(numbers) or 1.0
 
 
@@ -98,7 +96,6 @@ def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
 
 
 def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.RuledLine:
-    """Returns the line with this distance from the nearest point."""
     left, _ = points[0]
     right, _ = points[-1]
     if len(points) == 1:
@@ -213,7 +210,6 @@ def _decades(points: Iterable[tuple[Any, Any]]) -> list[scene.Point]:
 
 
 def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:
-    """Returns the step sizes as marks, as many as there is space for."""
     places = {h: log10(h) for h in sorted(set(sizes), reverse=True)}
     least = (max(places.values()) - min(places.values())) / _MOST_STEPS
     found: list[scene.Mark] = []

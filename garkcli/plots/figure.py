@@ -30,7 +30,6 @@ _TEXT = "0.15"
 
 
 def figure(scene: scenes.Scene) -> Figure:
-    """Returns a figure of a scene, with the legend of each panel below it."""
     panels = scene.panels
     heights = [_BESIDE + x.height / _INCH + _LEGEND_ROW * len(x.legend) for x in panels]
     title = [line for text in scene.title.splitlines() for line in wrap(text, _TITLE_WIDTH)]

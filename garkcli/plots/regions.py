@@ -67,7 +67,6 @@ def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> scene.Panel
 
 
 def _stable(oscillator: OscillatorStability) -> list[tuple[float, float | None]]:
-    """Returns the intervals of stable z; None for an infinite end."""
     return [
         (0.0 if x.start is None else _root(x.start), None if x.end is None else _root(x.end))
         for x in oscillator.stable

@@ -33,7 +33,6 @@ def check_suffix(path: Path) -> None:
 
 
 def need_matplotlib() -> None:
-    """Raises UsageProblem without matplotlib."""
     if find_spec("matplotlib") is None:
         cure = "install garkcli[plot]; text and JSON do without"
         raise UsageProblem("a figure needs matplotlib", cure, code="missing-package")

@@ -162,7 +162,6 @@ class Axis(Frozen):
         return Axis(label, low - beside, high + beside, is_logarithmic, given)
 
     def marks(self, most: int) -> Sequence[Mark]:
-        """Returns labelled marks, about ``most`` of them."""
         if self.given:
             return self.given
         make = logarithmic_marks if self.is_logarithmic else linear_marks
@@ -205,8 +204,6 @@ class Area(Frozen):
 
 
 def polygons(style: int | None, loops: Loops, opacity: float, has_outline: bool = True) -> Area:
-    """Returns the region inside outlines."""
-
     def holds(x: float, y: float) -> bool:
         sides = (side for loop in loops for side in pairwise([*loop, *loop[:1]]))
         return sum(_crosses(x, y, *side) for side in sides) % 2 == 1
@@ -254,7 +251,6 @@ class Panel(Frozen):
 
     @property
     def legend(self) -> list[Curve | Area]:
-        """The labelled shapes."""
         named = [shape for shape in self.shapes if not isinstance(shape, RuledLine)]
         return [shape for shape in named if shape.label]
 
@@ -272,7 +268,6 @@ def capitalized(name: str) -> str:
 
 
 def shortened(name: str, longest: int) -> str:
-    """Returns a name from outside on one line, shortened to ``longest`` characters."""
     shown = printable(name)
     if len(shown) <= longest:
         return shown

@@ -66,7 +66,6 @@ _LOOK: dict[str, Value] = {"font_size": "12", "fill": "currentColor", "stroke_li
 
 
 def _inside(panel: scene.Panel) -> tuple[list[str], float]:
-    """Returns the elements of a panel with its description, and its height."""
     frame = _Frame(panel)
     foot = frame.bottom + _BOTTOM
     lines = [

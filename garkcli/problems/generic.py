@@ -145,7 +145,6 @@ def _problem(name: str, seed: int, split: list[_Term], draw: Draw) -> Hamiltonia
 
 
 def start(draw: Draw) -> tuple[fmpq, ...]:
-    """q(0), then p(0), each at most 1/5 from zero."""
     return _near_zero(draw, 2 * len(VARIABLES))
 
 

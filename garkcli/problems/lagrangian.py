@@ -44,7 +44,6 @@ class Equations(Frozen):
 
     @property
     def are_linear(self) -> bool:
-        """Whether the equations are linear in the velocities."""
         moving = set(self.v)
         entries = [x for row in self.M for x in row]
         return not any(x.free_symbols & moving for x in entries)
@@ -244,7 +243,6 @@ def _smooth(solved: SolvedVelocities, p: Vector) -> list[SolvedVelocities]:
 
 
 def _with_sign(solved: SolvedVelocities, sign: int) -> SolvedVelocities:
-    """The candidate with ``sign`` · y for |y|."""
     import sympy
 
     def without_kinks(y: Expr) -> Expr:
@@ -275,7 +273,6 @@ def _is_right(solved: Substitution, equations: Equations) -> bool:
 
 
 def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | None:
-    """Whether the equations hold at one place; None if something has no value there."""
     at = {**place, **equations.momenta(place)}
     if not all(x in at for x in equations.p):
         return False

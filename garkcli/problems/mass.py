@@ -45,7 +45,6 @@ class Lagrangian(Frozen):
 
     @property
     def is_quadratic(self) -> bool:
-        """Whether L is quadratic in the velocities: M does not depend on them."""
         moving = set(velocities(self.variables))
         entries = [x for row in self.M for x in row]
         return not any(x.free_symbols & moving for x in entries)
@@ -103,7 +102,6 @@ def inverse_of(M: ExprMatrix, names: Vector, start: Place) -> tuple[list[list[Ex
 
 
 def _inverse_of_numbers(M: ExprMatrix) -> list[list[Expr]] | None:
-    """The inverse of a rational matrix; None if it is singular."""
     matrix = fmpq_mat([[number(x) for x in row] for row in M])
     if not matrix.det():
         return None
@@ -137,7 +135,6 @@ class _Minors:
         return rows
 
     def _of(self, rows: _Places, columns: _Places) -> Expr:
-        """The minor of some rows and columns, by its first row."""
         import sympy
 
         if not rows:
@@ -161,7 +158,6 @@ def enclosed(expressions: Vector, at: Place) -> list[arb]:
 
 
 def enclosed_at(expressions: Vector, names: Vector, numbers: Sequence[arb]) -> list[arb]:
-    """The expressions with ``numbers`` for the symbols ``names``, enclosed."""
     made = expressions
     if not isinstance(expressions, Deferred):
         import sympy

@@ -203,7 +203,6 @@ def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
 
 
 def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
-    """Refuses a share of a term that no colour drives."""
     if {x.part for x in tableau.colours if x.term == term}.isdisjoint({"y", part}):
         message = f"term {term + 1} has {energy} energy, but the method has no colour for it"
         cure = f"move the {energy} share to another term with --split"

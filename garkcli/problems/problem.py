@@ -23,13 +23,11 @@ def field_of(problem: Problem, term: int, drives: Group) -> VectorField:
 
 
 def unknowns(problem: Problem) -> Deferred:
-    """The symbols of a state, without time."""
     groups = [group for group in problem.layout.groups if group != TIME]
     return arguments_in(problem.variables, groups)
 
 
 def conserved(problem: Problem) -> Vector:
-    """The conserved quantities, the energy first if there is one."""
     invariants = problem.invariants
     of = problem.terms if isinstance(problem, Hamiltonian) else invariants
 

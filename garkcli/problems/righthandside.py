@@ -118,7 +118,6 @@ def _one() -> Exprs:
 
 
 def solution(problem: RightHandSide, time: arb) -> list[arb]:
-    """The exact solution at one time, at the current precision."""
     assert problem.exact is not None
     evaluate = function(
         problem.exact, vectorfield.arguments_in(problem.variables, (vectorfield.TIME,)), True

@@ -43,7 +43,6 @@ def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
 
 
 def _undone(f: Expr, inner: Expr, c: Expr) -> list[Expr]:
-    """The values of ``inner`` with f = c."""
     import sympy
 
     if f.is_Pow and f.base == inner and f.exp.is_Rational:
@@ -147,7 +146,6 @@ def _without_root(f: Expr, u: Expr) -> Expr:
 
 
 def _quadratic(a: Expr, b: Expr, c: Expr) -> list[Expr]:
-    """The zeros of a u² + b u + c, unless it is constant."""
     import sympy
 
     if a == 0:

@@ -103,7 +103,6 @@ def _float(x: fmpq) -> str:
 
 
 def constant_name(x: fmpq) -> str:
-    """The name of a rational constant in programs for balls."""
     sign = "m" if x < 0 else ""
     p = abs(int(x.p))
     q = int(x.q)
@@ -216,7 +215,6 @@ class _Writer:
         return self.constants.setdefault(x, f"{{k{len(self.constants)}}}")
 
     def _sum(self, terms: Vector) -> str:
-        """A sum, terms without a minus sign first."""
         made = ""
         for term in sorted(terms, key=lambda x: x.could_extract_minus_sign()):
             if not made:

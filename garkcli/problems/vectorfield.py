@@ -54,7 +54,6 @@ class StateLayout(Frozen):
 
 @cache
 def symbols(variables: tuple[str, ...], group: Group) -> Exprs:
-    """The sympy symbols of a group, named as the variables; time is one symbol."""
     import sympy
 
     return tuple(sympy.Symbol(name, real=True) for name in _names(variables, group))
@@ -195,7 +194,6 @@ _TRIES = 8  # random places where two values are sought
 
 
 def _differs(x: Expr, names: Exprs) -> bool:
-    """Whether two values of an expression provably differ."""
     bits = _BITS[0]
     while bits <= _BITS[1]:
         differs = _differs_at(x, names, bits)

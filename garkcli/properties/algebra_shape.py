@@ -69,7 +69,6 @@ def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
 
 
 def _rational_blocks(tableau: Tableau, colours: Sequence[int]) -> Blocks | None:
-    """The blocks between some colours; None if one is missing or irrational."""
     indices = sorted({tableau.colours[l].space for l in colours})
     found: Blocks = {}
     for place in product(indices, colours):

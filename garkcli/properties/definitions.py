@@ -294,7 +294,6 @@ def _of_property(found: Property) -> Definition:
 
 
 def every_definition() -> list[Definition]:
-    """All definitions, in the order of the documentation."""
     return [*ORDERS.values(), *(_of_property(find(key)) for key in KEYS)]
 
 

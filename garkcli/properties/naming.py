@@ -18,7 +18,6 @@ _SHORT = 24
 
 
 def number_words(number: Number) -> Formula | str:
-    """A number, or its first digits if it is long."""
     text = shortest(number)
     if len(text) > _SHORT:
         return f"about {to_decimal(number, 6)}"

@@ -145,7 +145,6 @@ def stages_that_matter(tableau: Tableau, tolerance: fmpq = ZERO) -> set[Vertex]:
 
 
 def _with_entries(space: int, row: Vector, tolerance: fmpq) -> set[Vertex]:
-    """The stages of a space with nonzero entries in a row."""
     return {(space, j) for j, entry in enumerate(row) if is_nonzero(entry, tolerance)}
 
 

@@ -141,11 +141,9 @@ class Subject(Frozen):
 
     @cached_property
     def shape(self) -> Shape:
-        """The shape of the whole method."""
         return self._of_families(range(self.tableau.size)) or shape_of(self.graph, self.tolerance)
 
     def _of_families(self, colours: Sequence[int]) -> Shape | None:
-        """The shape of some colours if it needs no nodes."""
         if self.tolerance or any(isinstance(x, PointSpace) for x in self.tableau.spaces):
             return None
         from garkcli.properties.algebra_shape import shape_of_families

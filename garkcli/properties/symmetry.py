@@ -151,7 +151,6 @@ def _by_sight(tableau: Tableau) -> _Images | None:
 
 
 def _divided(tableau: Tableau, k: int, classes: _Classes) -> list[_Class]:
-    """The classes of a space, divided by the sums of their stages."""
     finer = []
     for whole in classes[k]:
         if len(whole.stages) == 1:
@@ -277,7 +276,6 @@ class _SymmetrySearch:
                 self._images[k].pop(self._images[k].pop(i), None)
 
     def _is_placed(self, stage: Vertex, images: Iterator[int], possible: _Images) -> bool:
-        """Whether a stage and the next of its possible images were placed."""
         k, i = stage
         of_space = self._images[k]
         for j in images:

@@ -48,7 +48,6 @@ class Size(Frozen):
         return f"{decimal}, a root of {polynomial}"
 
     def words(self, dialect: Any) -> str:
-        """The number in the notation of a dialect."""
         return size_reason(str(self)).words(dialect)
 
 

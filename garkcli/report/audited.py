@@ -43,7 +43,6 @@ class Audit(NamedTuple):
 
 
 def _is_doubtful(found: Audited) -> bool:
-    """Whether a finding is more than a note."""
     return any(x.level != "note" for x in found.findings)
 
 
@@ -142,7 +141,6 @@ REPORT: Report[Audit] = Report.only(
 
 
 def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
-    """The findings as the formats for machines have them."""
     for found in tables:
         file = PurePath(found.table.source).as_posix()
         name = found.table.name

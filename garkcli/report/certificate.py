@@ -88,7 +88,6 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
 
 
 def _theta_between(field: NumberField) -> list[str]:
-    """An interval around θ."""
     ball = to_ball(field.element(fmpq_poly([0, 1])), DIGITS_OF_ROOT + 10)
     near = midpoint(ball)
     unit = fmpq(1, 10**DIGITS_OF_ROOT)
@@ -476,7 +475,6 @@ def _hulls(name: str, table: Iterable[Iterable[Hull | None]], basis: _Basis) -> 
 
 
 def _hull(hull: Hull | None, basis: _Basis) -> str:
-    """The point and the directions, each in integers of its own."""
     if hull is None:
         return "None"
     base, den = basis.whole(hull.base)

@@ -224,8 +224,6 @@ def table(
     kind: Kind[kinds.BlockTable],
     rows: Callable[[Simplifying], Sequence[Sequence[int | None]]],
 ) -> Row[Analysis]:
-    """B, C or D, a number for each block."""
-
     def get(a: Analysis) -> Answer[kinds.BlockTable]:
         found = kinds.BlockTable(rows(a.simplifying), a.simplifying.limit)
         return Answer(found, Status(a.tolerance))
@@ -315,7 +313,6 @@ def consistent(a: Analysis) -> Answer[bool]:
 
 
 def wrong_row_sums(o: Outcome) -> list[Reason]:
-    """The reason why nodes are not the row sums, if they are not."""
     return [consistent(o.analysis).reason] if o.analysis and o.analysis.inconsistent else []
 
 
@@ -431,7 +428,6 @@ class OfColour(NamedTuple):
 
     @property
     def is_open(self) -> bool:
-        """Whether its stage order may be larger."""
         return self.stage_order >= self.limit
 
 
@@ -478,7 +474,6 @@ def count_rows(key: str) -> Rows[Analysis]:
 
 
 def colours_apart(a: Analysis) -> list[OfColour] | None:
-    """The colours, where they are not alike."""
     found = by_colour(a)
     kinds_of = {(x.shape and x.shape.kind, x.stage_order) for x in found}
     return found if len(kinds_of) > 1 else None
@@ -695,7 +690,6 @@ def constants_words(c: ErrorConstants, d: Plain) -> str:
 
 
 def of_fields(c: ErrorConstants) -> bool:
-    """Whether all colours are vector fields of their own, which may be coupled."""
     return c.all.worst is None or c.all.worst.is_of_fields
 
 
@@ -1011,7 +1005,6 @@ def every_property(o: Outcome) -> list[PropertyVerdict] | None:
 
 
 def property_rows_of(found: Sequence[PropertyVerdict], d: Plain) -> list[tuple[str, str]]:
-    """Properties with their verdicts, and what decides them."""
     rows = []
     for key, v, tolerance in found:
         why = f": {d.reason(v.reason)}" if v.reason and v.value is not True else ""

@@ -40,7 +40,6 @@ _ROWS_OF_OTHER_KINDS: dict[str, dict[str, Row[Any]]] = {
 
 
 def _how(found: TrueClaims, d: Plain) -> Iterator[tuple[str, str]]:
-    """Each claim with its value and the reason for it."""
     a = found.analysis
     known: Mapping[str, Row[Any]] = _ROWS
     if not isinstance(a, Analysis):

@@ -116,13 +116,11 @@ class ConditionTable(Mutable):
 
     @property
     def colours(self) -> Sequence[str]:
-        """The names of the colours; one where the rows are for all of them."""
         about = self.subject or self.valued
         return about.names if about else [str(l + 1) for l in range(self.coloured or 1)]
 
     @property
     def form(self) -> facts.Section[ConditionTable]:
-        """The rows of the table, without keys that no condition has."""
         is_shapes = not (self.subject or self.valued or self.coloured)
         left_out = {"for_all": not is_shapes, "multiplicity": self.subject is not None}
         left_out |= {"stands_for": self.subject is None, "members": not self.with_members}
@@ -264,7 +262,6 @@ def _kind(condition: Condition) -> str | None:
 
 
 def _multiplicity(row: ConditionRow) -> str:
-    """The number of conditions that a row stands for, or the colours that it is for."""
     if row.stands_for:
         return f"stands for {row.stands_for}"
     if row.condition is not None and row.condition.twins:
@@ -321,7 +318,6 @@ _OF_METHOD: facts.Rows[Valued] = (
 
 @cache
 def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> facts.Section[ConditionRow]:
-    """A line of the table without the rows of some keys."""
     rows = (*_TREE, *(_VALUES if has_values else ()), *_CLASS)
     return facts.Section(row for row in rows if row.key not in left_out)
 

@@ -192,7 +192,6 @@ def _answer(x: results.Convergence, d: Plain) -> str:
 
 
 def remarks(result: results.Convergence) -> list[str]:
-    """Remarks on the verdict."""
     said = []
     if result.plateau:
         said.append(
@@ -326,5 +325,4 @@ REPORT: Report[ConvergenceReport | FailedRun] = Report(
 
 
 def whole(result: results.Convergence, name: str) -> ConvergenceReport:
-    """A test under the name of its method if there is no other."""
     return ConvergenceReport(result, name or ("" if result.method is None else result.method.name))

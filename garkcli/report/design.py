@@ -80,7 +80,6 @@ class OrderDemand(NamedTuple):
 
     @property
     def conditions(self) -> list[Reason]:
-        """Further restrictions on the values."""
         nonzero = self.step.nonzero if isinstance(self.step, steps.Decided) else ()
         return conditions(self.design.family, nonzero)
 
@@ -360,7 +359,6 @@ def _answer(x: DesignReport, d: Plain) -> str:
 
 
 def _of_single(design: Design, best: steps.Step | None) -> str:
-    """The answer for a method without unknowns."""
     last = design.last
     if best is not None and (best is last or last.kind == "none"):
         return f"order {best.order} of the {design.whose}"
@@ -406,7 +404,6 @@ def further_rows(x: DesignReport, d: Plain) -> Texts:
 
 
 def _unknowns(numbers: Iterable[object], ring: Parameters) -> set[str]:
-    """The unknowns that numbers depend on."""
     parts = (p for x in numbers for p in fraction(x, ring))
     return {ring.names[i] for p in parts for i in unknowns_of(p)}
 
@@ -464,7 +461,6 @@ def _number(value: RealRoot, d: Plain) -> str:
 
 
 def _among(minimum: Minimum) -> str:
-    """The methods that were compared."""
     order = minimum.step.order
     stable = " and ".join(dict.fromkeys(map(str, minimum.design.family.stable)))
     match minimum.extent:
@@ -514,7 +510,6 @@ def _toward(limit: ObjectiveLimit, d: Plain) -> str:
 
 
 def best_rows(minimum: Minimum, d: Plain) -> Texts:
-    """The objective, its value, and the methods with it."""
     what = minimum.objective.summary.format(next=minimum.step.order + 1)
     if not minimum.design.family.parameters:
         return [(d.prose(minimum.objective.key.removeprefix("-")), d.prose(what))]
@@ -726,7 +721,6 @@ REPORT: Report[DesignReport] = Report.only(
 
 
 def whole(found: Design | Minimum, name: str) -> DesignReport:
-    """A design or a minimum, under the name of its family if there is no other."""
     if isinstance(found, Minimum):
         return DesignReport(name or found.design.family.name, found.design, minimum=found)
     return DesignReport(name or found.family.name, found)

@@ -32,7 +32,6 @@ class CurveReport(NamedTuple):
 
     @property
     def knots(self) -> list[tuple[Knot, CurveReport]]:
-        """The knots, each with the whole report."""
         return [(knot, self) for knot in self.curve.knots]
 
 

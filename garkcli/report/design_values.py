@@ -24,7 +24,6 @@ _NAME = re.compile(r"[A-Za-z_]\w*")
 
 
 def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
-    """Polynomials that are zero, with roots as the file writes them."""
     known = [_terms(x.relation) for x in family.radicals]
     return [_text(family, p) for p in polynomials if _terms(p) not in known]
 
@@ -103,7 +102,6 @@ def _bounds(family: Family) -> tuple[dict[str, list[str]], list[fmpq_mpoly]]:
 
 
 def _terms(p: AnyPolynomial) -> dict[tuple[int, ...], fmpq]:
-    """The coefficients of a polynomial, normed to have 1 as the leading one."""
     terms = {tuple(map(int, e)): fmpq(a) for e, a in p.to_dict().items()}
     highest = terms[max(terms)]
     return {e: a / highest for e, a in terms.items()}
@@ -117,7 +115,6 @@ def _text(family: Family, p: AnyPolynomial) -> str:
 
 
 def _written(family: Family, p: AnyPolynomial) -> str:
-    """A polynomial with roots as the file writes them."""
     written = {name: text for name, (text, _) in family.ring.shown.items()}
     written |= {x.name: x.text for x in family.radicals}
     return _NAME.sub(lambda found: written.get(found[0], found[0]), str(p))

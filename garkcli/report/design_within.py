@@ -220,5 +220,4 @@ REPORT: Report[WithinReport] = Report.only(
 
 
 def whole(found: DesignWithin, name: str) -> WithinReport:
-    """The values with a name: the given one, or that of their family."""
     return WithinReport(name or found.family.name, found)

@@ -155,7 +155,6 @@ def relation(x: ComparedPair) -> Answer[str]:
 
 
 def told(x: ComparedPair) -> str:
-    """The changes that turn one method into the other."""
     return "; ".join(_turns(x.found))
 
 
@@ -185,7 +184,6 @@ def _numbers(images: Sequence[int]) -> str:
 
 
 def tolerances(x: ComparedPair) -> str | None:
-    """The tolerances of the files if they differ."""
     one, other = x.found.one.tolerance, x.found.other.tolerance
     if one == other:
         return None

@@ -404,5 +404,4 @@ REPORT: Report[EnergyReport | FailedRun] = Report(
 
 
 def whole(run: histories.LongRun, name: str) -> EnergyReport:
-    """A run under the name of its method if there is no other."""
     return EnergyReport(name or ("" if run.method is None else run.method.name), run)

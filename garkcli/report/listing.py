@@ -96,7 +96,6 @@ SCHEME: Section[Scheme | Splitting] = Section(
 
 
 def _topics(lists: Lists) -> list[tuple[str, str, str]]:
-    """The lists, the number of their entries, and the command for each."""
     counts = {"methods": len(method_names())}
     counts |= {name: len(x) for x, name in zip(lists, ROWS, strict=True)}
     return [(name, str(count), f"gark list {name}") for name, count in counts.items()]

@@ -36,7 +36,6 @@ ORDER = "order"
 def _field(
     key: str, kind: facts.Kind[V], level: facts.Level = DATA, has_null: bool = True, line: str = ""
 ) -> facts.Row[Entry]:
-    """The field of that name; null if nobody knows it."""
     row = facts.maybe if has_null else facts.Row
     return row(key, kind, lambda entry: entry[key], level, line=line)
 

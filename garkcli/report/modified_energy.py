@@ -33,7 +33,6 @@ class ModifiedEnergyReport(Frozen):
 
 
 def _error(row: Step) -> float:
-    """The middle of an error, in the digits that are shown."""
     return float(row.error.mid().str(6, radius=False))
 
 
@@ -157,5 +156,4 @@ REPORT: Report[ModifiedEnergyReport | FailedRun] = Report(
 
 
 def whole(run: ModifiedRun, name: str) -> ModifiedEnergyReport:
-    """A run under the name of its method if there is no other."""
     return ModifiedEnergyReport(name or ("" if run.method is None else run.method.name), run)

@@ -77,7 +77,6 @@ def witness_html(witness: Witness) -> str:
 
 
 def order_html(order: AnyOrder) -> str:
-    """The order in a sentence, and the tree at which it ends."""
     from garkcli.tell.kinds import ORDER, order_answer
 
     return _said("order", ORDER, order_answer(order)) + _drawn(order.witness)
@@ -107,7 +106,6 @@ def _drawn(witness: Witness | None) -> str:
 
 
 def condition_html(condition: Condition) -> str:
-    """A tree, and its condition in one line."""
     tree = condition.tree
     weight = f"{condition.value} = {condition.required}"
     if not condition.is_exact:
@@ -128,7 +126,6 @@ def stability_latex(found: Stability) -> str:
 
 
 def function_latex(R: StabilityFunction) -> str:
-    """R(z) as a formula."""
     over, under = (polynomial_latex(p, "z") for p in integral([R.numerator, R.denominator]))
     fraction = over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
     return f"$R(z) = {fraction}$"

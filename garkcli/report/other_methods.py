@@ -73,8 +73,6 @@ DENSE: facts.Row[OtherAnalysis] = facts.maybe(
 
 
 def _truth(key: str) -> facts.Row[Linear]:
-    """A property that R(z) decides."""
-
     def get(a: Linear) -> facts.Answer[bool]:
         v = a.subject.verdict(key)
         assert v.value is None or isinstance(v.value, bool)

@@ -84,8 +84,6 @@ Run: TypeAlias = "Convergence | LongRun | ModifiedRun"
 
 
 def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:
-    """The problem of a run: in words, and its terms for programs."""
-
     def problem(x: Run) -> P | None:
         return x.problem if isinstance(x.problem, kind) else None
 

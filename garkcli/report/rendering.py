@@ -95,7 +95,6 @@ def latex(method: GarkMethod) -> str:
 
 
 def html(value: object) -> str:
-    """A value as notebooks show it."""
     report, whole = _told_by(TOLD_BY[_kind(value, TOLD_BY)])
     return report.html(whole(value, ""))
 

@@ -99,7 +99,6 @@ def _walked(node: Any, path: tuple[str, ...]) -> Any:
 
 
 def _field(schema: Any, path: tuple[str, ...]) -> Any:
-    """The schema of a field with its description, followed by that of its numbers."""
     inner = _walked(schema, path)
     text = text_of(path)
     if not (text and isinstance(inner, dict)):

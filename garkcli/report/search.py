@@ -134,7 +134,6 @@ def _shown(value: str, d: Plain) -> str:
 
 
 def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
-    """Each method with its proof, its file and its values."""
     objective = report.result.objective
     rows = []
     for number, (method, path) in enumerate(report.methods, start=1):

@@ -612,7 +612,6 @@ def _cut(end: RealRoot | fmpq, power: int) -> str:
 
 
 def _end_of(found: Extent | Ray) -> RealRoot | fmpq | None:
-    """A lower bound of the end of the interval from 0 on; None for ∞."""
     if isinstance(found, Bounds):
         return found.low
     if isinstance(found, Ray):

@@ -122,7 +122,6 @@ def _part_words(part: StripPart, names: Names, d: Plain) -> str:
 
 
 def _end_words(end: End, names: Names, d: Plain) -> str:
-    """An end of a set of the second parameter."""
     if isinstance(end, RealRoot):
         return d.root(end)
     assert end is not None
@@ -135,7 +134,6 @@ def _end_words(end: End, names: Names, d: Plain) -> str:
 
 
 def _curve_text(branch: Branch, names: Names) -> str:
-    """The polynomial of a curve, in the names of the parameters."""
     ring = Parameters(list(map(_as_factor, names)))
     terms: dict[tuple[int, ...], fmpq] = {
         (int(k), int(j)): a for (j, k), a in branch.curve.to_dict().items()
@@ -148,7 +146,6 @@ def _as_factor(name: str) -> str:
 
 
 def _function_text(branch: Branch, name: str) -> str | None:
-    """A branch that is a rational function; None for another."""
     parts = branch.formula()
     if parts is None:
         return None
@@ -267,5 +264,4 @@ REPORT: Report[StableReport] = Report.only(
 
 
 def whole(found: StableValues, name: str) -> StableReport:
-    """Values under the name of their family if there is no other."""
     return StableReport(name or found.family.name, found)

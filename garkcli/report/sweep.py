@@ -100,7 +100,6 @@ ROWS: Kind[Sequence[Judged]] = Kind(Json(S.array(ROW), lambda rows, _: list(rows
 
 
 def section(report: SweepReport | None = None) -> Section[SweepReport]:
-    """The rows of a sweep, by its criteria."""
     plan = None if report is None else report.plan
     by, front = ("", "") if plan is None else (", ".join(plan.best), ", ".join(plan.pareto))
     most = 10 if report is None else report.top

@@ -286,7 +286,6 @@ GREEK = {"alpha": "α", "beta": "β", "gamma": "γ", "omega": "ω"}
 
 
 def _moved(x: Transformation | None, d: Plain) -> list[str]:
-    """The eigenvalues, T and its inverse."""
     if x is None:
         return []
     pairs = [f"{a} ± {b}i" for a, b in _rounded(x, x.pairs)]
@@ -297,7 +296,6 @@ def _moved(x: Transformation | None, d: Plain) -> list[str]:
 
 
 def _rounded(x: Transformation, rows: Sequence[Sequence[arb]]) -> list[list[str]]:
-    """The texts of some rows of balls."""
     least = arb(10) ** -x.digits
 
     def text(y: arb) -> str:

@@ -97,7 +97,6 @@ class TreeList(Mutable):
 
 
 def picture(tree: Callable[[T], Tree]) -> Row[T]:
-    """The tree in LaTeX."""
     return itself("picture", told(lambda x, d: d.sketch(tree(x))), DETAIL, label="")
 
 
@@ -254,7 +253,6 @@ class SymplecticSubject(Frozen):
 
     @property
     def _admissible(self) -> Admissible:
-        """The trees that have a condition."""
         if self.method is None:
             return self.structure.admissible
         from garkcli.order.admissible import coupling_graph
@@ -281,7 +279,6 @@ class SymplecticSubject(Frozen):
 
     @property
     def has_colours(self) -> bool:
-        """Whether trees are written with their colours."""
         return len(self.names) > 1
 
     def members(self, tree: symplectic.ConditionClass) -> list[str]:
@@ -289,7 +286,6 @@ class SymplecticSubject(Frozen):
 
     @property
     def legend(self) -> str:
-        """The names of the colours; empty if there is one."""
         if not self.has_colours:
             return ""
         pairs = [f"{l} {name}" for l, name in enumerate(self.names, start=1)]

@@ -23,7 +23,6 @@ MOST_PIECES_OF_UNIT = 4000
 
 
 def both(first: bool | None, second: bool | None) -> bool | None:
-    """Whether both hold; one that fails decides."""
     if first is False or second is False:
         return False
     if first and second:
@@ -202,7 +201,6 @@ def _bounded_behind(p: arb_poly, low: fmpq) -> Bounds:
 
 
 def least(bounds: Sequence[Bounds]) -> Bounds:
-    """Bounds on the smallest of several numbers."""
     lows = [one.low for one in bounds if one.low is not None]
     highs = [one.high for one in bounds if one.high is not None]
     if not lows:

@@ -39,7 +39,6 @@ class StepFunction(Frozen):
 
 
 def step_function(system: StageSystem) -> StepFunction:
-    """The step y₁ = M(z) y₀ with M(z) = I + z B (I − zW)⁻¹ E of a stage system, in lowest terms."""
     return reduced(unreduced(system))
 
 
@@ -172,7 +171,6 @@ def e_polynomial(R: StabilityFunction) -> Polynomial:
 
 @lru_cache(maxsize=16)
 def imaginary_set(R: StabilityFunction) -> tuple[Interval, ...]:
-    """The x = y² ≥ 0 with |R(iy)| ≤ 1, as intervals in x."""
     E = e_polynomial(R)
     Q = squared_modulus(R.denominator)
 
@@ -183,7 +181,6 @@ def imaginary_set(R: StabilityFunction) -> tuple[Interval, ...]:
 
 
 def real_set(R: StabilityFunction) -> tuple[Interval, ...]:
-    """The x ≥ 0 with |R(−x)| ≤ 1, as intervals in x."""
     minus = Polynomial([0, -1])
     P, Q = R.numerator.substituted(minus), R.denominator.substituted(minus)
     difference = Q * Q - P * P

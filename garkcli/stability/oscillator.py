@@ -85,7 +85,6 @@ class OscillatorStability(Frozen):
 
     @property
     def is_i_stable(self) -> bool:
-        """Whether every step size is stable."""
         return is_half_line(self.stable)
 
     @property

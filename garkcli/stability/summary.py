@@ -111,7 +111,6 @@ def _unit(size: int, l: int) -> list[Number]:
 
 
 def _word(word: str, is_so: bool | None) -> str:
-    """A property with its truth value, in words."""
     if is_so is None:
         return f"{word} not decided"
     return word if is_so else f"not {word}"
@@ -328,7 +327,6 @@ def stability_of_rounded(
 
 
 def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> LinearStability:
-    """The stability of a rounded method in one direction of (λ_1, …, λ_N)."""
     decided = stability_within(method.near, shares, method.grain)
     if not (decided.a_stable and decided.l_stable):
         decided = _unless_another(decided, method, shares)
@@ -350,7 +348,6 @@ def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> 
 def _unless_another(
     found: StabilityWithin, method: RoundedTableau, shares: Sequence[Number]
 ) -> StabilityWithin:
-    """The result, undecided if another method within the rounding may be stable."""
     widest = method.widest
     if widest is None:
         return replace(found, a_stable=found.a_stable or None, l_stable=found.l_stable or None)
@@ -363,7 +360,6 @@ def _unless_another(
 
 
 def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
-    """The directions of (λ_1, …, λ_N) that are examined, with their names."""
     size = tableau.size
     if tableau.is_partitioned or len(list(tableau.edges())) < size**2:
         return []

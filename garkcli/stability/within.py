@@ -216,7 +216,6 @@ def _poles_are_right(R: BallFraction) -> bool | None:
 
 
 def _real_end(R: BallFraction) -> ball_polynomials.Bounds:
-    """The end of the interval of −z on which |R| ≤ 1."""
     P = arb_poly(ball_polynomials.mirrored(R.P))
     Q = arb_poly(ball_polynomials.mirrored(R.Q))
     margin = Q * Q - P * P

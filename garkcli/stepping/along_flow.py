@@ -74,7 +74,6 @@ def along_flow(tableau: Tableau, problem: Problem) -> Stepped:
 def _derived(
     field: VectorField, first: Mapping[Group, tuple[Any, ...]], groups: tuple[Group, ...]
 ) -> VectorField:
-    """The derivative of a vector field along the solution."""
     variables = field.variables
     steps = [
         (x, slope)

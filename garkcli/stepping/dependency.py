@@ -85,7 +85,6 @@ class DependencyGraph(Frozen):
         return tuple(found)
 
     def _successors(self) -> dict[Vertex, list[Vertex]]:
-        """For each vertex those that need it."""
         after: dict[Vertex, list[Vertex]] = {stage: [] for stage in self.sums}
         after |= {evaluation: [] for evaluation in self.evaluations}
         for evaluation, stages in self.arguments.items():

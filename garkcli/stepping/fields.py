@@ -46,7 +46,6 @@ def split_into(problem: Problem, terms: int) -> Problem:
 
 
 def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
-    """T and shares of V, for H = T(q, p) + V(q); None if one of them is missing."""
     import sympy
 
     momenta = set(symbols(problem.variables, "p"))
@@ -67,7 +66,6 @@ Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
 
 
 def driven(colour: Colour) -> tuple[Group, ...]:
-    """The groups that a colour drives in a Hamiltonian problem."""
     return GROUPS if colour.part == "y" else (colour.part,)
 
 

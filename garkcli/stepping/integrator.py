@@ -336,12 +336,10 @@ class Stepper(Mutable):
 
     @property
     def y(self) -> list[Real]:
-        """The unknowns: (q, p), shape (2d,), or y, shape (d,)."""
         return self._numbers[: self.integrator.problem.layout.unknowns]
 
     @property
     def work(self) -> RunWork:
-        """The cost of all steps so far."""
         program = self.integrator.program
         repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
         return RunWork(

@@ -63,7 +63,6 @@ class ChainRule:
         self._image = self._entries(self.unknowns)
 
     def _entries(self, stages: Sequence[Stage]) -> list[_Entry]:
-        """The entries of the matrix W with ``stages`` as sums of w f."""
         found = []
         for row, stage in enumerate(stages):
             for evaluation in self._graph.sums[stage]:
@@ -101,7 +100,6 @@ class ChainRule:
 
 
 def _sorted_out(vertices: Iterable[Vertex]) -> tuple[list[Stage], list[FieldEvaluation]]:
-    """Separates stage values and field evaluations, in order."""
     stages: list[Stage] = []
     evaluations: list[FieldEvaluation] = []
     for vertex in vertices:
@@ -155,7 +153,6 @@ class JacobianWriter:
         stages.lines.write(f"inverse = {call}")
 
     def _places_of_weights(self) -> dict[tuple[Stage, FieldEvaluation], int]:
-        """The index of the number w of each stage value and evaluation."""
         stages = self._stages
         places = {}
         for stage, evaluations in stages.graph.sums.items():
@@ -252,7 +249,6 @@ class JacobianWriter:
         return rows
 
     def _named(self, row: Slope, prefix: str) -> Slope:
-        """The slope with names for composite texts."""
         made = {}
         for column, text in row.items():
             is_short = text.isidentifier() or text.replace(".", "").isdigit()

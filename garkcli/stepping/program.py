@@ -163,7 +163,6 @@ class _ProgramWriter:
         write(f" record([{state}])")
 
     def _write_increments(self) -> None:
-        """Writes the increments d = y_1 − y_0, group by group."""
         changes: list[str] = []
         for group in self.layout.groups:
             driving = [x for x in self.graph.evaluations if x.group == group]

@@ -67,7 +67,6 @@ class StageWriter:
         self._known_sums: list[StageSum] = []
 
     def explicit(self, block: StageBlock) -> None:
-        """Writes all vertices of ``block`` except its unknowns."""
         for vertex in block.order:
             if isinstance(vertex, FieldEvaluation):
                 self._evaluate(vertex)
@@ -81,7 +80,6 @@ class StageWriter:
         self.values[evaluation] = self.emit(code, self.arguments(evaluation), prefix)
 
     def _place(self, stage: Stage) -> None:
-        """Writes a stage value, the sum of y_0 and increments."""
         total = self.total(stage, self.graph.sums[stage], stage.group)
         found = []
         for i, text in enumerate(total.texts):
@@ -156,11 +154,9 @@ class StageWriter:
         return results
 
     def start(self, group: Group, i: int) -> str:
-        """The name of component i of a group at the start of the step."""
         return f"y{self.layout.start(group) + i}"
 
     def component(self, stage: Stage, i: int) -> str:
-        """The suffix of the names of component i of a stage value."""
         return f"{self.number[stage]}_{i}"
 
 

@@ -44,7 +44,6 @@ class SweptMethod(Frozen):
 
     @cached_property
     def conjugate_order(self) -> Order | None:
-        """The order of the symplectic conjugate; None if a weight is zero."""
         try:
             return find_order(conjugate(self.tableau))
         except ZeroWeight:
@@ -52,7 +51,6 @@ class SweptMethod(Frozen):
 
     @cached_property
     def pair(self) -> Tableau | None:
-        """The symplectic pair; None if a weight is zero."""
         try:
             return pair(self.tableau)
         except ZeroWeight:
@@ -72,7 +70,6 @@ class SweptMethod(Frozen):
 
     @cached_property
     def constants(self) -> ErrorConstants | None:
-        """The error constants of the first order that fails."""
         return _constants(self.tableau, self.order)
 
     @cached_property
@@ -90,7 +87,6 @@ class SweptMethod(Frozen):
 
     @cached_property
     def phase(self) -> PhaseError | None:
-        """The phase lag on the oscillator; None if the method has no partition for it."""
         problem = Oscillator.default(terms_of(self.tableau), fmpq(1))
         try:
             return oscillator_stability(self.tableau, problem).phase
@@ -123,14 +119,12 @@ class Column(Frozen):
 
 
 def is_value(value: object) -> bool:
-    """Returns whether a column may have a value."""
     if isinstance(value, float):
         return isfinite(value)
     return value is None or isinstance(value, (bool, int)) or value == INFINITY
 
 
 def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
-    """Returns a norm of the principal error."""
     if constants is None:
         return None
     norms = constants.all

@@ -37,7 +37,6 @@ _CONDITION = re.compile(r"(>=|<=|>|<|=)?\s*([-+0-9./eE]+)")
 
 
 def _value(at: Any, node: Node, text: str, where: str) -> fmpq | None:
-    """Reads a rational number."""
     try:
         expression = parse(text)
         if any(roots_in(expression)):
@@ -182,7 +181,6 @@ def _conditions() -> Iterator[g.Key]:
 
 @cache
 def _file() -> g.ValueKind:
-    """Returns the keys of a spec file."""
     some_columns = g.one_or_more(g.word(lambda: columns().keys()))
     return g.mapping(
         g.Key(
@@ -334,5 +332,4 @@ def sweep_schema() -> dict[str, Any]:
 
 
 def told(kind: FileKind) -> Iterator[KeyMeaning]:
-    """The keys of spec files."""
     return g.told(_file().inside(), kind.page)

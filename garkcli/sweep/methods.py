@@ -51,7 +51,6 @@ class Template(Frozen):
 
     @property
     def is_searched(self) -> bool:
-        """Whether its methods are found by a search."""
         return self.order > 0
 
     def count(self, grids: Mapping[str, tuple[str, ...]]) -> int:
@@ -200,7 +199,6 @@ class MethodsReader:
     def _add(
         self, methods: Sequence[tuple[str, int]], rule: str, shown: str, names: set[str]
     ) -> None:
-        """Adds a template with given members and rule."""
         used = tuple(name for name in self.grids if name in names)
         free = [name for name in self.free if name in names]
         members = [f'{{family: "{family}", stages: {s}}}' for family, s in methods]
@@ -244,7 +242,6 @@ class MethodsReader:
         return list(members)
 
     def read_files(self, node: Node, folder: Path) -> None:
-        """Reads method files beside the spec file."""
         for item in node.value if isinstance(node, SequenceNode) else [node]:
             name = self.source.scalar(item, "files")
             if name is None:

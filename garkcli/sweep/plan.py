@@ -77,7 +77,6 @@ class Criteria(Frozen):
         return json.dumps([self.columns, conditions])
 
     def fingerprint(self, template: Template) -> str:
-        """Returns a hash of the template, the columns and the conditions."""
         text = f"{self._as_text}\n{template.text}"
         if template.is_searched:
             text += f"\norder {template.order}, {template.starts} starts"
@@ -106,7 +105,6 @@ class Plan(Frozen):
         return self._starts[-1]
 
     def points(self) -> Iterator[Point]:
-        """Yields all methods, template by template."""
         for template in self.templates:
             for index in range(template.count(self.grids)):
                 settings = {}

@@ -18,7 +18,6 @@ _Point = list[float]
 
 
 def kept(rows: Iterable[Row]) -> list[Row]:
-    """Returns the rows that fulfil all conditions."""
     return [row for row in rows if row["kept"] is True]
 
 

@@ -27,7 +27,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 def first_find(point: Point) -> FoundMethod | None:
-    """Returns the first method that a search from the seed of a point finds."""
     template = point.template
     assert point.seed is not None
     if template.is_drawn:

@@ -42,7 +42,6 @@ class AlongFlow(Frozen):
 
     @property
     def nodes(self) -> Vector:
-        """The nodes, given or the row sums of a^1."""
         return _sums(self.A[0]) if self.c is None else self.c
 
     @property
@@ -79,7 +78,6 @@ class AlongFlow(Frozen):
 
 
 def jets_of(tableau: Tableau) -> Jets:
-    """The stages of such a method."""
     space = tableau.spaces[0]  # time may be beside it
     assert isinstance(space, Jets)
     return space

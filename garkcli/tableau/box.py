@@ -76,7 +76,6 @@ class FormTableau:
 
 
 def rational_or_ball(number: Any) -> Any:
-    """A number; a ball at the current precision if it is irrational."""
     return constant(number) if isinstance(number, Algebraic) else number
 
 
@@ -114,7 +113,6 @@ def to_points(tableau: Tableau) -> Tableau:
 
 
 def in_balls(rows: Any) -> Any:
-    """The rows with balls in place of irrational numbers."""
     return tuple(tuple(map(rational_or_ball, row)) for row in rows)
 
 

@@ -71,7 +71,6 @@ def conjugate(tableau: Tableau) -> Tableau:
 
 
 def conjugate_of(tableau: Tableau, l: int, m: int) -> matrix.Matrix:
-    """Â^{l,m} of a tableau with a block A^{m,l}."""
     block = tableau.block(m, l)
     if block is None:
         raise KeyError((l, m))

@@ -84,7 +84,6 @@ class Predictor(Frozen):
         return _matrix_at(self.old, ratio), _matrix_at(self.new, ratio)
 
     def changed(self, change: Callable[[Matrix], Matrix]) -> Predictor:
-        """The predictor with ``change`` applied to every matrix."""
         return Predictor(tuple(map(change, self.old)), tuple(map(change, self.new)))
 
 
@@ -101,7 +100,6 @@ class Further(Frozen):
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The kinds of weights that exist, in words."""
         named = {
             "embedded weights": self.embedded,
             "dense output": self.dense,
@@ -110,12 +108,10 @@ class Further(Frozen):
         return tuple(name for name, weights in named.items() if weights is not None)
 
     def __bool__(self) -> bool:
-        """Whether there are any further weights."""
         return bool(self.kinds)
 
     @property
     def powers(self) -> tuple[Weights, ...]:
-        """The coefficients of θ, θ², … in dense output."""
         if self.dense is None:
             return ()
         return tuple(self.dense.coefficients(power) for power in range(1, self.dense.degree + 1))
@@ -126,8 +122,6 @@ class Further(Frozen):
         return self.powers if self.embedded is None else (self.embedded, *self.powers)
 
     def changed(self, change: Callable[[Number], Number]) -> Further:
-        """The weights with ``change`` applied to every number."""
-
         def row(numbers: Vector) -> Vector:
             return tuple(map(change, numbers))
 

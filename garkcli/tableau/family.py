@@ -41,7 +41,6 @@ class Radical(Frozen):
 
     @classmethod
     def of(cls, name: str, number: RealRoot) -> Self:
-        """An algebraic number as an unknown."""
         x = Parameters([name]).context.gen(0)
         powers = enumerate(number.polynomial.coeffs())
         return cls(name, sum((x**k * fmpq(a) for k, a in powers), x * 0), meant=number)
@@ -141,7 +140,6 @@ class Family(Frozen, kw_only=True):
 
     @property
     def on_linear_problems(self) -> Self:
-        """The family of the methods with the same steps on linear problems."""
         return replace(self, tableau=on_linear_problems(self.tableau))
 
     def tested(self, wanted: RequiredStability) -> Self:
@@ -160,7 +158,6 @@ NAME = "_node"
 
 
 def ring_of(tableau: Tableau) -> Parameters:
-    """The ring of the coefficients of a family with parameters."""
     numbers: Iterable[object] = chain.from_iterable(tableau.rows)
     return next(x.ring for x in numbers if isinstance(x, Parametric))
 
@@ -198,7 +195,6 @@ def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
         return Parametric(larger, *parts)
 
     def number(x: Number) -> Any:
-        """The number with its roots as unknowns."""
         return with_radicals(x, radicals)
 
     return at_points(tableau, nodes, domain, function, number)

@@ -41,7 +41,6 @@ def _has_roots(tableau: Tableau | None) -> TypeGuard[Tableau]:
 
 
 def _diagonal(tableau: Tableau) -> AlgebraicRoot | None:
-    """The root that all nonzero diagonal entries of the blocks are; None if there is none."""
     entries = set()
     for l in range(tableau.size):
         block = tableau.block(l, l) or ()

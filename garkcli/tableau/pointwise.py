@@ -60,8 +60,6 @@ class Entries(Frozen):
     predictor: tuple[tuple[str, tuple[tuple[Row, ...], ...]], ...] = ()
 
     def changed(self, change: Callable[[Cell], Cell]) -> Entries:
-        """The entries with ``change`` applied to every number."""
-
         def row(cells: Row) -> Row:
             return tuple(map(change, cells))
 
@@ -91,8 +89,6 @@ class Entries(Frozen):
         return replace(self, embedded=further.embedded, dense=dense, predictor=predictor)
 
     def in_decimals(self, digits: int) -> Entries:
-        """The entries as enclosures with ``digits`` correct digits."""
-
         def enclosed(cell: Cell) -> Cell:
             if isinstance(cell, arb):
                 return cell

@@ -279,7 +279,6 @@ def _bits(number: Number) -> int:
 
 
 def _value(coefficients: Sequence[Number], x: Number) -> Number:
-    """A polynomial at x, by Horner's scheme."""
     total: Number = ZERO
     for coefficient in reversed(coefficients):
         total = total * x + coefficient

@@ -120,7 +120,6 @@ class Tableau(Frozen):
         return {l: late for l, late in lates if late is not None}
 
     def space(self, colour: int) -> StageSpace:
-        """The stage space of a colour, from 0."""
         return self.spaces[self.colours[colour].space]
 
     def block(self, l: int, m: int) -> Matrix | None:
@@ -143,7 +142,6 @@ class Tableau(Frozen):
         self.__dict__.update(kept)
 
     def tree(self, l: int, branches: Iterable[Tree] = ()) -> Tree:
-        """Returns the tree with a root of colour l, from 0."""
         return Tree(l, branches, self.colours[l].kind)
 
     def known(self, tree: Tree) -> Tree:
@@ -202,7 +200,6 @@ class Tableau(Frozen):
 
     @cached_property
     def field(self) -> NumberField | None:
-        """The number field of the coefficients; None when all are rational."""
         for row in self.rows:
             for x in row:
                 if isinstance(x, Algebraic):

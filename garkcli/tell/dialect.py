@@ -207,7 +207,6 @@ class Plain(Mutable):
         return "0" if ball == 0 else str(ball.upper().str(2, radius=False))
 
     def root(self, root: RealRoot) -> str:
-        """A real algebraic number."""
         simple = polynomials.root_text(root) if root.exact is None else shortest(root.exact)
         decimals = polynomials.root_decimal(root, self.digits)
         longest = LONG if root.exact is None else polynomials.LONG_COEFFICIENT
@@ -284,7 +283,6 @@ class Plain(Mutable):
         return self.code(tree)
 
     def naming(self, names: Sequence[str]) -> Self:
-        """The dialect with names for the colours in trees."""
         return replace(self, names=tuple(names)) if names else self
 
     def has_colours(self, tree: Tree) -> bool:
@@ -480,7 +478,6 @@ class Plain(Mutable):
                 yield "  ".join(padded).rstrip()
 
     def _columns(self, rows: Iterable[Cells]) -> list[tuple[str, ...]]:
-        """Columns in the signs of the output."""
         return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 
     def more(self, count: int, depth: int) -> list[str]:
@@ -501,7 +498,6 @@ class Plain(Mutable):
         return ["", *tableau_lines(tableau, entries, self.width, self.spelt)]
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
-        """A drawing in signs."""
         return indented(lines, "  " * depth)
 
     def scene(self, scene: Scene, depth: int) -> list[str]:

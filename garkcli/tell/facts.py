@@ -248,7 +248,6 @@ class Fact(Frozen):
 
     @property
     def is_something(self) -> bool:
-        """Whether there is anything to say."""
         answer = self.answer
         if answer.value is None:
             return bool(answer.reason or answer.status.open)
@@ -314,7 +313,6 @@ class Row(Generic[T_in]):
         return Fact(self, answer, level)
 
     def fields(self) -> Iterator[tuple[str, Schema, bool]]:
-        """The fields of JSON: name, schema, whether it is always there."""
         what = self.kind.what
         if what is None:
             return
@@ -324,7 +322,6 @@ class Row(Generic[T_in]):
             yield self._name(field), field.schema, not field.is_optional
 
     def data(self, whole: T_in, dialect: Plain) -> dict[str, object]:
-        """The fields of the row for a result."""
         what = self.kind.what
         if what is None:
             return {}
@@ -418,7 +415,6 @@ class Section(Generic[T_in]):
         return found
 
     def columns_of(self, level: Level) -> Rows[T_in]:
-        """The rows that a part of a stream has as columns, down to a level."""
         if level == Level.DATA:
             return [row for row in self.rows if row.kind.what is not None]
         is_deep = level >= Level.DETAIL

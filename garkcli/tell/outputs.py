@@ -97,7 +97,6 @@ def cell(fact: Fact, d: Plain) -> str:
 
 
 def one(section: Section[T], whole: T, d: Plain, level: Level = Level.USUAL) -> Iterator[str]:
-    """A result: the answer first."""
     headline = "; ".join(phrases(section, whole, d, Level.HEADLINE))
     subject = section.title(whole, d) if section.title else ""
     head: list[str] = []
@@ -143,7 +142,6 @@ def body(section: Section[T], whole: T, d: Plain, level: Level, depth: int) -> I
 
 
 def _is_opened(fact: Fact, level: Level) -> bool:
-    """Whether a part is reported fact by fact."""
     is_part = isinstance(fact.shown, (OnePart, ManyParts))
     return is_part and fact.value is not None and level >= Level.DETAIL
 
@@ -257,7 +255,6 @@ def filled(
 def many(
     form: Callable[[T], Section[T]], wholes: Sequence[T], dialect: Callable[[T], Plain]
 ) -> Iterator[str]:
-    """Several results, a line each."""
     keys = [*dict.fromkeys(key for whole in wholes for key in form(whole).columns)]
     heads = list(keys)
     rows = []

@@ -267,7 +267,6 @@ class Report(Frozen, Generic[Whole]):
 
     @property
     def documents(self) -> list[Schema]:
-        """The schemas of documents: one for each form if a document has one result."""
         results = [section.schema for section in self.forms()]
         if not self.key:
             return [self._document(x) for x in results]

@@ -189,7 +189,6 @@ class Terminal(Coloured):
         return self._lines(table, room=room)
 
     def _folding(self, text: str, style: Style | None = None, hanging: int = 0) -> Folding:
-        """Returns a text with the colours that words of it have, and its links."""
         read = Text.from_ansi(self.spelt(colours_alone(text)))
         made = Folding(read.plain, style or "", spans=read.spans)
         made.hanging = hanging

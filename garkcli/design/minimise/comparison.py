@@ -137,7 +137,6 @@ class Minimisation(Mutable):
         return bool(self.candidates)
 
     def over(self, part: Part) -> None:
-        """Adds the candidates of one part."""
         if part.dimension == 0:
             for point in points_of(part):
                 solution = part.extended(point)
@@ -174,7 +173,6 @@ class Minimisation(Mutable):
         return bool(part.sets) or not self.design.family.stable
 
     def takes(self, solution: Solution, root: RealRoot, part: Part | None = None) -> bool:
-        """Whether a method takes part in the comparison."""
         design = self.design
         if part is not None and not is_on(design.family, part, solution, root):
             return False
@@ -190,7 +188,6 @@ class Minimisation(Mutable):
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
-        """Adds a method with its value."""
         method = Found(solution, None, (index,))
         value = self.value_of(solution, index)
         self.candidates.append(Candidate(value, method, index, is_constant, proof))
@@ -203,7 +200,6 @@ class Minimisation(Mutable):
         return ObjectiveSubject.of(family, tableau, self.step.order, further)
 
     def tableau(self, part: Part) -> Tableau:
-        """The tableau in the coordinates of a part."""
         values = cast("Mapping[str, Number]", part.values)
         return member(self.design.tableau, self.design.family.ring, values)
 
@@ -255,7 +251,6 @@ class Minimisation(Mutable):
                 yield fraction(polynomial(x), part.ring)[0]
 
     def conditions(self, part: Part) -> Constraints:
-        """The conditions on the one coordinate of a part."""
         family = self.design.family
 
         def signs(polynomials: Iterable[fmpq_mpoly]) -> list[Polynomial]:

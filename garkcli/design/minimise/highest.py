@@ -73,7 +73,6 @@ class Levels(Frozen):
 
 
 def height(level: Size) -> tuple[bool, RealRoot]:
-    """A key to compare levels by."""
     return level is None, ORIGIN if level is None else level
 
 

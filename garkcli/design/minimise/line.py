@@ -28,7 +28,6 @@ class Within(Frozen):
     intervals: tuple[Interval, ...]
 
     def holds(self, t: Point) -> bool:
-        """Whether the value at t is in the set."""
         if sign_of(self.denominator, t) == 0:
             return False
         root = t if isinstance(t, RealRoot) else RealRoot.rational(t)
@@ -61,7 +60,6 @@ class Constraints(Frozen):
     sets: Sequence[Within] = ()
 
     def hold(self, t: Point) -> bool:
-        """Whether a number is allowed."""
         return (
             all(sign_of(p, t) for p in self.nonzero)
             and all(sign_of(p, t) > 0 for p in self.positive)
@@ -71,12 +69,10 @@ class Constraints(Frozen):
 
     @property
     def intervals(self) -> tuple[Interval, ...]:
-        """The allowed numbers."""
         return where(self.hold, self.polynomials)
 
     @property
     def polynomials(self) -> list[Polynomial]:
-        """All polynomials whose signs matter."""
         critical = [*self.nonzero, *self.positive, *self.not_negative]
         for x in self.sets:
             critical += x.polynomials
@@ -150,8 +146,6 @@ def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Constraints
 
 
 def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
-    """N/D at a number that is no zero of D."""
-
     def value(t: RealRoot) -> RealRoot:
         if t.exact is not None:
             quotient = N(t.exact) / D(t.exact)

@@ -30,7 +30,6 @@ def coefficients_of(tableau: Tableau) -> Iterator[Any]:
 
 
 def numbers_of(subject: ObjectiveSubject) -> Iterator[Any]:
-    """The entries, all weights and the nodes."""
     yield from coefficients_of(subject.tableau)
     yield from chain.from_iterable(colour.c for colour in subject.tableau.colours)
     yield from chain.from_iterable(subject.further.embedded or ())

@@ -88,7 +88,6 @@ class LevelObjective(Frozen):
         return square_root(y) if self.is_square and y is not None else y
 
     def measured(self, y: Size) -> Size | float:
-        """A level as a search prints it."""
         return self.shown(y)
 
     def inside(self, bound: float) -> float:
@@ -162,7 +161,6 @@ class WeightedSum(Frozen):
 
     @property
     def summary(self) -> str:
-        """The terms in words."""
         return "; ".join(f"{x.key.removeprefix('-')}: {x.summary}" for _, x in self.terms)
 
 

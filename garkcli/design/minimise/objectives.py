@@ -121,7 +121,6 @@ def _squared_coefficients(subject: aims.ObjectiveSubject, ring: Parameters | Non
 
 
 def _traces(space: StageSpace) -> Matrix:
-    """The matrix T of traces."""
     s = space.stages
     if not isinstance(space, PolynomialSpace):
         return identity(s)
@@ -218,7 +217,6 @@ def _oscillator_signs(tableau: Tableau, ring: Parameters) -> aims.LevelSigns:
 
 
 def _is_bounded(signs: Sequence[int]) -> bool:
-    """Whether all powers of the step are bounded."""
     pole, area, right, left, upper, lower = signs
     if not pole or min(area, right, left) < 0:
         return False

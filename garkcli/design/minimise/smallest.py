@@ -55,7 +55,6 @@ def critical_equations(
 
 
 def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> list[fmpq_mpoly]:
-    """The numerators of the derivatives of N/D in the first ``size`` variables."""
     return [
         numerator.derivative(i) * denominator - numerator * denominator.derivative(i)
         for i in range(size)
@@ -71,7 +70,6 @@ def is_of_one_dimension(part: Part) -> bool:
 
 
 def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:
-    """A polynomial without the factors that it has in common with another one."""
     while True:
         common = p.gcd(denominator)
         if common.is_constant() or not p:
@@ -247,7 +245,6 @@ class Smallest(Minimisation):
         return False
 
     def _is_above(self, part: Part, bound: fmpq) -> bool:
-        """Whether the value of no method of a part is less than a bound."""
         numerator, denominator = self._formula(part)
         above = (numerator - denominator * bound) * denominator
         if not part.is_free:
@@ -371,7 +368,6 @@ class Smallest(Minimisation):
 
     @staticmethod
     def _about(chart: RationalChart, name: str) -> fmpq:
-        """The coordinate of a chart that is not free, rounded."""
         root = value_at(chart.one.values[name], chart.root)
         return midpoint(root.ball(BITS))
 

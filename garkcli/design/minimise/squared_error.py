@@ -103,7 +103,6 @@ class TensorAlgebra:
         return tuple(zip(*columns, strict=True))
 
     def power(self, x: Pair, k: int) -> Pair:
-        """The k-th power of an element of S."""
         v = x.v
         w = x.w
         for _ in range(k - 1):
@@ -113,14 +112,12 @@ class TensorAlgebra:
 
     @cached_property
     def nothing(self) -> Tensor:
-        """Zero."""
         s = self.space.stages
         row = (self.zero,) * s
         return Tensor((row,) * s, row, self.zero)
 
 
 def squared(x: Pair) -> Tensor:
-    """The tensor x ⊗ x."""
     vv = tuple(scaled(x.v, a) for a in x.v)
     vw = scaled(x.v, x.w)
     ww = x.w * x.w
@@ -354,7 +351,6 @@ def _branches(kind: VertexKind, rest: int) -> tuple[int, int]:
 
 
 def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> Iterator[_Branch]:
-    """The multisets of ``count`` trees."""
     if count == 0:
         yield _Branch(algebra.unit, 1)
         return

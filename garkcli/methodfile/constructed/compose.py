@@ -135,7 +135,6 @@ def _read(at: PartReader, entries: g.ReadMapping, where: str) -> ConstructionTex
 
 
 def _steps(at: PartReader, entries: g.ReadMapping, where: str) -> Iterator[_Step]:
-    """Yields the substeps between those of the processor."""
     whole: Any = entries.get("of")
     if "scheme" in entries:
         place = entries.nodes["scheme"]

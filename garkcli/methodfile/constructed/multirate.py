@@ -289,7 +289,6 @@ def _mis(part: PartText) -> Callable[[TableauOf, Values], mri.Coupling]:
 
 
 def _embedded_of(part: PartText) -> Row | None:
-    """Returns the embedded weights of a method with one colour, or None."""
     texts = part.description.content.beside
     return texts[0].embedded if len(texts) == 1 else None
 

@@ -87,7 +87,6 @@ class PartReader(NumbersReader):
         return part
 
     def _named(self, node: ScalarNode, where: str, why: str) -> PartText | None:
-        """Reads a method without a size, or one of the catalogue."""
         name = self.source.scalar(node, where)
         if name is None:
             return None

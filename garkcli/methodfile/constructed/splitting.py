@@ -148,7 +148,6 @@ def _one_by_one(at: PartReader, items: list[Node], terms: int) -> Iterator[_Flow
 
 
 def _by_scheme(at: PartReader, entries: g.ReadMapping, terms: int, where: str) -> Iterator[_Flow]:
-    """Yields the flows of a named splitting."""
     scheme, node = SPLITTINGS[entries["scheme"]], entries.nodes["scheme"]
     if scheme.terms and scheme.terms != terms:
         message = f"{where}, scheme: {scheme.name} is for {scheme.terms} parts"

@@ -127,5 +127,4 @@ def _missing(all_factors: Factors, factors: Factors) -> int:
 
 
 def _power(terms: int, exponent: int) -> int:
-    """Returns the number of terms of a power of a sum."""
     return comb(terms + exponent - 1, exponent)

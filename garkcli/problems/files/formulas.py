@@ -75,7 +75,6 @@ class FormulaReader(Mutable):
         return None if strangers else expression
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
-        """Returns a formula of parameters only, and its value."""
         expression = self.parsed(node, where, {})
         if expression is None:
             return None
@@ -85,7 +84,6 @@ class FormulaReader(Mutable):
     def value(
         self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]
     ) -> Value | None:
-        """Returns the value of an expression; None after a fault."""
         try:
             with ctx.workprec(BITS):
                 return value_of(expression, {**self.values, **names})
@@ -210,12 +208,10 @@ class Maker:
         return terms
 
     def invariants(self, names: Mapping[str, str], noun: str) -> list[FormulaTerm]:
-        """Returns the first integrals; ``names`` and ``noun`` are those of ``terms``."""
         items = ((node, f"invariants: {name}") for name, node in self.text.invariants)
         return self.terms(items, names, noun)
 
     def check_values(self, terms: Sequence[FormulaTerm], start: Mapping[str, fmpq]) -> None:
-        """Reports formulas without a value at the start, as far as the start is known."""
         with ctx.workprec(BITS):
             values = {name: arb(x) for name, x in start.items()}
         for term in terms:
@@ -226,7 +222,6 @@ class Maker:
     def numbers(
         self, node: Node, where: str, names: Sequence[str]
     ) -> tuple[Entries, dict[str, fmpq]]:
-        """Returns the nodes and numbers of values by names."""
         entries = self.source.mapping(node, where, names)
         values: dict[str, fmpq] = {}
         for name, x in entries.items():

@@ -126,7 +126,6 @@ class HamiltonianMaker(texts.Maker):
         return terms, start
 
     def _transform(self, term: texts.FormulaTerm, known: Place) -> texts.FormulaTerm | None:
-        """Returns the Hamiltonian of a term; None, with a fault, if it is not found."""
         from garkcli.problems.lagrangian import legendre_transform
         from garkcli.problems.mass import WRITE_HAMILTONIAN
 

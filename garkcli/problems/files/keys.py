@@ -60,7 +60,6 @@ def _name_but(names: Iterable[str]) -> str:
 
 
 def _names(pattern: str) -> g.ValueKind:
-    """Returns the kind of a name or a list of different names."""
     name = g.ValueKind(lambda: {"type": "string", "pattern": pattern})
     return g.one_or_more(name, "variables", MAX_VARIABLES, True, {"uniqueItems": True})
 

@@ -99,7 +99,6 @@ class _Variables(Frozen):
         }
 
     def example_start(self) -> str:
-        """Returns an example of initial values for the first variables."""
         names = list(self.places)[:2]
         prefixes = [""] if self.form == "rhs" else ["", "p"]
         values = [f"{prefix}{name}: 0" for name in names for prefix in prefixes]
@@ -185,7 +184,6 @@ class _ProblemReader:
         return places
 
     def _check_stiffness(self, root: Node, form: str | None) -> None:
-        """Reports a stiffness that would have no effect."""
         if self.stiffness is None:
             return
         if form is not None and form != "rhs":
@@ -211,7 +209,6 @@ class _ProblemReader:
         return keys.DEFAULT_T_END
 
     def _invariants(self, entries: Entries, form: str) -> list[tuple[str, Node]]:
-        """Returns the first integrals of the file and their formulas."""
         node = entries.get("invariants")
         formulas = {} if node is None else self.source.mapping(node, "invariants", ())
         if len(formulas) > keys.MAX_INVARIANTS:

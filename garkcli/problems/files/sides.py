@@ -78,7 +78,6 @@ class SidesMaker(Maker):
         return made
 
     def _components(self, term: ByName) -> tuple[object, ...]:
-        """Returns the expressions of all variables, 0 for missing ones."""
         import sympy
 
         zero = sympy.Integer(0)

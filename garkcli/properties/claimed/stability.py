@@ -196,7 +196,6 @@ def i_stable(subject: Subject) -> Verdict:
 
 
 def _on_oscillator(subject: Subject) -> OscillatorStability | Verdict:
-    """The analysis on the oscillator, or a verdict if there is none."""
     from garkcli.errors import UsageProblem
     from garkcli.problems.oscillator import Oscillator, terms_of
     from garkcli.stability.oscillator import oscillator_stability
@@ -263,7 +262,6 @@ def _between(found: Bounds, is_squared: bool = False) -> Verdict:
 
 
 def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
-    """The first negative coefficient; empty if there is none."""
     for (k, m), block in tableau.blocks.items():
         for i, row in enumerate(block):
             for j, a in enumerate(row):

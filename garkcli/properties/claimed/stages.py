@@ -38,7 +38,6 @@ def obstacle(tableau: Tableau) -> Reason:
 
 
 def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
-    """The first weight that is negative within the tolerance; empty if there is none."""
     for m, colour in enumerate(tableau.colours):
         if not isinstance(tableau.space(m), PointSpace):
             continue  # the weights of every family are positive
@@ -222,7 +221,6 @@ def stage_order(subject: Subject) -> Verdict:
 
 
 def _by_colour(subject: Subject, found: Sequence[int]) -> Reason:
-    """The number of each colour; empty for a single colour."""
     if len(found) == 1:
         return NO_REASON
     names = [colour.name for colour in subject.tableau.colours]
