@@ -189,10 +189,8 @@ class ModifiedFormula(Shown, Frozen):
     is_consistent: bool
 
     def expanded(self) -> ModifiedFormula:
-        """The formula expanded, with like summands collected and vanishing powers dropped.
-
-        Raises:
-            UsageProblem: a formula is too long.
+        """The formula expanded, with like summands collected and vanishing powers dropped. Raises
+        UsageProblem if a formula is too long.
         """
         terms = []
         for term in self.terms:
@@ -292,11 +290,7 @@ def _summands(expression: Formula) -> int:
 
 
 def in_sympy(number: Number) -> Any:
-    """An exact number as a sympy expression.
-
-    Raises:
-        UsageProblem: it is not in radicals.
-    """
+    """An exact number as a sympy expression. Raises UsageProblem if it is not in radicals."""
     import sympy
 
     if not isinstance(number, Algebraic):

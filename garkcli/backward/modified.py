@@ -32,10 +32,8 @@ class ModifiedEquation(Frozen):
         return self.forest.max_order
 
     def __getitem__(self, tree: Tree) -> Number:
-        """b(u); 0 for a tree that the method does not see.
-
-        Raises:
-            KeyError: the tree is larger than ``max_order``.
+        """b(u); 0 for a tree that the method does not see. Raises KeyError if the tree is larger
+        than ``max_order``.
         """
         if tree.order > self.max_order:
             raise KeyError(tree)

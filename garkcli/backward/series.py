@@ -66,11 +66,7 @@ class Forest(Frozen):
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> Forest:
-        """Generates the trees.
-
-        Raises:
-            UsageProblem: there are more than ``MAX_TREES`` trees.
-        """
+        """Generates the trees. Raises UsageProblem if there are more than ``MAX_TREES``."""
         from garkcli.ntrees.table import TreeTable  # numpy is paid for here
 
         _check_size(admissible, order)
@@ -98,10 +94,8 @@ class Forest(Frozen):
 
     @classmethod
     def seen_by(cls, tableau: Tableau, order: int) -> Forest:
-        """The trees with an order condition for ``tableau``.
-
-        Raises:
-            UsageProblem: there are too many trees.
+        """The trees with an order condition for ``tableau``. Raises UsageProblem if there are too
+        many trees.
         """
         return cls.of(coupling_graph(tableau), order)
 

@@ -32,10 +32,8 @@ MAX_STAGES = 400
 
 
 def refuse_large(stages: int, cure: str) -> None:
-    """Refuses a method that is too large, before it is made.
-
-    Raises:
-        MethodError: it has more stages than ``MAX_STAGES``.
+    """Refuses a method that is too large, before it is made. Raises MethodError if it has more
+    stages than ``MAX_STAGES``.
     """
     if stages > MAX_STAGES:
         message = f"a method of {stages} stages (limit {MAX_STAGES})"
@@ -61,10 +59,8 @@ def composed(substeps: Sequence[Substep]) -> Tableau:
 
 
 def in_turn(substeps: Sequence[Substep]) -> Tableau:
-    """The composition with every stage of every substep.
-
-    Raises:
-        MethodError: the methods are for different vector fields, or there are too many stages.
+    """The composition with every stage of every substep. Raises MethodError if the methods are for
+    different vector fields, or there are too many stages.
     """
     tableaus = [substep.tableau for substep in substeps]
     for tableau in tableaus:

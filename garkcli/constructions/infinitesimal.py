@@ -388,10 +388,8 @@ def _finished(program: _Infinitesimal, plan: CollocationPlan) -> tuple[Tableau, 
 
 
 def interpolation(slow: Method) -> Powers:
-    """The forcing that interpolates the slopes at the nodes of a method.
-
-    Raises:
-        CoincidingNodes: two nodes are equal.
+    """The forcing that interpolates the slopes at the nodes of a method. Raises CoincidingNodes if
+    two nodes are equal.
     """
     polynomials = tuple(slow.space.basis_polynomials())
     return tuple(tuple(p[k] for p in polynomials) for k in range(slow.stages))

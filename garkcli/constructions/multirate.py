@@ -96,10 +96,8 @@ def _alone(tableau: Tableau) -> Method:
 
 
 def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
-    """Small steps and a slow step, coupled both ways by a transfer rule.
-
-    Raises:
-        MethodError: the rule needs distinct nodes, or there are too many stages.
+    """Small steps and a slow step, coupled both ways by a transfer rule. Raises MethodError if the
+    rule needs distinct nodes, or there are too many stages.
     """
     whole = small_steps(fast, steps)
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
@@ -151,10 +149,8 @@ class Blocks(Frozen):
 
 
 def by_blocks(slow: Method, fast: Method, blocks: Blocks) -> Tableau:
-    """Small steps and a slow step with coupling matrices for each small step.
-
-    Raises:
-        MethodError: there are too many stages.
+    """Small steps and a slow step with coupling matrices for each small step. Raises MethodError if
+    there are too many stages.
     """
     steps = len(blocks.fast_slow)
     refuse_large(slow.stages + steps * fast.stages, SMALLER)

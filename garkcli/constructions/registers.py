@@ -64,10 +64,8 @@ def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
 
 
 def _whole(row: Numbers, stages: int, first: int) -> Numbers:
-    """A row of ``stages`` numbers, with ``first`` added if it is left out.
-
-    Raises:
-        MethodError: its length does not fit.
+    """A row of ``stages`` numbers, with ``first`` added if it is left out. Raises MethodError if
+    its length does not fit.
     """
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:

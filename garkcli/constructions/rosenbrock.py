@@ -260,10 +260,8 @@ NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
-    """Another view of the method with a tableau, exact or rounded.
-
-    Raises:
-        SingularMatrixError: the DAE does not determine z.
+    """Another view of the method with a tableau, exact or rounded. Raises SingularMatrixError if
+    the DAE does not determine z.
     """
     if isinstance(method, Tableau):
         return _seen(which, method)

@@ -197,10 +197,8 @@ EVERY = {**WANTS, **{key: want for kind in KINDS for key, want in kind.own.items
 
 
 def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
-    """A requirement and the tableau that it is about.
-
-    Raises:
-        MethodError: it is not defined for methods of this kind.
+    """A requirement and the tableau that it is about. Raises MethodError if it is not defined for
+    methods of this kind.
     """
     own = next((kind for kind in KINDS if kind.has(tableau)), None)
     owner = next((kind for kind in KINDS if want.key in kind.own), None)

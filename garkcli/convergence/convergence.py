@@ -192,10 +192,8 @@ def most_steps(problem: Oscillator | Problem) -> int:
 
 
 def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq]) -> None:
-    """Checks the step sizes before any work is done.
-
-    Raises:
-        UsageProblem: a step does not divide the time, or there are too many of them.
+    """Checks the step sizes before any work is done. Raises UsageProblem if a step does not divide
+    the time, or there are too many of them.
     """
     limit = most_steps(problem)
     for h in steps:

@@ -81,10 +81,8 @@ class LinearSolver(Mutable):
         return 0.0
 
     def row(self, h: fmpq, before: StepSizeRow | None) -> StepSizeRow:
-        """The errors of steps of size ``h``, exact to ``ERROR_BITS``.
-
-        Raises:
-            NoUniqueStep: the stage equations have no unique solution at this step size.
+        """The errors of steps of size ``h``, exact to ``ERROR_BITS``. Raises NoUniqueStep if the
+        stage equations have no unique solution at this step size.
         """
         steps = linear.whole_steps(self.t_end, h)
         try:

@@ -35,10 +35,8 @@ _APART = 8  # times as many steps, between which it is seen how fast the error f
 
 
 def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
-    """The state after ``count`` steps of size ``h``; ``what`` names the work.
-
-    Raises:
-        StepFailed: the stage equations of a step were not solved.
+    """The state after ``count`` steps of size ``h``; ``what`` names the work. Raises StepFailed if
+    the stage equations of a step were not solved.
     """
     state = Stepper(made, h)
     each = max(1, count // _PIECES)
@@ -200,10 +198,8 @@ class _Runs:
         self.integrator = bind(method, problem).at(digits + spare)
 
     def end(self, steps: int) -> list[Any] | None:
-        """The state at the final time; None if a step fails and shorter ones may succeed.
-
-        Raises:
-            UsageProblem: there are too many steps, or shorter ones would fail too.
+        """The state at the final time; None if a step fails and shorter ones may succeed. Raises
+        UsageProblem if there are too many steps, or shorter ones would fail too.
         """
         if steps > MAX_STEPS:
             raise UsageProblem(

@@ -24,11 +24,8 @@ InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
-    """A and b of an explicit method of one colour.
-
-    Raises:
-        CannotConvert: the method is not explicit, has several colours, or a vector field that does
-            not depend on the solution.
+    """A and b of an explicit method of one colour. Raises CannotConvert if the method is not
+    explicit, or has several colours, or a vector field that does not depend on the solution.
     """
     if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
         raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
@@ -44,10 +41,8 @@ def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
 
 
 def in_2n(tableau: Tableau, tolerance: fmpq | None = None) -> Printed:
-    """Williamson's 2N.
-
-    Raises:
-        CannotConvert: the method has no such form, exactly or within the tolerance.
+    """Williamson's 2N. Raises CannotConvert if the method has no such form, exactly or within the
+    tolerance.
     """
     A, b = explicit(tableau, "2N")
     found = in_two_registers(A, b)

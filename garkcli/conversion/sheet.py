@@ -81,10 +81,8 @@ class Sheet(Frozen):
 
 
 def sheet_of(method: GarkMethod) -> Sheet:
-    """The entries of a method, with its embedded weights and dense output.
-
-    Raises:
-        CannotConvert: its nodes have no simple radicals.
+    """The entries of a method, with its embedded weights and dense output. Raises CannotConvert if
+    its nodes have no simple radicals.
     """
     exact = in_points(method.tableau)
     if exact is None:
@@ -95,10 +93,8 @@ def sheet_of(method: GarkMethod) -> Sheet:
 
 
 def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
-    """The sheets with numbers in one field, so that they can be compared.
-
-    Raises:
-        CannotConvert: the numbers generate too large a field.
+    """The sheets with numbers in one field, so that they can be compared. Raises CannotConvert if
+    the numbers generate too large a field.
     """
     rows = chain.from_iterable(map(all_rows, sheets))
     try:

@@ -102,11 +102,9 @@ def shared(sheet: sheets.Sheet) -> sheets.Sheet | None:
 
 
 def as_prk(method: GarkMethod) -> sheets.Sheet:
-    """The method as a partitioned one: colour 1 drives q, colour 2 drives p.
-
-    Raises:
-        CannotConvert: it does not have two colours, or these neither share their stages nor leave
-            themselves unseen.
+    """The method as a partitioned one: colour 1 drives q, colour 2 drives p. Raises CannotConvert
+    if it does not have two colours, or these neither share their stages nor leave themselves
+    unseen.
     """
     sheet = sheets.sheet_of(method)
     tableau = sheet.tableau

@@ -203,10 +203,8 @@ class Crew(Generic[Item, Outcome]):
         return until_due if left is None else min(left, until_due)
 
     def _end_late(self) -> Iterator[tuple[int, Outcome]]:
-        """Ends workers that are late; the others go on.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """Ends workers that are late; the others go on. Raises NotDecided if the time limit has
+        passed.
         """
         check_time()
         for worker in [x for x in self.workers if x.items and x.is_late()]:

@@ -83,11 +83,7 @@ class Chosen(Frozen):
 
     @property
     def values(self) -> dict[str, str]:
-        """The free parameters as text.
-
-        Raises:
-            MethodError: no method file can hold them.
-        """
+        """The free parameters as text. Raises MethodError if no method file can hold them."""
         return values_text(self.elements, self.root)
 
 
@@ -112,10 +108,8 @@ def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen
 
 def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     """Elements of ℚ[u]/modulus at a root of the modulus, in radicals if each has simple ones, else
-    as polynomials in one root.
-
-    Raises:
-        MethodError: no value generates the field, or its degree is beyond method files.
+    as polynomials in one root. Raises MethodError if no value generates the field, or its degree is
+    beyond method files.
     """
     texts = {}
     for name, value in values.items():
@@ -128,9 +122,7 @@ def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
 
 def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     """Values as polynomials in one of them that generates their field, written root_of(p, r).
-
-    Raises:
-        MethodError: no value does, or its degree is beyond method files.
+    Raises MethodError if no value does, or its degree is beyond method files.
     """
     algebraic = [x for x in values.values() if isinstance(x, Algebraic)]
     field = algebraic[0].field

@@ -109,10 +109,8 @@ class CoefficientSpan:
         self._rows: dict[_Place, _Row] = {}
 
     def insert(self, vector: Polynomials) -> bool:
-        """Inserts a vector; whether it enlarged the span.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """Inserts a vector; whether it enlarged the span. Raises NotDecided if the time limit has
+        passed.
         """
         row = self._reduced(_coefficients(vector))
         if not row:

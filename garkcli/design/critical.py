@@ -121,9 +121,7 @@ def smooth_points(ideal: Ideal) -> SmoothPoints | None:
 
 def _generators(closure: Ideal) -> list[fmpq_mpoly] | None:
     """Basis elements that generate an ideal, as many as its codimension; None if no choice does.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    Raises NotDecided if the time limit has passed.
     """
     ring = closure.ring
     basis = [rational(p, ring) for p in closure.basis]

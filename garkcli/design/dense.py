@@ -31,10 +31,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 def _dense(asked: Asked, key: str) -> DenseOutput:
-    """The dense output of the method.
-
-    Raises:
-        MethodError: the method has none, or the want is about some colours only.
+    """The dense output of the method. Raises MethodError if the method has none, or the want is
+    about some colours only.
     """
     dense = asked.further.dense
     if dense is None or len(asked.colours) < asked.tableau.size:
@@ -86,10 +84,8 @@ def _continuity(asked: Asked) -> WantConditions:
 
 
 def _known(tableau: Tableau) -> Tableau:
-    """The tableau, if its stages can be compared.
-
-    Raises:
-        MethodError: they have unknowns, or a vector field is of a special kind.
+    """The tableau, if its stages can be compared. Raises MethodError if they have unknowns, or a
+    vector field is of a special kind.
     """
     entries: Sequence[object] = [*chain.from_iterable(chain.from_iterable(tableau.blocks.values()))]
     weights: Sequence[object] = [*chain.from_iterable(colour.b for colour in tableau.colours)]

@@ -97,10 +97,7 @@ class Design(Shown, Frozen):
 
     def parts(self, step: Step) -> list[Part]:
         """The solution set of a step in parts, with nodes as coordinates, and entries of diagonals
-        if stability is wanted.
-
-        Raises:
-            NotDecided: a Gröbner basis takes too long.
+        if stability is wanted. Raises NotDecided if a Gröbner basis takes too long.
         """
         ideal, family = step.ideal, self.family
         assert ideal is not None
@@ -313,10 +310,8 @@ class _Finding(Frozen):
         return [x.polynomial for k in range(1, order) for x in self._conditions(k)]
 
     def _at_once(self, order: int) -> Step:
-        """Solves all conditions up to an order in one system, by msolve.
-
-        Raises:
-            NotDecided: msolve has no answer in time.
+        """Solves all conditions up to an order in one system, by msolve. Raises NotDecided if
+        msolve has no answer in time.
         """
         polynomials = (*self._relations, *self._conditions_below(order + 1))
         ideal = self._start().with_zeros_unproved(polynomials)
@@ -401,10 +396,8 @@ class _Finding(Frozen):
         self, step: Many, ideal: Ideal, real: Ideal, known: Knowledge
     ) -> Knowledge:
         """The knowledge by critical points: one of them is a method, or all methods are singular
-        points, at which the gradients of the equations are dependent.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        points, at which the gradients of the equations are dependent. Raises NotDecided if the time
+        limit has passed.
         """
         smooth = smooth_points(real)
         if smooth is None:
@@ -419,10 +412,8 @@ class _Finding(Frozen):
         return self._known_of(step, ideal, real.with_zeros(smooth.others))
 
     def _known_of_pieces(self, step: Many, pieces: Pieces) -> Knowledge:
-        """The knowledge of the real values of a family in parts.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """The knowledge of the real values of a family in parts. Raises NotDecided if the time
+        limit has passed.
         """
         if self.family.stable:
             return self._with_stable(step, Knowledge())
@@ -430,10 +421,8 @@ class _Finding(Frozen):
         return Knowledge(is_real=any(verdicts) or None)
 
     def _with_stable(self, step: Many, known: Knowledge) -> Knowledge:
-        """The knowledge of a family together with its methods of the wanted stability.
-
-        Raises:
-            NotDecided: the time limit has passed, or stability depends on several unknowns.
+        """The knowledge of a family together with its methods of the wanted stability. Raises
+        NotDecided if the time limit has passed, or stability depends on several unknowns.
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
@@ -464,10 +453,8 @@ class _Finding(Frozen):
         return replace(known, is_real=is_real, stable=stable)
 
     def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Knowledge:
-        """The knowledge of all transfers of a pair, with the ideal of the P-stable ones.
-
-        Raises:
-            NotDecided: the criterion does not solve for the unknowns.
+        """The knowledge of all transfers of a pair, with the ideal of the P-stable ones. Raises
+        NotDecided if the criterion does not solve for the unknowns.
         """
         stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, order)))
         solved, is_real = criterion.solved(stable), None
@@ -490,10 +477,8 @@ class _Finding(Frozen):
         return any(self._is_method(x, root) for x, root in roots)
 
     def _solutions_of(self, ideal: Ideal) -> tuple[Found, ...]:
-        """The solutions of an ideal of dimension 0, each with its order by the certificate.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """The solutions of an ideal of dimension 0, each with its order by the certificate. Raises
+        NotDecided if the time limit has passed.
         """
         finite = []
         for solution in solutions(ideal):
@@ -557,10 +542,7 @@ def _as_long_as_small(
 
 def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
     """Polynomials and others: the common zeros of the first at which none of the others vanishes
-    are those of an ideal.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    are those of an ideal. Raises NotDecided if the time limit has passed.
     """
     if isinstance(ideal, Pieces):
         return _each_once(ideal.equations), list(ideal.nonzero)

@@ -125,11 +125,7 @@ class _TooLarge(Exception):
 def _basis(
     polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
 ) -> list[fmpz_mpoly]:
-    """The reduced basis.
-
-    Raises:
-        _TooLarge: it is not small, and ``is_bounded``.
-    """
+    """The reduced basis. Raises _TooLarge if it is not small, and ``is_bounded``."""
     if is_bounded and not is_small(polynomials):
         raise _TooLarge
     vector: Any = fmpz_mpoly_vec(list(polynomials), context)
@@ -186,9 +182,8 @@ def divides(a: Exponents, b: Exponents) -> bool:
 
 def unproved_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The Gröbner basis by msolve, verified to be one of an ideal that contains the polynomials.
-
-    Raises:
-        NotDecided: msolve is not installed, has no answer in time, or none that passes the test.
+    Raises NotDecided if msolve is not installed, has no answer in time, or none that passes the
+    test.
     """
     check_time()
     program = find_msolve()

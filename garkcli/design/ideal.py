@@ -124,11 +124,7 @@ class Ideal:
         return self._context.from_dict({(*e, *tail): (a * denominator).p for e, a in terms.items()})
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
-        """The ideal with further polynomials.
-
-        Raises:
-            NotDecided: the time limit has passed.
-        """
+        """The ideal with further polynomials. Raises NotDecided if the time limit has passed."""
         check_time()
         return self._with_generators([self._integral(polynomial) for polynomial in polynomials])
 
@@ -165,10 +161,7 @@ class Ideal:
 
     def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
         """The ideal with x − c for some unknowns x, by their places, and numbers c. Its basis is
-        shortened by substituting them first.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        shortened by substituting them first. Raises NotDecided if the time limit has passed.
         """
         new = []
         for place, value in values.items():
@@ -187,10 +180,8 @@ class Ideal:
 
     def with_zeros_unproved(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
         """The ideal with further polynomials by msolve: a larger ideal may result, whose zeros may
-        be only some of the zeros.
-
-        Raises:
-            NotDecided: msolve is not installed, or has no answer in time.
+        be only some of the zeros. Raises NotDecided if msolve is not installed, or has no answer in
+        time.
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
         return self._with_basis(
@@ -243,10 +234,8 @@ class Ideal:
     def _relations(self, context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
         """A Gröbner basis of the polynomials without UNIT in an ideal of dimension 0: a monomial
         without it that is a combination of smaller ones modulo the ideal leads a basis element
-        (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993).
-
-        Raises:
-            NotDecided: the time limit has passed.
+        (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993). Raises NotDecided if the time limit
+        has passed.
         """
         size = len(self.ring.names)
         one = fmpq_mat(self.degree, 1)
@@ -283,10 +272,8 @@ class Ideal:
     @property
     def cleared(self) -> list[fmpq_mpoly]:
         """Polynomials without UNIT with the zeros of the ideal, up to zeros of ``nonzero``: its
-        basis with 1/Π nonzero in place of UNIT, times a power of Π.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        basis with 1/Π nonzero in place of UNIT, times a power of Π. Raises NotDecided if the time
+        limit has passed.
         """
         context = self.ring.context
         product = context.constant(fmpq(1))
@@ -309,10 +296,8 @@ class Ideal:
     @cached_property
     def polynomials(self) -> list[fmpz_mpoly]:
         """Square-free polynomials without UNIT with the zeros of the ideal, up to zeros of
-        ``nonzero``; they generate the radical if there are finitely many zeros.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        ``nonzero``; they generate the radical if there are finitely many zeros. Raises NotDecided
+        if the time limit has passed.
         """
         return self.closure.square_free.basis
 
@@ -320,10 +305,8 @@ class Ideal:
     def square_free(self) -> Ideal:
         """An ideal with the same zeros, the radical if there are finitely many: then the
         square-free polynomials in one unknown each suffice (A. Seidenberg, *Constructions in
-        algebra*, 1974). Otherwise its basis elements are square-free.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        algebra*, 1974). Otherwise its basis elements are square-free. Raises NotDecided if the time
+        limit has passed.
         """
         if self.dimension == 0:
             return self._with_generators([self._in_one(k) for k in range(self.variables)])
@@ -355,10 +338,8 @@ class Ideal:
     @property
     def independent(self) -> tuple[int, ...] | None:
         """Algebraically independent unknowns, as many as the dimension: the first such, by leading
-        monomials; None if every choice contains UNIT.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        monomials; None if every choice contains UNIT. Raises NotDecided if the time limit has
+        passed.
         """
         size = len(self.ring.names)
         left = {one for one in self._supports if size not in one}
@@ -384,10 +365,7 @@ class Ideal:
     @cached_property
     def monomials(self) -> list[groebner.Exponents]:
         """The monomials not divisible by leading ones, the smallest first: a basis of ℚ[t]/ideal,
-        for an ideal of dimension 0.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        for an ideal of dimension 0. Raises NotDecided if the time limit has passed.
         """
         first = [groebner.leading(p) for p in self.basis]
         monomials: list[groebner.Exponents] = []
@@ -484,10 +462,8 @@ MOST_ROWS = 50
 
 
 def characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
-    """The characteristic polynomial of a matrix of rational numbers.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    """The characteristic polynomial of a matrix of rational numbers. Raises NotDecided if the time
+    limit has passed.
     """
     check_time()
     work = methodcaller("charpoly")

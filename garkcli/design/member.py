@@ -197,10 +197,8 @@ MOST_DEGREE = 6
 def method_at(
     tableau: Tableau, ring: Parameters, solution: Solution, root: RealRoot
 ) -> Tableau | None:
-    """The method of a family at a real root of a solution; None if its field is too large.
-
-    Raises:
-        ZeroDivisionError: a denominator is zero there.
+    """The method of a family at a real root of a solution; None if its field is too large. Raises
+    ZeroDivisionError if a denominator is zero there.
     """
     u = number_of(root, MOST_DEGREE)
     if u is None:
@@ -213,10 +211,8 @@ def method_at(
 
 
 def refuse_levels(family: Family) -> None:
-    """Refuses a family with bounds on objectives, which only a search meets.
-
-    Raises:
-        MethodError: it has one.
+    """Refuses a family with bounds on objectives, which only a search meets. Raises MethodError if
+    it has one.
     """
     for key, bound in family.levels:
         name = key.removeprefix("-")

@@ -106,11 +106,7 @@ def _answer(program: str, question: str, seconds: float | None) -> str | None:
 
 
 def _polynomial(text: str, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    """Reads a sum of products of integers and powers.
-
-    Raises:
-        ValueError: the text is no such sum.
-    """
+    """Reads a sum of products of integers and powers. Raises ValueError for other texts."""
     variables = context.nvars()
     terms: dict[tuple[int, ...], int] = {}
     for term in text.replace("-", "+-").split("+"):

@@ -175,10 +175,8 @@ MOST_POINTS = 60
 
 
 def points_of(part: Part) -> Iterator[Solution]:
-    """The solutions of a part of dimension 0, in its coordinates.
-
-    Raises:
-        NotDecided: there are more than ``MOST_POINTS``.
+    """The solutions of a part of dimension 0, in its coordinates. Raises NotDecided if there are
+    more than ``MOST_POINTS``.
     """
     if not part.ring.names:
         yield Solution(fmpq_poly([0, 1]), None, {}, 1, (RealRoot.rational(fmpq(0)),))
@@ -353,10 +351,8 @@ class Pieces(Frozen):
         changes: Changes,
         kept: Sequence[str] = (),
     ) -> Pieces:
-        """The zeros of polynomials at which others do not vanish.
-
-        Raises:
-            NotDecided: it takes too many steps, or a Gröbner basis that is not small.
+        """The zeros of polynomials at which others do not vanish. Raises NotDecided if it takes too
+        many steps, or a Gröbner basis that is not small.
         """
         monic = (p / p.leading_coefficient() for p in equations if p)
         equations, nonzero = tuple({str(p): p for p in monic}.values()), tuple(nonzero)

@@ -31,10 +31,8 @@ def _order_of_equal_steps(asked: Asked) -> WantConditions:
 
 
 def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> WantConditions:
-    """The conditions of all trees at given ratios.
-
-    Raises:
-        MethodError: the method has no predictor.
+    """The conditions of all trees at given ratios. Raises MethodError if the method has no
+    predictor.
     """
     predictor, order = asked.further.predictor, cast("int", asked.value)
     if predictor is None:

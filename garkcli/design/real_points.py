@@ -47,9 +47,7 @@ PARTS = 12
 
 def without_complex(ideal: Ideal) -> Ideal:
     """An ideal with the same real zeros, without complex zeros of polynomials with constant sign.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    Raises NotDecided if the time limit has passed.
     """
     zeros: list[fmpq_mpoly] = []
     for p in ideal.without_unit:

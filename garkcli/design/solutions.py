@@ -67,10 +67,8 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
 
 
 def solutions(ideal: Ideal) -> list[Solution]:
-    """All solutions of an ideal of dimension 0, those with real roots first.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    """All solutions of an ideal of dimension 0, those with real roots first. Raises NotDecided if
+    the time limit has passed.
     """
     algebra = _Algebra(ideal.closure)
     distinct = algebra.trace_form.rank()

@@ -80,10 +80,8 @@ class Members(Frozen):
         return self._numbers({}, MOST_CONSTANT) if self.family.radicals else {}
 
     def at(self, t: Point) -> Tableau | None:
-        """The method at a value; None if a weight or a denominator is zero.
-
-        Raises:
-            NotDecided: its field is too large.
+        """The method at a value; None if a weight or a denominator is zero. Raises NotDecided if
+        its field is too large.
         """
         rational = t.exact if isinstance(t, RealRoot) else t
         [name] = self.family.parameters
@@ -129,10 +127,8 @@ class Members(Frozen):
             yield from ((x, root) for x in solutions(ideal) for root in x.real)
 
     def flat(self, tableau: Tableau) -> Flat:
-        """The methods in the parameters, or others made of them.
-
-        Raises:
-            NotDecided: the field of the roots among the coefficients is too large.
+        """The methods in the parameters, or others made of them. Raises NotDecided if the field of
+        the roots among the coefficients is too large.
         """
         if self.constants is None:
             raise NotDecided
@@ -231,10 +227,8 @@ class StabilityKind(ABC):
         return all(sign_of(self.step.in_t(p), t) == 0 for p in self.narrowing)
 
     def decide(self, t: Point) -> bool:
-        """Whether the method at a value has it; False if there is no method.
-
-        Raises:
-            NotDecided: the field of the method is too large.
+        """Whether the method at a value has it; False if there is no method. Raises NotDecided if
+        the field of the method is too large.
         """
         tableau = self.members.at(t)
         return tableau is not None and self.holds(tableau)
@@ -256,10 +250,8 @@ class StabilityKind(ABC):
 
 
 def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
-    """The linear problem of a kind of stability: y ↦ L^m y for each colour.
-
-    Raises:
-        UsageProblem: the stability is not applicable.
+    """The linear problem of a kind of stability: y ↦ L^m y for each colour. Raises UsageProblem if
+    the stability is not applicable.
     """
     if wanted in OSCILLATING:
         problem = Oscillator.default(terms_of(tableau), fmpq(1))

@@ -284,10 +284,8 @@ class PartMembers(Members):
     tableau: Tableau
 
     def at(self, t: Point) -> Tableau | None:
-        """A method with a value of the coordinate; None if there is none.
-
-        Raises:
-            NotDecided: no tried point gives one, or its field is too large.
+        """A method with a value of the coordinate; None if there is none. Raises NotDecided if no
+        tried point gives one, or its field is too large.
         """
         value = number_of(t, MOST_DEGREE) if isinstance(t, RealRoot) else t
         if value is None:
@@ -476,10 +474,8 @@ def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValu
 
 
 def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
-    """Whether the roots among the coefficients are those that the file means.
-
-    Raises:
-        NotDecided: one depends on free coordinates.
+    """Whether the roots among the coefficients are those that the file means. Raises NotDecided if
+    one depends on free coordinates.
     """
     places = [part.ring.names.index(x) for x in chart.names]
     fixed = {**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))}

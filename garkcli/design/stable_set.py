@@ -307,10 +307,8 @@ class _InPlane:
         return self.on_line(self.members.over(t, critical, limits))
 
     def _parts(self, t: fmpq) -> _Parts:
-        """The stable parts of an open strip, from one t inside.
-
-        Raises:
-            NotDecided: some values are undecided.
+        """The stable parts of an open strip, from one t inside. Raises NotDecided if some values
+        are undecided.
         """
         check_time()
         if not _is_within(t, self.range):

@@ -39,11 +39,7 @@ class Asked(Frozen):
     radicals: tuple[Radical, ...] = ()
 
     def block(self, l: int, m: int, key: str) -> Matrix:
-        """A^{l,m}.
-
-        Raises:
-            MethodError: the block is empty.
-        """
+        """A^{l,m}. Raises MethodError if the block is empty."""
         block = self.tableau.block(l, m)
         if block is None:
             message = f"design: {key} is for tableaus without empty blocks"
@@ -52,10 +48,8 @@ class Asked(Frozen):
         return block
 
     def diagonal(self, colour: int, key: str) -> tuple[Matrix, Vector]:
-        """A^{l,l} and b^l of a colour.
-
-        Raises:
-            MethodError: the block is empty, or not given stage by stage.
+        """A^{l,l} and b^l of a colour. Raises MethodError if the block is empty, or not given stage
+        by stage.
         """
         own = self.tableau.colours[colour]
         block = self.tableau.blocks.get((own.space, colour))

@@ -76,10 +76,8 @@ def _pair_order(asked: Asked) -> WantConditions:
 
 
 def as_embedded(asked: Asked, key: str) -> Tableau:
-    """The method with b̂ in place of b.
-
-    Raises:
-        MethodError: it has no b̂, or the want is about some colours only.
+    """The method with b̂ in place of b. Raises MethodError if it has no b̂, or the want is about
+    some colours only.
     """
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:

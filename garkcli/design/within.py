@@ -173,10 +173,7 @@ class Rounding(Protocol):
 
     def generic(self) -> Family:
         """The family with indeterminates in place of known numbers: statements about it hold for
-        all of these.
-
-        Raises:
-            MethodFileError: it is too large.
+        all of these. Raises MethodFileError if it is too large.
         """
 
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Any:
@@ -466,10 +463,8 @@ class _ValueSearch:
         return None
 
     def _derived(self, filled: Any) -> RoundedTableau:
-        """The tableau of the method, its conjugate or its pair.
-
-        Raises:
-            ZeroWeight: there is no conjugate.
+        """The tableau of the method, its conjugate or its pair. Raises ZeroWeight if there is no
+        conjugate.
         """
         rounded: RoundedTableau = filled.rounded
         derived_tableau = derived(rounded, self.whose)
@@ -480,10 +475,7 @@ class _ValueSearch:
         self, filled: Any, rounded: RoundedTableau, values: Mapping[str, fmpq], order: int
     ) -> ValuesWithin | None:
         """The solution of the conditions at the numbers of one method; None if they contradict each
-        other.
-
-        Raises:
-            VanishingDenominator: a coefficient has a pole there.
+        other. Raises VanishingDenominator if a coefficient has a pole there.
         """
         search = rounded.search
         search.settled  # noqa: B018 -- it moves to a method with all wants

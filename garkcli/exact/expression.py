@@ -146,11 +146,7 @@ class Parser:
         self._advance()
 
     def whole(self) -> Expression:
-        """Parses the whole text.
-
-        Raises:
-            ExpressionError: it is no expression.
-        """
+        """Parses the whole text. Raises ExpressionError if it is no expression."""
         if self.kind == "end":
             self._fail(f"no {self.value_noun} here", self.example)
         result = self._sum()

@@ -225,10 +225,8 @@ def _ball(a: Number, t: arb) -> arb:
 
 
 def _bound(coefficients: Sequence[arb], bits: int) -> fmpq:
-    """A power of 2 that bounds all roots (Cauchy).
-
-    Raises:
-        _NotFineEnough: the leading coefficient may be 0.
+    """A power of 2 that bounds all roots (Cauchy). Raises _NotFineEnough if the leading coefficient
+    may be 0.
     """
     with ctx.workprec(bits):
         *lower, leading = coefficients

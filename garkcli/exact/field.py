@@ -40,11 +40,7 @@ def _inverse(x: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
-    """A polynomial modulo a prime.
-
-    Raises:
-        ZeroDivisionError: p divides a denominator.
-    """
+    """A polynomial modulo a prime. Raises ZeroDivisionError if p divides a denominator."""
     return nmod_poly(poly.numer(), p) * ~nmod(int(poly.denom()), p)
 
 

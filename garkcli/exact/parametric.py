@@ -97,10 +97,8 @@ class Parameters:
         return self.context.constant(number)
 
     def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
-        """The quotient in lowest terms, its denominator with leading coefficient 1.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """The quotient in lowest terms, its denominator with leading coefficient 1. Raises
+        NotDecided if the time limit has passed.
         """
         check_time()
         if self.rules:
@@ -241,11 +239,7 @@ _height_bits: Callable[[fmpq], int] = fmpq.height_bits
 
 
 def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
-    """The product of two polynomials.
-
-    Raises:
-        TooManyTerms: it would fill the memory.
-    """
+    """The product of two polynomials. Raises TooManyTerms if it would fill the memory."""
     if q.is_one():  # most denominators
         return p
     refuse_long(p, q)
@@ -253,21 +247,15 @@ def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
 
 
 def refuse_long(p: fmpq_mpoly, q: fmpq_mpoly) -> None:
-    """Raises an error if a product would be too long.
-
-    Raises:
-        TooManyTerms: it would fill the memory.
+    """Raises an error if a product would be too long. Raises TooManyTerms if it would fill the
+    memory.
     """
     if len(p) * len(q) > MAX_TERMS and terms_of_product(p, q) > MAX_TERMS:
         raise _too_many_terms()
 
 
 def power(p: fmpq_mpoly, exponent: int) -> fmpq_mpoly:
-    """A power of a polynomial.
-
-    Raises:
-        TooManyTerms: it would fill the memory.
-    """
+    """A power of a polynomial. Raises TooManyTerms if it would fill the memory."""
     if terms_of_power(p, exponent) > MAX_TERMS:
         raise _too_many_terms()
     return p**exponent

@@ -117,11 +117,7 @@ class Polynomial:
         return self.coefficients[k]
 
     def __divmod__(self, divisor: Polynomial) -> tuple[Polynomial, Polynomial]:
-        """Quotient and remainder.
-
-        Raises:
-            ZeroDivisionError: the divisor is zero.
-        """
+        """Quotient and remainder. Raises ZeroDivisionError if the divisor is zero."""
         if not divisor:
             raise ZeroDivisionError("division by the zero polynomial")
         if self.is_rational and divisor.is_rational:

@@ -73,20 +73,16 @@ LARGE = 30_000
 
 
 def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The discriminant with respect to the first variable, y in the plane.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    """The discriminant with respect to the first variable, y in the plane. Raises NotDecided if the
+    time limit has passed.
     """
     variable = p.context().name(0)
     return _without(variable, p, p, methodcaller("discriminant", variable))
 
 
 def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str | None = None) -> fmpq_mpoly:
-    """The resultant with respect to a variable, the first one where none is named.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    """The resultant with respect to a variable, the first one where none is named. Raises
+    NotDecided if the time limit has passed.
     """
     variable = variable or p.context().name(0)
     return _without(variable, p, q, methodcaller("resultant", q, variable))

@@ -26,10 +26,8 @@ def size_of(expression: nodes.Expression, sizes: Mapping[str, int]) -> int:
 
 
 def check_size(size: int, text: str) -> None:
-    """Refuses an expression of ``size`` operations that was read from ``text``.
-
-    Raises:
-        LimitExceeded: these are more than ``MAX_SIZE``.
+    """Refuses an expression of ``size`` operations that was read from ``text``. Raises
+    LimitExceeded if these are more than ``MAX_SIZE``.
     """
     if size > MAX_SIZE:
         message = f"more than {MAX_SIZE} operations, with the parameters written out"
@@ -48,10 +46,7 @@ def expanded(
     expression: nodes.Expression, values: Mapping[str, Expanded], used: set[str] | None = None
 ) -> Expanded:
     """``expression`` with each name replaced by its value; it keeps its offsets. The names are
-    added to ``used``.
-
-    Raises:
-        UndefinedValue: a name has no value.
+    added to ``used``. Raises UndefinedValue if a name has no value.
     """
 
     def of(inner: nodes.Expression) -> Expanded:

@@ -68,11 +68,7 @@ def _single(name: str, order: str, summary: str) -> family.MethodFamily:
 
 
 def ssp3(s: int, _: family.Options) -> family.Recipe:
-    """SSPRK(n², 3).
-
-    Raises:
-        UnknownFamily: s is not a square.
-    """
+    """SSPRK(n², 3). Raises UnknownFamily if s is not a square."""
     n = isqrt(s)
     if n * n != s:
         message = f"ssp3 with {s} stages does not exist"

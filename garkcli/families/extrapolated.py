@@ -120,10 +120,8 @@ def implicit_euler(order: int, options: Options) -> Recipe:
 
 
 def midpoint(order: int, options: Options) -> Recipe:
-    """Gragg's explicit midpoint rule without smoothing, extrapolated to an even order.
-
-    Raises:
-        UnknownFamily: the order is odd.
+    """Gragg's explicit midpoint rule without smoothing, extrapolated to an even order. Raises
+    UnknownFamily if the order is odd.
     """
     if order % 2:
         message = f"extrapolated-midpoint with order {order} does not exist"

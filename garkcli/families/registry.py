@@ -183,10 +183,8 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
 
 
 def _given(option: Option | None, value: object, key: str) -> Given:
-    """The value of an option in the form of recipes.
-
-    Raises:
-        UnknownFamily: the word or number is not allowed.
+    """The value of an option in the form of recipes. Raises UnknownFamily if the word or number is
+    not allowed.
     """
     if option is None:
         return str(value)

@@ -220,10 +220,8 @@ class LongRun(Shown, Frozen):
 
 
 def count_steps(t_end: fmpq, step: fmpq) -> int:
-    """The number of steps to the time ``t_end``.
-
-    Raises:
-        UsageProblem: the step does not divide it, or there are more than ``MAX_STEPS``.
+    """The number of steps to the time ``t_end``. Raises UsageProblem if the step does not divide
+    it, or there are more than ``MAX_STEPS``.
     """
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:

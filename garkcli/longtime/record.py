@@ -165,10 +165,8 @@ class RunRecord:
         return np.concatenate(self._errors)
 
     def take(self, path: Iterator[list[Any]]) -> None:
-        """Measures all states of ``path``, or those before a blow-up.
-
-        Raises:
-            StepFailed: a step has failed without a blow-up.
+        """Measures all states of ``path``, or those before a blow-up. Raises StepFailed if a step
+        has failed without a blow-up.
         """
         chunk = self._span * max(1, _CHUNK // self._span)
         while self.done < self.count and not self.blew_up:

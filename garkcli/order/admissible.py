@@ -27,10 +27,8 @@ class TreeVectors:
         self._images: dict[_Place, Vector] = {}
 
     def of(self, tree: Tree) -> Vector:
-        """𝒜^[u], eqs. (Ataul) and (Au).
-
-        Raises:
-            MethodError: the coupling graph does not admit the tree.
+        """𝒜^[u], eqs. (Ataul) and (Au). Raises MethodError if the coupling graph does not admit the
+        tree.
         """
         colour = self.tableau.colours[tree.root]
         if not colour.kind.allows(len(tree.branches)):
@@ -81,11 +79,7 @@ def elementary_weights(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[tupl
 
 
 def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
-    """b_lᵀ 𝒜^[u], exact.
-
-    Raises:
-        MethodError: the coupling graph does not admit the tree.
-    """
+    """b_lᵀ 𝒜^[u], exact. Raises MethodError if the coupling graph does not admit the tree."""
     return next(elementary_weights(tableau, [tree]))[1]
 
 

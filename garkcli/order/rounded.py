@@ -134,18 +134,12 @@ class RoundedTableau(Frozen, eq=False):
         return is_rounded and self.search.origin.may_meet(self.name, tree)
 
     def conjugate(self) -> RoundedTableau:
-        """The symplectic conjugate.
-
-        Raises:
-            ZeroWeight: a weight that it divides by is 0.
-        """
+        """The symplectic conjugate. Raises ZeroWeight if a weight that it divides by is 0."""
         return self.derive("conjugate", conjugate)
 
     def pair(self) -> RoundedTableau:
-        """The symplectic pair (Q, P).
-
-        Raises:
-            ZeroWeight: a weight that a conjugate divides by is 0.
+        """The symplectic pair (Q, P). Raises ZeroWeight if a weight that a conjugate divides by is
+        0.
         """
         return self.derive("pair", pair)
 

@@ -34,10 +34,8 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """The defects of a tableau; if it is rounded, of the method that it is taken to mean.
-
-    Raises:
-        MethodError: it is no GARK method.
+    """The defects of a tableau; if it is rounded, of the method that it is taken to mean. Raises
+    MethodError if it is no GARK method.
     """
     tableau = method if isinstance(method, Tableau) else method.tableau
     tableau.demand_fields("a simplifying condition", with_flow=True)

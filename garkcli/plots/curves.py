@@ -32,11 +32,7 @@ NOTHING = 1e-6
 
 
 def curve_scene(optima: Optima, title: str) -> Scene:
-    """The knots, and lines between them.
-
-    Raises:
-        MethodError: there is none.
-    """
+    """The knots, and lines between them. Raises MethodError if there is none."""
     knots = optima.knots
     if not knots:
         raise MethodError("there is nothing to draw", "try more starts", code="arrays")

@@ -81,10 +81,8 @@ def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None)
 
 
 def check_stiffness(name: str) -> None:
-    """Refuses a stiffness for a built-in problem without one.
-
-    Raises:
-        UsageProblem: the problem has no stiffness.
+    """Refuses a stiffness for a built-in problem without one. Raises UsageProblem if the problem
+    has no stiffness.
     """
     if built_in(name).stiff is None:
         takers = ", ".join(x.name for x in PROBLEMS.values() if x.stiff is not None)
@@ -109,11 +107,7 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
 
 
 def built_in(name: str) -> BuiltIn:
-    """The entry called ``name``.
-
-    Raises:
-        UsageProblem: there is no such problem.
-    """
+    """The entry called ``name``. Raises UsageProblem if there is no such problem."""
     if name not in PROBLEMS:
         message = f"no problem {name!r}"
         raise UsageProblem(message, did_you_mean(name, tuple(PROBLEMS)), code="unknown-word")
@@ -126,10 +120,8 @@ def is_path(text: str) -> bool:
 
 
 def check_seed(name: str, seed: int | None) -> None:
-    """Refuses a seed for a problem without random coefficients, also one from a file.
-
-    Raises:
-        UsageProblem: ``seed`` is given and would change nothing.
+    """Refuses a seed for a problem without random coefficients, also one from a file. Raises
+    UsageProblem if ``seed`` is given and would change nothing.
     """
     takers = [x.name for x in PROBLEMS.values() if x.takes_seed]
     if seed is not None and name not in takers:

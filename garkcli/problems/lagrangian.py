@@ -198,10 +198,8 @@ def by_solving(lagrangian: mass.Lagrangian) -> Expr:
 
 
 def _solution(L: Expr, equations: Equations, p: Vector) -> SolvedVelocities:
-    """The unique right solution.
-
-    Raises:
-        NoLegendreTransform: none was found, or several fit the start.
+    """The unique right solution. Raises NoLegendreTransform if none was found, or several fit the
+    start.
     """
     right: list[SolvedVelocities] = []
     for candidate in candidates(L, equations):

@@ -112,10 +112,8 @@ def constant_name(x: fmpq) -> str:
 
 @cache
 def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> StraightLineCode:
-    """The code of sympy expressions in the symbols ``arguments``.
-
-    Raises:
-        TypeError: an expression has a function outside of ``FUNCTIONS``, or another symbol.
+    """The code of sympy expressions in the symbols ``arguments``. Raises TypeError if an expression
+    has a function outside of ``FUNCTIONS``, or another symbol.
     """
     if not (isinstance(expressions, Deferred) and isinstance(arguments, Deferred)):
         return _written(expressions, arguments, is_for_balls)

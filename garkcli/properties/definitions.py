@@ -298,11 +298,7 @@ def every_definition() -> list[Definition]:
 
 
 def definition(key: str) -> Definition:
-    """The definition of a claim.
-
-    Raises:
-        UsageProblem: there is no such claim.
-    """
+    """The definition of a claim. Raises UsageProblem if there is no such claim."""
     if key in KEYS:
         return _of_property(find(key))
     if key in ORDERS:

@@ -251,10 +251,8 @@ class _SymmetrySearch:
         return True
 
     def renumbering(self, possible: _Images) -> dict[int, dict[int, int]] | None:
-        """The image of each point stage, space by space; None if there is none.
-
-        Raises:
-            _TooManyError: too many images were tried.
+        """The image of each point stage, space by space; None if there is none. Raises
+        _TooManyError if too many images were tried.
         """
         waiting = sorted(possible, key=lambda x: (len(possible[x]), x))
         path: list[tuple[Vertex, Iterator[int]]] = []

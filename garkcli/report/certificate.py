@@ -317,9 +317,7 @@ REPORT: Report[MethodProof | ExistenceProof] = Report(
 
 def coq_proof(proof: MethodProof) -> str:
     """A file for ``coqc``: the method, its conjugate and its pair, their orders and no higher ones.
-
-    Raises:
-        MethodError: a colour is linear, which the theory does not know.
+    Raises MethodError if a colour is linear, which the theory does not know.
     """
     tableau = proof.method.tableau
     tableau.demand_fields("a proof for Coq")

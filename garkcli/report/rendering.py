@@ -112,11 +112,7 @@ def _told_by(file: str) -> tuple[Report[Any], Callable[[Any, str], Any]]:
 
 
 def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
-    """The class of a value, its writer, and the formats.
-
-    Raises:
-        MethodError: nothing does.
-    """
+    """The class of a value, its writer, and the formats. Raises MethodError if nothing does."""
     if kind := _kind(value, WRITERS):
         return kind, *WRITERS[kind]
     if kind := _kind(value, TOLD_BY):

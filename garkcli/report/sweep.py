@@ -161,10 +161,8 @@ def json_lines(report: SweepReport) -> str:
 
 
 def refuse_parquet(path: str) -> None:
-    """Refuse a file that could not be written, before the work is done.
-
-    Raises:
-        UsageProblem: pyarrow is not installed, or there is no such folder.
+    """Refuse a file that could not be written, before the work is done. Raises UsageProblem if
+    pyarrow is not installed, or there is no such folder.
     """
     from importlib.util import find_spec
 
@@ -178,10 +176,8 @@ def refuse_parquet(path: str) -> None:
 
 
 def write_parquet(report: SweepReport, path: str) -> None:
-    """The kept rows, best first, as a Parquet file; infinite numbers are those of floats.
-
-    Raises:
-        UsageProblem: pyarrow is not installed, or the file cannot be written.
+    """The kept rows, best first, as a Parquet file; infinite numbers are those of floats. Raises
+    UsageProblem if pyarrow is not installed, or the file cannot be written.
     """
     refuse_parquet(path)
     import pyarrow as pa

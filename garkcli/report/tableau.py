@@ -69,10 +69,8 @@ def of_method(
     coupling: Coupling | None = None,
 ) -> ShownTableau:
     """A method, its entries in decimals if digits are named; ``coupling`` is that of the slow
-    stages of a multirate method.
-
-    Raises:
-        MethodError: the transformation is requested, and there is none.
+    stages of a multirate method. Raises MethodError if the transformation is requested, and there
+    is none.
     """
     entries = method.entries
     if digits is not None:

@@ -325,10 +325,8 @@ SUBJECT: Section[SymplecticSubject] = Section(
 
 
 def subject_of_kind(kind: Symplectic, terms: int | None, orders: range) -> SymplecticSubject:
-    """The symplectic methods of a kind.
-
-    Raises:
-        UsageProblem: the kind does not exist with so many terms.
+    """The symplectic methods of a kind. Raises UsageProblem if the kind does not exist with so many
+    terms.
     """
     if terms is None:
         terms = 2 if kind in _PROBLEMS else 1

@@ -100,10 +100,8 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
 
 @doing("two springs")
 def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFrequencies:
-    """The exact intervals of the fast frequency for one slow one.
-
-    Raises:
-        UsageProblem: the split does not suit the structure of the tableau.
+    """The exact intervals of the fast frequency for one slow one. Raises UsageProblem if the split
+    does not suit the structure of the tableau.
     """
     check_structure(tableau, _like_an_oscillator(split))
     M = _reduced(line_of_determinants(tableau, split, slow))
@@ -119,10 +117,8 @@ def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFre
 
 
 def unknowns_of(tableau: Tableau, split: SplitSprings) -> int:
-    """The number of equations of the stages.
-
-    Raises:
-        UsageProblem: the split does not suit the structure of the tableau.
+    """The number of equations of the stages. Raises UsageProblem if the split does not suit the
+    structure of the tableau.
     """
     check_structure(tableau, _like_an_oscillator(split))
     return len(_system(tableau, split, ZERO, ZERO).W)
@@ -253,11 +249,8 @@ class SlowInterval(Frozen):
 
 @doing("two springs")
 def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) -> SlowInterval:
-    """The fast frequencies that are stable for all slow ones of [low, high].
-
-    Raises:
-        UsageProblem: the coefficients are irrational, or the split does not suit the structure of
-            the tableau.
+    """The fast frequencies that are stable for all slow ones of [low, high]. Raises UsageProblem if
+    the coefficients are irrational, or the split does not suit the structure of the tableau.
     """
     plane = plane_of_determinants(tableau, split)
     if not all(isinstance(a, fmpq) for p in plane for _, a in p.terms):

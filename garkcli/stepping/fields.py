@@ -79,10 +79,8 @@ def with_joined_terms(tableau: Tableau) -> Tableau:
 
 
 def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
-    """The tableau with the terms in which it steps ``problem``.
-
-    Raises:
-        UsageProblem: it drives positions and momenta, which the problem does not have.
+    """The tableau with the terms in which it steps ``problem``. Raises UsageProblem if it drives
+    positions and momenta, which the problem does not have.
     """
     if isinstance(problem, Hamiltonian):
         return with_joined_terms(tableau)
@@ -95,10 +93,7 @@ def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
 
 def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
     """The tableau with time as its last colour if the problem depends on time: stages are at t_0 +
-    h c^{l}.
-
-    Raises:
-        UsageProblem: its stages have no unique nodes.
+    h c^{l}. Raises UsageProblem if its stages have no unique nodes.
     """
     if isinstance(problem, Hamiltonian) or not problem.has_time:
         return tableau
@@ -116,10 +111,8 @@ def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
 
 
 def fields_of(tableau: Tableau, problem: Problem) -> Fields:
-    """The vector fields of the colours.
-
-    Raises:
-        UsageProblem: the problem does not suit the structure of the method.
+    """The vector fields of the colours. Raises UsageProblem if the problem does not suit the
+    structure of the method.
     """
     if isinstance(problem, Hamiltonian):
         fields = _hamiltonian_fields(tableau, problem)

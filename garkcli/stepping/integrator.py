@@ -347,10 +347,8 @@ class Stepper(Mutable):
         )
 
     def advance(self, count: int, record: Recorder | None = None) -> None:
-        """Takes ``count`` steps; ``record`` is called after each.
-
-        Raises:
-            StepFailed: the stage equations of a step were not solved.
+        """Takes ``count`` steps; ``record`` is called after each. Raises StepFailed if the stage
+        equations of a step were not solved.
         """
         try:
             made = self._run(count, record)

@@ -142,10 +142,8 @@ class LinearStep(Frozen):
     B: fmpq_mat
 
     def at(self, h: fmpq) -> Matrix:
-        """R(h), exact, shape (2, 2).
-
-        Raises:
-            UsageProblem: the stage equations are singular for this h.
+        """R(h), exact, shape (2, 2). Raises UsageProblem if the stage equations are singular for
+        this h.
         """
         n = self.W.nrows()
         unit = fmpq_mat(n, n)
@@ -182,10 +180,8 @@ class LinearStep(Frozen):
 
 
 def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
-    """The step of ``tableau`` on ``problem``.
-
-    Raises:
-        UsageProblem: the split does not suit the structure of the tableau.
+    """The step of ``tableau`` on ``problem``. Raises UsageProblem if the split does not suit the
+    structure of the tableau.
     """
     check_structure(tableau, problem)
     system = stage_system(tableau, [problem.matrix(colour) for colour in tableau.colours])
@@ -279,10 +275,8 @@ def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
 
 
 def whole_steps(t_end: fmpq, h: fmpq) -> int:
-    """The number of steps n = t_end / h.
-
-    Raises:
-        UsageProblem: it is not a positive integer, or more than ``MAX_STEPS``.
+    """The number of steps n = t_end / h. Raises UsageProblem if it is not a positive integer, or
+    more than ``MAX_STEPS``.
     """
     if h <= 0 or t_end <= 0:
         message = f"step {h} and end time {t_end} are not both positive"

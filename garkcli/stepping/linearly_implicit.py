@@ -55,10 +55,8 @@ class LinearlyImplicit(Frozen):
     @staticmethod
     def of(tableau: Tableau) -> LinearlyImplicit | None:
         """The method of a tableau, with time as its last colour or without; None for another kind
-        of method.
-
-        Raises:
-            MethodError: the method has several colours, or a stage needs a later one.
+        of method. Raises MethodError if the method has several colours, or a stage needs a later
+        one.
         """
         kinds = tuple(x.kind for x in tableau.colours if x.kind != kind.LEAF)
         taken = _TAKEN.get(tuple(dict.fromkeys(kinds)))

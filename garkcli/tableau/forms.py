@@ -35,10 +35,8 @@ def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
 
 
 def one_field(tableau: Tableau, message: str, name: str = "") -> Method:
-    """The single colour of a method, in its own stage space.
-
-    Raises:
-        MethodError: the method has several colours.
+    """The single colour of a method, in its own stage space. Raises MethodError if the method has
+    several colours.
     """
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:

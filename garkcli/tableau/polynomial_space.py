@@ -233,10 +233,8 @@ def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
 
 
 def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
-    """The inverse of the Vandermonde matrix, from values at the nodes to coordinates.
-
-    Raises:
-        ZeroDivisionError: the precision is too low.
+    """The inverse of the Vandermonde matrix, from values at the nodes to coordinates. Raises
+    ZeroDivisionError if the precision is too low.
     """
     inverse = _coordinates_at_nodes(space, ctx.prec)
     if inverse is None:

@@ -43,11 +43,9 @@ class Transformation(Frozen):
 
 
 def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
-    """The transformation of a method of one colour, in balls of width below 10^(−digits).
-
-    Raises:
-        MethodError: A has no inverse or a multiple eigenvalue, or the method has several colours or
-            too many stages.
+    """The transformation of a method of one colour, in balls of width below 10^(−digits). Raises
+    MethodError if A has no inverse or a multiple eigenvalue, or the method has several colours or
+    too many stages.
     """
     stages = tableau.spaces[0].stages
     if tableau.size > 1 or tableau.block(0, 0) is None:

@@ -32,10 +32,8 @@ about as long.
 
 
 def step_to_minimise(design: Design) -> Decided:
-    """The step of the highest order that may have methods.
-
-    Raises:
-        UsageProblem: no step is decided.
+    """The step of the highest order that may have methods. Raises UsageProblem if no step is
+    decided.
     """
     for step in reversed(design.steps):
         if isinstance(step, Decided) and step.may_have_methods:
@@ -89,9 +87,7 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
 def _over(comparison: Minimisation, parts: Sequence[Part]) -> None:
     """Compares the methods of all parts, those of the largest dimension first, each in its share of
     the time; if a part is too large or curved, the best of the others is only the best found.
-
-    Raises:
-        NotDecided: no part gives a method to compare.
+    Raises NotDecided if no part gives a method to compare.
     """
     missed = 0
     for number, part in enumerate(sorted(parts, key=lambda x: -x.dimension)):

@@ -121,10 +121,8 @@ class ObjectiveSubject(Frozen):
 
     @property
     def embedded(self) -> tuple[Tableau, int]:
-        """The methods with the embedded weights in place of b, and their order.
-
-        Raises:
-            UsageProblem: they have no embedded weights, or no order of these is wanted.
+        """The methods with the embedded weights in place of b, and their order. Raises UsageProblem
+        if they have no embedded weights, or no order of these is wanted.
         """
         if self.further.embedded is None or self.embedded_order is None:
             message = "the objective is about embedded weights with an order: the file wants none"

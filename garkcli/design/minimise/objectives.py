@@ -44,10 +44,8 @@ def is_linear(tableau: Tableau) -> bool:
 
 
 def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """R = P/Q on the linear test equation, as polynomials in y for z and t.
-
-    Raises:
-        UsageProblem: it is not applicable.
+    """R = P/Q on the linear test equation, as polynomials in y for z and t. Raises UsageProblem if
+    it is not applicable.
     """
     refuse_partitioned(tableau)
     tableau = on_linear_problems(tableau)

@@ -36,10 +36,8 @@ class Angle(LevelObjective):
 
 
 def rest_of_cosine(angle: fmpq) -> RealRoot:
-    """1 − cos α of an angle in degrees: cos qα = ±1 for a multiple α of π/q.
-
-    Raises:
-        MethodError: it is more than a right angle, or no multiple of a quarter of a degree.
+    """1 − cos α of an angle in degrees: cos qα = ±1 for a multiple α of π/q. Raises MethodError if
+    it is more than a right angle, or no multiple of a quarter of a degree.
     """
     part = angle / HALF_TURN
     if not 0 < angle <= RIGHT or part.q > MOST_PARTS:
@@ -58,10 +56,8 @@ def _at(part: fmpq, bits: int) -> arb:
 
 
 def angle_of(R: StabilityFunction) -> Size:
-    """1 − cos α for the largest sector in which |R| ≤ 1.
-
-    Raises:
-        NotDecided: the degree of R is too large.
+    """1 − cos α for the largest sector in which |R| ≤ 1. Raises NotDecided if the degree of R is
+    too large.
     """
     sector = largest_sector(R)
     if sector is None:

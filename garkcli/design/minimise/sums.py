@@ -86,10 +86,8 @@ def _term(
 
 
 def _linear(expression: Expression) -> dict[str, fmpq]:
-    """The coefficients of a linear form by names, the constant by the empty one.
-
-    Raises:
-        UsageProblem: the expression is not linear.
+    """The coefficients of a linear form by names, the constant by the empty one. Raises
+    UsageProblem if the expression is not linear.
     """
     match expression:
         case Literal(value=value):
@@ -128,10 +126,8 @@ def _added(signs: str, forms: list[dict[str, fmpq]]) -> dict[str, fmpq]:
 def exactly(
     objective: aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.WeightedSum,
 ) -> aims.Objective | aims.LevelObjective:
-    """An objective for the exact engines.
-
-    Raises:
-        UsageProblem: it is no rational function of the coefficients.
+    """An objective for the exact engines. Raises UsageProblem if it is no rational function of the
+    coefficients.
     """
     if isinstance(objective, aims.Objective) or (
         isinstance(objective, aims.LevelObjective) and objective.signs
