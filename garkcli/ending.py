@@ -72,9 +72,8 @@ def at_once() -> Iterator[None]:
 
 @contextmanager
 def undone() -> Iterator[None]:
-    """Raise ``KeyboardInterrupt`` or ``Ended`` at a signal inside: the code can clean up.
-
-    Calls in C inside should be short: nothing ends the process while they go on.
+    """Raise ``KeyboardInterrupt`` or ``Ended`` at a signal inside: the code can clean up. Calls in
+    C inside should be short: nothing ends the process while they go on.
     """
     run = _run.get()
     if run is None or threading.current_thread() is not threading.main_thread():

@@ -148,10 +148,8 @@ def leads_away(path: str, folder: str) -> bool:
 
 
 def is_elsewhere(path: str) -> bool:
-    """Whether a file is not where its path says, as a link leads out of there.
-
-    A path below the folder we are in says that the file is there, any other that it is in the
-    folder that is named.
+    """Whether a file is not where its path says, as a link leads out of there. A path below the
+    folder we are in says that the file is there, any other that it is in the folder that is named.
     """
     is_here = os.path.abspath(path).startswith(os.path.join(os.path.abspath(os.curdir), ""))
     return leads_away(path, os.curdir if is_here else os.path.dirname(path))

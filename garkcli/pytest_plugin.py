@@ -140,9 +140,8 @@ class GarkItem(pytest.Item):
         self.funcargs: dict[str, object] = {}
 
     def runtest(self) -> None:
-        """Checks the claim; skips it if it is undecided.
-
-        Raises ``ClaimFails`` if it fails, or the file cannot be read.
+        """Checks the claim; skips it if it is undecided. Raises ``ClaimFails`` if it fails, or the
+        file cannot be read.
         """
         from garkcli.check.findings import findings
 
@@ -193,9 +192,8 @@ class GarkItem(pytest.Item):
 
 @pytest.fixture(scope="session")
 def gark_method(request: pytest.FixtureRequest) -> Load:
-    """A function that loads a method, each once in a session.
-
-    It takes a name of the catalogue, or a path from the root of the project.
+    """A function that loads a method, each once in a session. It takes a name of the catalogue, or
+    a path from the root of the project.
     """
     from garkcli.methodfile.load import load
 

@@ -117,9 +117,8 @@ def _refuse_large(l: Method, m: Method) -> None:
 
 
 def conjugate_rule(rule: Rule) -> Rule:
-    """The rule whose block is Â^{l,m}, the conjugate of the block A^{m,l} that ``rule`` makes.
-
-    The new rule raises ``ZeroWeight`` if the conjugate would divide by zero.
+    """The rule whose block is Â^{l,m}, the conjugate of the block A^{m,l} that ``rule`` makes. The
+    new rule raises ``ZeroWeight`` if the conjugate would divide by zero.
     """
 
     def conjugated(l: Method, m: Method) -> Matrix:

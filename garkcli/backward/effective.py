@@ -37,9 +37,8 @@ MAX_SOLVED = 1_000_000
 
 
 class EffectiveOrder(Frozen):
-    """The effective order of a method.
-
-    ``is_proved`` says that no change of coordinates gives more; otherwise it is a lower bound.
+    """The effective order of a method. ``is_proved`` says that no change of coordinates gives more;
+    otherwise it is a lower bound.
     """
 
     order: int

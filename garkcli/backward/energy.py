@@ -48,9 +48,8 @@ _LOST = 4  # digits that steps and formulas lose, besides those of their number
 
 
 class Meter(Mutable):
-    """Steps and measures all truncations of the modified Hamiltonian.
-
-    ``formulas`` are H and the coefficients of ``powers`` of h, 0 first.
+    """Steps and measures all truncations of the modified Hamiltonian. ``formulas`` are H and the
+    coefficients of ``powers`` of h, 0 first.
     """
 
     bound: Binding

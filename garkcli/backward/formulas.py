@@ -33,9 +33,8 @@ FormulaVector: TypeAlias = tuple[Formula, ...]
 
 
 class Differentials:
-    """F(u) and H(u) of a problem split by the colours of a tableau.
-
-    The terms of the colours are indices into ``energies``, the H^{l} as sympy expressions.
+    """F(u) and H(u) of a problem split by the colours of a tableau. The terms of the colours are
+    indices into ``energies``, the H^{l} as sympy expressions.
     """
 
     def __init__(self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]) -> None:

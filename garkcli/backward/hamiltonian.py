@@ -33,9 +33,8 @@ class FreeTree(ConditionClass):
 
     @cached_property
     def rootings(self) -> tuple[tuple[Tree, int], ...]:
-        """The rootings with a vector field, each once with its sign, the representative first.
-
-        The root has the first of its colours. The rootings of u∘u have both signs; one is given.
+        """The rootings with a vector field, each once with its sign, the representative first. The
+        root has the first of its colours. The rootings of u∘u have both signs; one is given.
         """
         signs: dict[Tree, int] = {self.representative: 1}
         for tree, sign in self._from_representative():
@@ -71,9 +70,8 @@ def free_trees(structure: Structure, order: int) -> Iterator[FreeTree]:
 
 
 def hamiltonian_structure(tableau: Tableau) -> Structure | None:
-    """The structure of the Hamiltonian problems H = Σ H^{l} of a tableau.
-
-    None if the root of some tree that the tableau sees cannot move.
+    """The structure of the Hamiltonian problems H = Σ H^{l} of a tableau. None if the root of some
+    tree that the tableau sees cannot move.
     """
     tableau = with_joined_terms(tableau)
     natures = [(x.term, x.part) for x in tableau.colours]
@@ -97,9 +95,8 @@ def hamiltonian_structure(tableau: Tableau) -> Structure | None:
 
 
 class HamiltonianTerm(Frozen):
-    """One term c · H(u) of h^(ρ−1) in the modified Hamiltonian.
-
-    ``coefficient`` is b(u) of the representative u of the free tree.
+    """One term c · H(u) of h^(ρ−1) in the modified Hamiltonian. ``coefficient`` is b(u) of the
+    representative u of the free tree.
     """
 
     tree: FreeTree

@@ -214,9 +214,8 @@ def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
 
 
 class _Powers:
-    """The products b, b ◁ b, (b ◁ b) ◁ b, … tree by tree.
-
-    ``products[u][j]`` is the product of j + 1 factors at the tree u.
+    """The products b, b ◁ b, (b ◁ b) ◁ b, … tree by tree. ``products[u][j]`` is the product of j +
+    1 factors at the tree u.
     """
 
     def __init__(self, forest: Forest) -> None:

@@ -31,9 +31,8 @@ def all_entries(judges: bool = False) -> Iterator[Entry]:
 
 
 def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
-    """Returns the entry of one method.
-
-    Its ``catalogue`` and ``folder`` say where the file is, its ``facts`` where they come from.
+    """Returns the entry of one method. Its ``catalogue`` and ``folder`` say where the file is, its
+    ``facts`` where they come from.
     """
     facts = FOUND
     if isinstance(shelf, Package):

@@ -87,10 +87,8 @@ def digest(text: str) -> str:
 
 
 def entry_of(path: str, name: str, file: str, text: str) -> Entry:
-    """Returns the entry of a method file.
-
-    ``file`` is its path within the catalogue. Raises NoMethod if the file cannot be read or a claim
-    fails.
+    """Returns the entry of a method file. ``file`` is its path within the catalogue. Raises
+    NoMethod if the file cannot be read or a claim fails.
     """
     outcome = check_file(path)
     analysis = outcome.analysis or outcome.of_other_kind
@@ -193,9 +191,8 @@ Tell = Callable[[str], None]
 
 
 def method_files(data: Path) -> list[tuple[str, Path]]:
-    """Returns the method files in a folder and their names.
-
-    Raises NoMethod if two have the same name or a name is not well-formed.
+    """Returns the method files in a folder and their names. Raises NoMethod if two have the same
+    name or a name is not well-formed.
     """
     paths: dict[str, Path] = {}
     for path in data.rglob(f"*{SUFFIX}"):

@@ -139,9 +139,8 @@ def method_names() -> list[str]:
 
 
 def _found(name: object) -> Shelved:
-    """Returns the file of a method.
-
-    Raises NoSuchMethod if there is none, or if several are possible.
+    """Returns the file of a method. Raises NoSuchMethod if there is none, or if several are
+    possible.
     """
     from garkcli.methodfile.naming import FAMILY, PREFIX, find_named
 

@@ -222,9 +222,7 @@ class MethodProof(Shown, Frozen):
 @doing("proof")
 def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
     """Returns the orders of an exact method, its conjugate and its pair, with spanning trees and
-    witnesses.
-
-    Raises MethodError for rounded coefficients.
+    witnesses. Raises MethodError for rounded coefficients.
     """
     if method.tolerance is not None:
         message = "the coefficients are rounded: an order within a tolerance has no exact proof"

@@ -47,9 +47,8 @@ _CURE = "make one with gark check --format json -o FILE"
 
 
 def read_baseline(path: str) -> Earlier:
-    """Reads the files of an earlier report by path.
-
-    Raises UsageProblem unless the file is a complete report of ``gark check --format json``.
+    """Reads the files of an earlier report by path. Raises UsageProblem unless the file is a
+    complete report of ``gark check --format json``.
     """
     try:
         report = json.loads(_text(path))

@@ -49,9 +49,8 @@ MOST_PARAMETERS = 30
 def check_every(
     file: errors.HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
 ) -> Outcome:
-    """Checks a file with free parameters.
-
-    ``limit`` is where the search for orders stops, unless a claim reaches further.
+    """Checks a file with free parameters. ``limit`` is where the search for orders stops, unless a
+    claim reaches further.
     """
     from garkcli.check.every_value import every_value, verify_every  # most files are methods
     from garkcli.methodfile.family import family_of, refuse_rounded
@@ -98,9 +97,8 @@ def _refused(file: errors.HasFreeParameters, message: str, cure: str, code: str)
 def check_method(
     method: MethodFile, limit: int = DEFAULT_LIMIT, want_constants: bool = False
 ) -> Outcome:
-    """Checks a method that was read from a file.
-
-    ``limit`` is where the search for orders stops, unless a claim is higher.
+    """Checks a method that was read from a file. ``limit`` is where the search for orders stops,
+    unless a claim is higher.
     """
     reach = max(limit, highest_order(method.claims) + 1)
     if not method.tableau.is_gark:

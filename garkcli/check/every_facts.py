@@ -109,10 +109,8 @@ def answer(ask: Question, tableau: Tableau) -> Any:
 def find(
     family: EveryFamily, ask: Question, is_of_stages: bool = False, budget: Budget | None = None
 ) -> FamilyFact:
-    """Returns the answer to a question that only compares coefficients.
-
-    ``is_of_stages`` says that the question compares entries stage by stage; ``budget`` limits how
-    often it is asked.
+    """Returns the answer to a question that only compares coefficients. ``is_of_stages`` says that
+    the question compares entries stage by stage; ``budget`` limits how often it is asked.
     """
     budget = budget or Budget(MOST_ASKED)
     budget.left -= 1
@@ -166,9 +164,8 @@ def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list
 
 
 def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
-    """Returns the answer and the polynomials, with one coordinate for each stage.
-
-    Raises TypeError unless there are simple nodes, or one parameter.
+    """Returns the answer and the polynomials, with one coordinate for each stage. Raises TypeError
+    unless there are simple nodes, or one parameter.
     """
     tableau = family.in_points
     if tableau is family.tableau:
@@ -216,9 +213,8 @@ MOST = 4
 
 
 def fact_reason(fact: FamilyFact, name: str, text: Callable[[object], Worded] = told) -> Reason:
-    """Returns an answer with its exceptions.
-
-    ``name`` is that of the parameter if there is only one.
+    """Returns an answer with its exceptions. ``name`` is that of the parameter if there is only
+    one.
     """
     if fact.where is not None:
         where = joined(" or ", [_interval(x, name) for x in fact.where])

@@ -45,9 +45,8 @@ MOST_TERMS = 300
 
 
 def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
-    """Returns False only if a polynomial certainly has no real zero within the ranges.
-
-    Unknowns that stand for roots of numbers have no range.
+    """Returns False only if a polynomial certainly has no real zero within the ranges. Unknowns
+    that stand for roots of numbers have no range.
     """
     if not p:
         return True
@@ -236,9 +235,8 @@ def value_of(p: fmpq_mpoly, ring: Parameters, values: dict[str, object]) -> obje
 
 
 def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly, ...]:
-    """Returns the polynomials that a family divides by, at values of its unknowns.
-
-    Raises MethodError if one is zero there.
+    """Returns the polynomials that a family divides by, at values of its unknowns. Raises
+    MethodError if one is zero there.
     """
     polynomials = []
     for p in family.nonzero:
@@ -283,10 +281,8 @@ MOST_SAMPLES = 40
 
 
 class EveryFamily(Frozen):
-    """A family whose only relations are those of its roots.
-
-    The tableau of ``family`` has entries in ``family.parameters``, which are the remaining ones,
-    and in roots of numbers.
+    """A family whose only relations are those of its roots. The tableau of ``family`` has entries
+    in ``family.parameters``, which are the remaining ones, and in roots of numbers.
     """
 
     family: Family
@@ -313,9 +309,7 @@ class EveryFamily(Frozen):
     @cached_property
     def in_points(self) -> Tableau | None:
         """The tableau with one coordinate for each stage, the roots of its nodes as unknowns with
-        rules.
-
-        None if the nodes have no simple radicals, or there are roots among the coefficients.
+        rules. None if the nodes have no simple radicals, or there are roots among the coefficients.
         """
         return self.printed(self.tableau)
 
@@ -395,9 +389,7 @@ class EveryFamily(Frozen):
 
     def norm(self, p: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
         """Returns a polynomial in the parameter that is zero where a polynomial with roots of nodes
-        is.
-
-        The first unknown of ``ring`` is the parameter.
+        is. The first unknown of ``ring`` is the parameter.
         """
         for rule in reversed(ring.rules):
             relation = ring.context.gen(rule.index) ** rule.degree
@@ -493,9 +485,8 @@ def exact_value(root: RealRoot) -> Number | None:
 
 
 def every_family(family: Family) -> EveryFamily:
-    """Returns the family with the values that its relations fix.
-
-    Raises MethodError if a relation does not determine an unknown, or a root depends on parameters.
+    """Returns the family with the values that its relations fix. Raises MethodError if a relation
+    does not determine an unknown, or a root depends on parameters.
     """
     relations = [*family.relations]
     for name, (least, greatest) in family.ranges.items():
@@ -536,9 +527,8 @@ def every_family(family: Family) -> EveryFamily:
 def _moved_bounds(
     family: Family, values: dict[str, object], left: Sequence[str]
 ) -> tuple[fmpq_mpoly, ...]:
-    """Returns the polynomials of algebraic ends of ranges at values of the unknowns.
-
-    Raises MethodError if several parameters are left or a value is out of its range.
+    """Returns the polynomials of algebraic ends of ranges at values of the unknowns. Raises
+    MethodError if several parameters are left or a value is out of its range.
     """
     polynomials = []
     for p in family.not_negative:

@@ -52,9 +52,8 @@ class EveryOrder(Frozen):
 
 
 def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
-    """Returns the order for all values, of the method, its conjugate or its pair.
-
-    Raises ZeroWeight if a weight is zero for all values, so that there is no conjugate.
+    """Returns the order for all values, of the method, its conjugate or its pair. Raises ZeroWeight
+    if a weight is zero for all values, so that there is no conjugate.
     """
     ring = family.ring
     tableau = TABLEAUS[whose](family.tableau)

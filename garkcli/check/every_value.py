@@ -106,9 +106,8 @@ class EveryValue(Frozen):
         return self._known[key]
 
     def simplifying(self, key: str) -> FamilyFact:
-        """Returns B, C, D or a bound from them; with the prefix ``pair-`` that of the pair.
-
-        B is decided by itself, as it does not involve blocks.
+        """Returns B, C, D or a bound from them; with the prefix ``pair-`` that of the pair. B is
+        decided by itself, as it does not involve blocks.
         """
         if key not in self._known:
             limit, name = self.limit, key.removeprefix("pair-")

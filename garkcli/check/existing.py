@@ -26,10 +26,8 @@ MOST_PARTS = 100_000
 
 
 class PrintedNumber(Frozen):
-    """A number of a rounded method.
-
-    ``radius`` is its largest error, ``centre`` its value in the approximate method around which an
-    exact one exists, ``width`` the largest distance from it.
+    """A number of a rounded method. ``radius`` is its largest error, ``centre`` its value in the
+    approximate method around which an exact one exists, ``width`` the largest distance from it.
     """
 
     printed: fmpq
@@ -62,9 +60,7 @@ class ExistenceProof(Shown, Frozen):
 @doing("proof")
 def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> ExistenceProof:
     """Proves that a method within the rounding of a printed one has its order, and none a higher
-    one.
-
-    Raises MethodError for exact coefficients, and without a proof.
+    one. Raises MethodError for exact coefficients, and without a proof.
     """
     rounded = meant(method.tableau, method.tolerance, method.further)
     if isinstance(rounded, Tableau):

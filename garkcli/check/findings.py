@@ -112,9 +112,7 @@ def bound_numbers(conditions: Simplifying) -> str:
 
 def claim_witness(outcome: Outcome, claim: str) -> Reason:
     """Returns the reason against a claim: the witness of an order, the numbers of a bound, the
-    reason for a property.
-
-    Empty if there is none.
+    reason for a property. Empty if there is none.
     """
     for made in outcome.claims:
         if made.claim == claim and made.holds is not True and made.reason:
@@ -329,9 +327,8 @@ def misprint_text(numbers: Sequence[SuspectedNumber]) -> Reason:
 
 
 class Aside(Remark):
-    """A remark that is about no claim; it fails nothing.
-
-    ``reason`` is the message with values that each output words in its own notation.
+    """A remark that is about no claim; it fails nothing. ``reason`` is the message with values that
+    each output words in its own notation.
     """
 
     reason: Reason = NO_REASON

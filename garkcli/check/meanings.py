@@ -81,10 +81,7 @@ def term_meaning(term: Term) -> Meaning:
 
 
 def claim_meaning(key: str) -> Meaning:
-    """Returns the meaning of a claim of a method file.
-
-    Raises UsageProblem for an unknown claim.
-    """
+    """Returns the meaning of a claim of a method file. Raises UsageProblem for an unknown claim."""
     from garkcli.properties.definitions import definition
 
     meaning = definition(key)
@@ -256,10 +253,7 @@ def _known(word: str) -> list[tuple[Sense, str]]:
 
 
 def _of_message(text: str) -> Meaning:
-    """Returns the meaning of an error message.
-
-    Raises UsageProblem if it is unknown.
-    """
+    """Returns the meaning of an error message. Raises UsageProblem if it is unknown."""
     code = code_of(text.removeprefix("gark: "), _SURELY)
     if code == UNKNOWN:
         raise UsageProblem(f"no word {text!r}", _near(text), code="unknown-word")

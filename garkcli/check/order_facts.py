@@ -42,9 +42,8 @@ class EmbeddedFacts(Frozen):
 
 
 class DenseFacts(Frozen):
-    """The order, for all θ, and the continuity of dense output.
-
-    ``ends_at_step`` says that b(1) = b.
+    """The order, for all θ, and the continuity of dense output. ``ends_at_step`` says that b(1) =
+    b.
     """
 
     order: DenseOrder
@@ -92,9 +91,8 @@ def estimate(
     limit: int,
     spans: StageSpans | None = None,
 ) -> Estimator:
-    """Returns the error estimate of embedded weights.
-
-    ``orders`` are those of the method and with these weights.
+    """Returns the error estimate of embedded weights. ``orders`` are those of the method and with
+    these weights.
     """
     order, other = orders
     smaller = other if other.order < order.order else order

@@ -40,9 +40,8 @@ class PairReason(Frozen):
 
 
 def pair_reason(analysis: Analysis) -> PairReason | None:
-    """Returns the reason for the order of the pair; None if there is no pair.
-
-    If a hypothesis of the theorem fails, the text says which one.
+    """Returns the reason for the order of the pair; None if there is no pair. If a hypothesis of
+    the theorem fails, the text says which one.
     """
     if analysis.pair is None or analysis.pair_order is None:
         return None
@@ -184,9 +183,8 @@ def is_lost(reason: str) -> bool:
 
 
 class Fit(Frozen):
-    """Whether a block by a rule preserves the least pair order of the diagonal methods.
-
-    ``keeps`` is None if that depends on the entries; ``numbers`` are those that decide it, as text.
+    """Whether a block by a rule preserves the least pair order of the diagonal methods. ``keeps``
+    is None if that depends on the entries; ``numbers`` are those that decide it, as text.
     """
 
     keeps: bool | None

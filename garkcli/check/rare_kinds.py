@@ -57,9 +57,8 @@ def _among_all(order: AnyOrder, tableau: Tableau) -> AnyOrder:
 
 
 class NprkAnalysis(OrderFacts):
-    """The orders of a nonlinearly partitioned method.
-
-    The colours of its tableau are the arguments of F, its stages the pairs at which F is evaluated.
+    """The orders of a nonlinearly partitioned method. The colours of its tableau are the arguments
+    of F, its stages the pairs at which F is evaluated.
     """
 
     form = "nprk"
@@ -89,9 +88,8 @@ def analyse_nprk(
 
 
 class DerivativesAnalysis(OrderFacts):
-    """The orders of a multiderivative method.
-
-    Its tableau has stages along the exact solutions whose derivatives it uses.
+    """The orders of a multiderivative method. Its tableau has stages along the exact solutions
+    whose derivatives it uses.
     """
 
     form = "derivatives"

@@ -44,9 +44,7 @@ class RosenbrockOrders(order_facts.ClaimedOrders):
     @cached_property
     def index_1_order(self) -> AnyOrder | None:
         """The order on ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1))
-        of a step in y and O(h^p) in z.
-
-        None if α + γ is singular.
+        of a step in y and O(h^p) in z. None if α + γ is singular.
         """
         return self._on_dae("on_dae", self.order)
 

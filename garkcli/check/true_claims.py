@@ -47,10 +47,8 @@ DIGITS = 12
 
 
 class TrueClaims(Frozen):
-    """True claims of one method.
-
-    ``claims`` has the values in YAML by key; requested claims that do not apply or are undecided
-    are ``left``.
+    """True claims of one method. ``claims`` has the values in YAML by key; requested claims that do
+    not apply or are undecided are ``left``.
     """
 
     file: str
@@ -77,9 +75,8 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
 
 
 def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
-    """Returns the true claims among ``keys`` in YAML, in the order of the documentation.
-
-    Claims that do not apply or are undecided are left out.
+    """Returns the true claims among ``keys`` in YAML, in the order of the documentation. Claims
+    that do not apply or are undecided are left out.
     """
     wanted = set(keys)
     claims = {}

@@ -118,9 +118,8 @@ def completed(place: str) -> Callable[..., list[str]]:
 
 
 def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
-    """Adds folders before those of ``GARK_PATH``, for this run and its processes.
-
-    Raises UsageProblem if one of them is not a folder.
+    """Adds folders before those of ``GARK_PATH``, for this run and its processes. Raises
+    UsageProblem if one of them is not a folder.
     """
     if not folders or context.resilient_parsing:
         return
@@ -186,10 +185,7 @@ def finite(_: click.Context, __: click.Parameter, seconds: float | None) -> floa
 
 
 def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | None:
-    """Returns the file of a plot.
-
-    Raises UsageProblem for a suffix that cannot be drawn.
-    """
+    """Returns the file of a plot. Raises UsageProblem for a suffix that cannot be drawn."""
     if path is not None:
         from pathlib import Path
 
@@ -229,9 +225,8 @@ def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:
 
 
 def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
-    """Returns the rational number given for ``option``.
-
-    ``cure`` is for irrational numbers. Raises UsageProblem for other texts.
+    """Returns the rational number given for ``option``. ``cure`` is for irrational numbers. Raises
+    UsageProblem for other texts.
     """
     from garkcli.exact.domain import Domain
     from garkcli.exact.expression import parse
@@ -251,7 +246,6 @@ def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
 
 def positive(option: str, text: str) -> fmpq:
     """Returns the positive rational number given for ``option``, a time, a frequency or an error.
-
     Raises UsageProblem for other texts, and for numbers out of range.
     """
     from flint import fmpq
@@ -271,10 +265,7 @@ def positives(option: str, text: str) -> tuple[fmpq, ...]:
 
 
 def point(option: str, text: str) -> tuple[fmpq, fmpq]:
-    """Returns the real and the imaginary part.
-
-    Raises UsageProblem unless they are rational.
-    """
+    """Returns the real and the imaginary part. Raises UsageProblem unless they are rational."""
     from garkcli.exact.given import complex_parts
 
     real, imaginary = (rational(option, x, "such as 0.01+2i") for x in complex_parts(text))
@@ -282,10 +273,7 @@ def point(option: str, text: str) -> tuple[fmpq, fmpq]:
 
 
 def ratio(option: str, text: str) -> fmpq:
-    """Returns the ratio of two radii.
-
-    Raises UsageProblem for other texts.
-    """
+    """Returns the ratio of two radii. Raises UsageProblem for other texts."""
     number = rational(option, text)
     if number <= 0:
         message = f"--ratio {text}: radii are positive"
@@ -294,9 +282,8 @@ def ratio(option: str, text: str) -> fmpq:
 
 
 def square(option: str, text: str) -> fmpq:
-    """Returns the nonnegative rational number given for ``option``.
-
-    Raises UsageProblem for other texts.
+    """Returns the nonnegative rational number given for ``option``. Raises UsageProblem for other
+    texts.
     """
     number = rational(option, text)
     if number < 0:

@@ -111,9 +111,8 @@ def new(given: New, output: Output) -> None:
 
 
 def of_tableau_text(name: str, text: str) -> str:
-    """Returns a method file for a pasted tableau; ``-`` is standard input, ``@FILE`` a file.
-
-    Raises MethodError if it is not a tableau.
+    """Returns a method file for a pasted tableau; ``-`` is standard input, ``@FILE`` a file. Raises
+    MethodError if it is not a tableau.
     """
     from garkcli.glossary.key import METHOD_FILE
     from garkcli.grammar.reading import read_text
@@ -128,10 +127,7 @@ def of_tableau_text(name: str, text: str) -> str:
 
 
 def _member(text: str) -> Member:
-    """Returns the family and the stages.
-
-    Raises UsageProblem for other texts.
-    """
+    """Returns the family and the stages. Raises UsageProblem for other texts."""
     from garkcli.families.registry import member_named
     from garkcli.methodfile.template import Member
 
@@ -145,7 +141,6 @@ def _member(text: str) -> Member:
 
 def _asked(given: New) -> New:
     """Returns the options with a name, a tableau, or families and a transfer rule from a dialogue.
-
     Raises UsageProblem without a terminal.
     """
     if not is_terminal(sys.stdin):
@@ -235,10 +230,7 @@ def claims(given: ClaimsOptions, output: Output) -> None:
 
 
 def _loaded(path: str) -> MethodFile:
-    """Returns a method with its claims.
-
-    Raises UsageProblem for a family of methods.
-    """
+    """Returns a method with its claims. Raises UsageProblem for a family of methods."""
     from garkcli.methodfile.load import load
 
     try:

@@ -316,9 +316,8 @@ def command_of(name: str) -> click.Command:
 
 
 def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
-    """Notes methods whose coefficients look rounded, with the missing line.
-
-    ``gark check`` has this in its report. It takes as long as a check and is skipped with -q.
+    """Notes methods whose coefficients look rounded, with the missing line. ``gark check`` has this
+    in its report. It takes as long as a check and is skipped with -q.
     """
     if output.verbosity < 0:
         return

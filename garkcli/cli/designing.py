@@ -355,10 +355,7 @@ def _refuse_unsettled(family: FamilyFile) -> None:
 
 
 def make_folder(path: str) -> None:
-    """Makes a folder for files unless it exists.
-
-    Raises UsageProblem if it cannot be made.
-    """
+    """Makes a folder for files unless it exists. Raises UsageProblem if it cannot be made."""
     if not path:
         raise UsageProblem("the name of the folder is empty", "name a folder", code="cannot-write")
     try:
@@ -448,10 +445,8 @@ def _sets(found: Design, given: DesignOptions) -> tuple[StableValues, ...] | Non
 
 
 def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
-    """Returns what each value of --choose leaves.
-
-    Raises UsageProblem if a choice is not valid, leaves no unknown, or leads to a question that is
-    not decided in time.
+    """Returns what each value of --choose leaves. Raises UsageProblem if a choice is not valid,
+    leaves no unknown, or leads to a question that is not decided in time.
     """
     from garkcli.design.choices import walk_down
 
@@ -501,10 +496,8 @@ def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> 
 def _emit(
     found: Design | DesignWithin | Minimum, family: FamilyFile, given: DesignOptions, output: Output
 ) -> None:
-    """Writes the first of the methods found, or all.
-
-    Raises UsageProblem if there is none, MethodError if its values cannot be written in a method
-    file.
+    """Writes the first of the methods found, or all. Raises UsageProblem if there is none,
+    MethodError if its values cannot be written in a method file.
     """
     if given.emit is None and given.folder is None:
         return

@@ -264,9 +264,8 @@ def _tell_wrong(results: Sequence[TableResult]) -> None:
 
 
 def _refuse_several(results: Sequence[TableResult], place: str, option: str) -> None:
-    """Raises UsageProblem for several methods in one method file.
-
-    ``place`` is the option and the file, ``option`` the one that names a folder.
+    """Raises UsageProblem for several methods in one method file. ``place`` is the option and the
+    file, ``option`` the one that names a folder.
     """
     names = [x.table.name or x.stem for x in results if x.method is not None]
     if len(names) > 1 and ending_of(place):

@@ -344,9 +344,8 @@ def _page_name(paths: list[str], which: str | None) -> str:
 
 
 def _meant(path: str, given: Page) -> str | GarkMethod:
-    """Returns the subject of the page: a file, or the conjugate or the pair of its method.
-
-    Raises UsageProblem for free parameters.
+    """Returns the subject of the page: a file, or the conjugate or the pair of its method. Raises
+    UsageProblem for free parameters.
     """
     if given.which is None:
         return path

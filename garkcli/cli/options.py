@@ -28,10 +28,8 @@ Word = TypeVar("Word", bound=str)
 
 
 class Kind(Frozen, Generic[T]):
-    """The values of an option: the settings of click that read them as a T.
-
-    ``choices`` is the place of the words that it accepts, ``holds`` the format of a file that the
-    command writes.
+    """The values of an option: the settings of click that read them as a T. ``choices`` is the
+    place of the words that it accepts, ``holds`` the format of a file that the command writes.
     """
 
     settings: Mapping[str, Any]
@@ -343,9 +341,8 @@ class WithSettings(Options):
     settings: Mapping[str, str] = SET
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """Returns a method with the values of --set.
-
-        Raises MethodFileError if it is not a method, HasFreeParameters if a parameter has no value.
+        """Returns a method with the values of --set. Raises MethodFileError if it is not a method,
+        HasFreeParameters if a parameter has no value.
         """
         from garkcli.methodfile.load import load
 
@@ -373,9 +370,8 @@ class Derivable(WithSettings):
         return "conjugate" if self.conjugate else "pair" if self.pair else None
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """Returns a method with the values of --set, or its conjugate or its pair.
-
-        Raises the errors of WithSettings, and ZeroWeight if a conjugate would divide by zero.
+        """Returns a method with the values of --set, or its conjugate or its pair. Raises the
+        errors of WithSettings, and ZeroWeight if a conjugate would divide by zero.
         """
         found = super().method(file, is_any_kind)
         return found.conjugate if self.conjugate else found.pair if self.pair else found

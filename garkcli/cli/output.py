@@ -116,9 +116,8 @@ class Output:
         return width_of_terminal() if self.path is None else TERMINAL
 
     def write(self, text: str | Iterable[str], format: str = "") -> None:
-        """Writes the report; a file appears whole or not at all.
-
-        ``format`` overrides that of ``--format``.
+        """Writes the report; a file appears whole or not at all. ``format`` overrides that of
+        ``--format``.
         """
         pieces = [text] if isinstance(text, str) else text
         format = format or self.format
@@ -146,9 +145,8 @@ class Output:
         self.write(report.render(wholes, self.format, self.look, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
-        """Writes a result while it is computed.
-
-        ``is_document`` says whether LaTeX has its preamble or only names it; None for neither.
+        """Writes a result while it is computed. ``is_document`` says whether LaTeX has its preamble
+        or only names it; None for neither.
         """
         pieces = report.pieces(whole, self.format, self.look, self.verbosity, width=self.width)
         if self.format == "latex" and is_document is not None:

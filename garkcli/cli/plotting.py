@@ -69,9 +69,8 @@ def _temporary(what: str) -> str:
 
 
 def _panel_of(what: str, method: GarkMethod, file: str) -> Panel:
-    """Returns the picture of a method.
-
-    Raises UsageProblem with the pictures that the method may have if it has no such one.
+    """Returns the picture of a method. Raises UsageProblem with the pictures that the method may
+    have if it has no such one.
     """
     from garkcli.webpage.pictures import NotDrawn, panel_named
 

@@ -67,9 +67,8 @@ def _folders() -> Iterator[str]:
 
 
 def _text(path: str, name: str) -> str | None:
-    """Returns the text of a file; None if it cannot have settings for gark.
-
-    Raises UsageProblem if it cannot be read, or is too large.
+    """Returns the text of a file; None if it cannot have settings for gark. Raises UsageProblem if
+    it cannot be read, or is too large.
     """
     try:
         data = read_bytes(path, MOST_BYTES)
@@ -100,10 +99,7 @@ def _not_toml(path: str, error: Exception) -> UsageProblem:
 
 
 def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
-    """Returns the settings for gark, or None.
-
-    Raises UsageProblem unless the file is TOML.
-    """
+    """Returns the settings for gark, or None. Raises UsageProblem unless the file is TOML."""
     import tomllib
 
     try:
@@ -157,9 +153,7 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
 
 def _from_here(path: str) -> str:
     """Returns the path relative to the current folder, if there is one: on Windows not to another
-    drive.
-
-    It is never mistaken for a name of the catalogue, or for standard input.
+    drive. It is never mistaken for a name of the catalogue, or for standard input.
     """
     try:
         here = os.path.relpath(path)

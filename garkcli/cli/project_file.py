@@ -40,10 +40,7 @@ def _path(at: Any, node: Node, where: str) -> str | None:
 
 
 def file_of(formats: Iterable[str]) -> g.ValueKind:
-    """Returns the keys of the file.
-
-    ``formats`` are those of ``gark check``.
-    """
+    """Returns the keys of the file. ``formats`` are those of ``gark check``."""
     return g.mapping(
         g.Key(
             'paths: ["methods"]',

@@ -366,9 +366,8 @@ class Problems:
             check_steps(whole, given.t_end or usual_time(whole), given.steps)
 
     def prepare(self, methods: Sequence[GarkMethod], output: Output) -> None:
-        """Chooses the same problem for all methods.
-
-        Raises UsageProblem without one for their structures.
+        """Chooses the same problem for all methods. Raises UsageProblem without one for their
+        structures.
         """
         tableaux = [self._stepped(method) for method in methods]
         self._tableaux = tableaux
@@ -390,9 +389,8 @@ class Problems:
         return tableau
 
     def of(self, tableau: Tableau) -> Problem | Oscillator:
-        """Returns the problem for one of the prepared methods.
-
-        Raises UsageProblem if it cannot be split.
+        """Returns the problem for one of the prepared methods. Raises UsageProblem if it cannot be
+        split.
         """
         from garkcli.api.problems import problem_for, split_for
         from garkcli.convergence.convergence import in_common
@@ -407,9 +405,8 @@ class Problems:
         return problem_for(self._name, tableau, None, given.stiffness, given.omega, given.split)
 
     def tested(self, method: GarkMethod) -> Convergence:
-        """Returns the test of one method.
-
-        Raises GarkError if the problem does not fit, or a step fails.
+        """Returns the test of one method. Raises GarkError if the problem does not fit, or a step
+        fails.
         """
         from garkcli.api.runs import converge
 
@@ -469,9 +466,8 @@ def energy(given: Energy, output: Output) -> int:
 
 
 def _followed(tableau: Tableau, given: Energy, output: Output) -> Oscillator | Problem:
-    """Returns the problem of a long run, with as many terms as the tableau needs.
-
-    Raises UsageProblem if nothing is conserved, or --symplecticity does not apply.
+    """Returns the problem of a long run, with as many terms as the tableau needs. Raises
+    UsageProblem if nothing is conserved, or --symplecticity does not apply.
     """
     from garkcli.api.problems import problem_for
     from garkcli.problems.builtin import is_path
@@ -542,10 +538,7 @@ def _claims(run: LongRun, given: Energy) -> tuple[RunClaim, ...]:
 
 
 def _in_modified(order: int, given: Energy, output: Output) -> int:
-    """Reports the error in the modified Hamiltonian.
-
-    Raises UsageProblem for rounded coefficients.
-    """
+    """Reports the error in the modified Hamiltonian, for exact coefficients only."""
     from garkcli.api.problems import hamiltonian_for
     from garkcli.api.runs import modified_run
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
@@ -605,9 +598,8 @@ def modified(given: Modified, output: Output) -> None:
 
 
 def _formula(method: GarkMethod, problem: str, given: Modified) -> ModifiedFormula:
-    """Returns the formula on the problem of --problem.
-
-    Raises UsageProblem for rounded coefficients, or if the problem is not Hamiltonian.
+    """Returns the formula on the problem of --problem. Raises UsageProblem for rounded
+    coefficients, or if the problem is not Hamiltonian.
     """
     from garkcli.api.problems import hamiltonian_for
     from garkcli.api.runs import modified_formula

@@ -114,10 +114,7 @@ def stability(given: StabilityOptions, output: Output) -> None:
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:
-    """Returns the colour given for --fast, counted from 1.
-
-    Raises UsageProblem if there is none.
-    """
+    """Returns the colour given for --fast, counted from 1. Raises UsageProblem if there is none."""
     names = [x.name for x in tableau.colours]
     if colour not in names:
         message = f"--fast: no colour {colour!r}"

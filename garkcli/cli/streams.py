@@ -68,10 +68,7 @@ def _fill_places() -> None:
 
 
 def put(text: str, format: str = "text", coloured: bool = False) -> None:
-    """Writes a part of a report to standard output.
-
-    Raises NoStandardOutput or ReaderGone.
-    """
+    """Writes a part of a report to standard output. Raises NoStandardOutput or ReaderGone."""
     if not text:
         return
     if sys.stdout is None:
@@ -97,9 +94,8 @@ def put_help(text: str) -> None:
 
 
 def put_exactly(text: str) -> None:
-    """Writes a text as UTF-8 with its line ends, whatever the encoding of standard output.
-
-    Raises NoStandardOutput or ReaderGone.
+    """Writes a text as UTF-8 with its line ends, whatever the encoding of standard output. Raises
+    NoStandardOutput or ReaderGone.
     """
     if sys.stdout is None:
         raise NoStandardOutput
@@ -115,10 +111,7 @@ def put_exactly(text: str) -> None:
 
 
 def flush() -> None:
-    """Flushes standard output.
-
-    Raises ReaderGone.
-    """
+    """Flushes standard output. Raises ReaderGone."""
     if sys.stdout is None:
         return
     try:

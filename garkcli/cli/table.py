@@ -7,9 +7,7 @@ from garkcli.frozen import Frozen
 
 class Command(Frozen):
     """A command: its heading in the help, its module, the functions of the package for it, and
-    lines to copy, with which its help begins.
-
-    Its arguments and options are declared in the module.
+    lines to copy, with which its help begins. Its arguments and options are declared in the module.
     """
 
     group: str

@@ -135,10 +135,7 @@ def coupling_of_slow_stages(method: GarkMethod) -> Coupling | None:
 
 
 def _method_file(method: GarkMethod, digits: int | None) -> str:
-    """Returns a method as a method file.
-
-    Raises UsageProblem if it cannot be spelled out.
-    """
+    """Returns a method as a method file. Raises UsageProblem if it cannot be spelled out."""
     from garkcli.methodfile.writer import tolerance_of_file, write_rounded, write_tableau_file
     from garkcli.tableau.pointwise import in_points
 
@@ -158,9 +155,8 @@ def _method_file(method: GarkMethod, digits: int | None) -> str:
 
 
 def _derived_file(made: GarkMethod, output: Output) -> str:
-    """Returns the method file of a conjugate or a pair.
-
-    Raises UsageProblem if the nodes of a pair have no simple radicals.
+    """Returns the method file of a conjugate or a pair. Raises UsageProblem if the nodes of a pair
+    have no simple radicals.
     """
     from garkcli.methodfile.carried import write_conjugate_of
     from garkcli.methodfile.writer import can_spell_out, write_tableau_file
@@ -223,9 +219,8 @@ def read_family(
 
 
 def _write_family(error: HasFreeParameters, given: TableauOptions, output: Output) -> None:
-    """Writes the tableau of a family, with rational functions of the parameters.
-
-    Raises UsageProblem if the nodes have no simple radicals, or decimals are requested.
+    """Writes the tableau of a family, with rational functions of the parameters. Raises
+    UsageProblem if the nodes have no simple radicals, or decimals are requested.
     """
     from garkcli.order.meant import derived, printed
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
@@ -270,10 +265,7 @@ def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
 
 
 def _end_text(parameter: str, end: RealRoot | None) -> str:
-    """Returns an end of a range as in a file.
-
-    Raises UsageProblem if it has no simple radicals.
-    """
+    """Returns an end of a range as in a file. Raises UsageProblem if it has no simple radicals."""
     from garkcli.exact.polynomial_text import root_text
 
     text = None if end is None else root_text(end)

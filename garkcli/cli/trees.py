@@ -183,10 +183,7 @@ def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
 
 
 def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Output) -> None:
-    """Draws trees into a file.
-
-    Raises UsageProblem if they are too many for a sheet.
-    """
+    """Draws trees into a file. Raises UsageProblem if they are too many for a sheet."""
     from garkcli.ntrees.drawing import draw_svg_sheet
     from garkcli.ntrees.notation import format_tree
 
@@ -198,9 +195,8 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
 
 
 def _refuse_millions(lines: int | None, yes: bool) -> None:
-    """Asks on a terminal whether so many lines are wanted.
-
-    Raises UsageProblem if not, or without a terminal.
+    """Asks on a terminal whether so many lines are wanted. Raises UsageProblem if not, or without a
+    terminal.
     """
     if yes or lines is None or lines <= MANY:
         return

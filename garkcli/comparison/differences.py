@@ -18,10 +18,8 @@ from garkcli.tableau.pointwise import Block, Cell
 
 
 class EntryGap(Frozen):
-    """An entry that differs.
-
-    ``row`` and ``entry`` count from 0; ``row`` is None in weights and nodes. ``is_open`` says that
-    enclosures cannot tell the two apart.
+    """An entry that differs. ``row`` and ``entry`` count from 0; ``row`` is None in weights and
+    nodes. ``is_open`` says that enclosures cannot tell the two apart.
     """
 
     row: int | None
@@ -142,10 +140,8 @@ MAX_CONDITIONS = 2000
 
 
 class Met(Frozen):
-    """The conditions that only one of two methods fulfils.
-
-    All conditions up to ``order`` were compared; ``pairs`` has the conditions of both methods for
-    the trees with different verdicts.
+    """The conditions that only one of two methods fulfils. All conditions up to ``order`` were
+    compared; ``pairs`` has the conditions of both methods for the trees with different verdicts.
     """
 
     order: int

@@ -31,9 +31,7 @@ MAX_TRIALS = 3000
 
 def find_matching(one: grids.Grid, other: grids.Grid, likeness: grids.Likeness) -> Images | None:
     """Returns the stages of ``other`` that correspond to those of ``one``, or None if the methods
-    differ.
-
-    Raises LimitExceeded after ``MAX_TRIALS`` trials.
+    differ. Raises LimitExceeded after ``MAX_TRIALS`` trials.
     """
     if not grids.have_one_shape(one, other):
         return None

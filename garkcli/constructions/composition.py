@@ -172,9 +172,8 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
 
 
 def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
-    """Returns a splitting method for ẏ = Σ f^{l}(y), with one colour for each part.
-
-    ``methods`` has the method of each part on point stages; ``flows`` of length 0 are left out.
+    """Returns a splitting method for ẏ = Σ f^{l}(y), with one colour for each part. ``methods`` has
+    the method of each part on point stages; ``flows`` of length 0 are left out.
     """
     parts = [alone(methods, l) for l in range(len(methods))]
     return composed([Substep(parts[l], g) for l, g in flows if g])

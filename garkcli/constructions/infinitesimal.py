@@ -174,9 +174,7 @@ def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, .
 
 def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
     """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i, the last one
-    to the end of the step.
-
-    Raises ``MethodError`` if α or γ uses a later stage.
+    to the end of the step. Raises ``MethodError`` if α or γ uses a later stage.
     """
     nodes: list[Number] = [ZERO]
     intervals = []

@@ -82,9 +82,8 @@ SMALLER = "take fewer steps, or methods of fewer stages"
 
 
 def small_steps(fast: Method, steps: int) -> Method:
-    """``steps`` equal steps of a method as one.
-
-    Raises ``MethodError`` if there are too many stages.
+    """``steps`` equal steps of a method as one. Raises ``MethodError`` if there are too many
+    stages.
     """
     refuse_large(steps * fast.stages, SMALLER)
     one = Substep(gark([fast], {}), fmpq(1, steps))

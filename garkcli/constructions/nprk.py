@@ -92,9 +92,8 @@ def matrix_of(row: Vector, tableau: Tableau) -> Matrix:
 
 
 def additive(tableau: Tableau) -> Tableau:
-    """The additive method for y′ = f₁(y) + f₂(y), that is, F(u, v) = f₁(u) + f₂(v).
-
-    The stages of f₁ are the first arguments of the pairs, those of f₂ the second ones.
+    """The additive method for y′ = f₁(y) + f₂(y), that is, F(u, v) = f₁(u) + f₂(v). The stages of
+    f₁ are the first arguments of the pairs, those of f₂ the second ones.
     """
     (space,) = tableau.spaces
     colours = tuple(

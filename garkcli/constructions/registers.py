@@ -27,9 +27,8 @@ Numbers: TypeAlias = Sequence[Any]
 
 
 class Steps(Frozen):
-    """An executed explicit method.
-
-    ``starts`` has the coefficient of the initial value in each stage and in the final value: all 1.
+    """An executed explicit method. ``starts`` has the coefficient of the initial value in each
+    stage and in the final value: all 1.
     """
 
     A: Sequence[Numbers]

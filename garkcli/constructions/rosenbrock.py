@@ -203,9 +203,7 @@ class Rosenbrock(Frozen):
 
     def _tableau(self, *kinds: tuple[str, nature.VertexKind, Blocks]) -> Tableau:
         """Returns the tableau whose colours of each kind see all others through blocks of their
-        own.
-
-        ``kinds`` are a letter, the kind of vertices, and the blocks.
+        own. ``kinds`` are a letter, the kind of vertices, and the blocks.
         """
         N = len(self.b)
         c, d = self.nodes

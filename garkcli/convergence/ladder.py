@@ -122,9 +122,7 @@ def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
 
 def is_complete(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> bool:
     """Returns whether the ladder may end with the last of ``rows``, all so far from the largest
-    step down.
-
-    ``is_small`` says for each whether its error is at most ``LARGEST`` of the solution.
+    step down. ``is_small`` says for each whether its error is at most ``LARGEST`` of the solution.
     """
     if len(rows) - _first_small(is_small) >= MAX_ROWS:
         return True

@@ -173,10 +173,8 @@ def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
 
 
 class _Runs:
-    """A problem solved with different numbers of steps by one method.
-
-    Hamiltonian problems are solved by Gauss methods, others by Radau IIA methods, as they may be
-    stiff.
+    """A problem solved with different numbers of steps by one method. Hamiltonian problems are
+    solved by Gauss methods, others by Radau IIA methods, as they may be stiff.
     """
 
     def __init__(self, problem: Problem, t_end: fmpq, digits: int) -> None:

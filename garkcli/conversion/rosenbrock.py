@@ -110,9 +110,7 @@ def _blocks(method: Rosenbrock, further: Further) -> _Parts:
 
 class _Places:
     """The numbers of a form as affine forms in the rounded numbers of a method and its further
-    weights.
-
-    ``is_other`` says that the form differs from that of the file.
+    weights. ``is_other`` says that the form differs from that of the file.
     """
 
     def __init__(

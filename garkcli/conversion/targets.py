@@ -35,9 +35,8 @@ class Target(Frozen):
 
 
 def as_gark(method: GarkMethod) -> sheets.Sheet:
-    """The method as a GARK method.
-
-    The parts q and p become colours whose vector fields are zero in the other part.
+    """The method as a GARK method. The parts q and p become colours whose vector fields are zero in
+    the other part.
     """
     return without_parts(sheets.each_its_own(sheets.sheet_of(method)))
 

@@ -92,9 +92,8 @@ def _embedded_order(asked: Asked) -> WantConditions:
 
 
 def _symplectic(asked: Asked) -> WantConditions:
-    """b_i^l a_ij^{l,m} + b_j^m a_ji^{m,l} − b_i^l b_j^m = 0.
-
-    J. M. Sanz-Serna, BIT 28, 1988; for several colours A. Sandu, M. Günther, SINUM 53, 2015.
+    """b_i^l a_ij^{l,m} + b_j^m a_ji^{m,l} − b_i^l b_j^m = 0. J. M. Sanz-Serna, BIT 28, 1988; for
+    several colours A. Sandu, M. Günther, SINUM 53, 2015.
     """
     tableau = asked.tableau
     zeros: list[object] = []

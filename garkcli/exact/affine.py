@@ -45,9 +45,8 @@ def lost(ball: arb) -> float:
 
 
 class Affine:
-    """A number c + Σ g_k ε_k + ρ; ``slopes`` has the g_k that are not zero.
-
-    A form is no zero, and equal to nothing but itself: a sum without slopes is a plain number.
+    """A number c + Σ g_k ε_k + ρ; ``slopes`` has the g_k that are not zero. A form is no zero, and
+    equal to nothing but itself: a sum without slopes is a plain number.
     """
 
     __slots__ = ("centre", "remainder", "slopes")

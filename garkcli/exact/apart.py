@@ -47,7 +47,6 @@ def apart(work: Callable[..., T], *arguments: Any) -> T:
 
 def first_of(*tasks: Task[T]) -> T:
     """Runs each task in a process of its own and returns the first result; the others are ended.
-
     Raises NotDecided if the time is over, no process had a result, or only small work is done.
     """
     if is_only_small():

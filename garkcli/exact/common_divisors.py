@@ -29,9 +29,7 @@ def candidates(
     a: Sequence[fmpq_poly], b: Sequence[fmpq_poly], field: NumberField
 ) -> Iterator[list[fmpq_poly]]:
     """Yields monic candidates for the greatest common divisor over K: it is the first that divides
-    both.
-
-    ``a`` and ``b`` are the coefficients in θ, lowest first, the leading one not zero.
+    both. ``a`` and ``b`` are the coefficients in θ, lowest first, the leading one not zero.
     """
     number = FIRST
     modulus, known, length = 1, [], None

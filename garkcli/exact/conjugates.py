@@ -31,10 +31,8 @@ MOST_BITS_APART = 1024
 
 
 class Image(Frozen):
-    """The image u + iv of a polynomial under an embedding.
-
-    ``imaginary`` is None for an embedding in ℝ. A complex embedding represents its conjugate too,
-    with the image u − iv.
+    """The image u + iv of a polynomial under an embedding. ``imaginary`` is None for an embedding
+    in ℝ. A complex embedding represents its conjugate too, with the image u − iv.
     """
 
     real: arb_poly
@@ -106,9 +104,8 @@ def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
 
 
 def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
-    """Returns the images of Σ p_k(θ) x^k, with the identity first if the field has radicals.
-
-    None if two conjugates of θ are too close to isolate with ``bits`` bits.
+    """Returns the images of Σ p_k(θ) x^k, with the identity first if the field has radicals. None
+    if two conjugates of θ are too close to isolate with ``bits`` bits.
     """
     roots = conjugates(field, bits)
     if roots is None:

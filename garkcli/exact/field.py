@@ -45,10 +45,8 @@ def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
 
 
 class NumberField:
-    """K = ℚ(θ), with radicals that generate it.
-
-    ``modulus`` is the minimal polynomial of θ; ``radicals`` are pairs ``(expression, element)``,
-    without which elements are written in θ.
+    """K = ℚ(θ), with radicals that generate it. ``modulus`` is the minimal polynomial of θ;
+    ``radicals`` are pairs ``(expression, element)``, without which elements are written in θ.
     """
 
     def __init__(

@@ -149,9 +149,8 @@ def value_of(expression: nodes.Expression, names: Mapping[str, Value]) -> Value:
 
 
 def exponent_of(expression: nodes.Expression, names: Mapping[str, Value]) -> fmpq:
-    """Returns the value of an exponent.
-
-    Raises UndefinedValue if it is irrational, LimitExceeded if it or its denominator is too large.
+    """Returns the value of an exponent. Raises UndefinedValue if it is irrational, LimitExceeded if
+    it or its denominator is too large.
     """
     value = value_of(expression, names)
     start, end = expression.start, expression.end

@@ -25,10 +25,8 @@ Exponents: TypeAlias = tuple[int, ...]
 
 
 class Multivariate(Frozen):
-    """Σ a_e z^e.
-
-    ``terms`` are pairs of exponents and nonzero coefficient, by descending total degree, then
-    exponents.
+    """Σ a_e z^e. ``terms`` are pairs of exponents and nonzero coefficient, by descending total
+    degree, then exponents.
     """
 
     variables: int

@@ -45,9 +45,7 @@ class Name(Expression):
 
 class Chain(Expression):
     """Operands joined from left to right by ``+ -`` or by ``* /``, each preceded by one of
-    ``signs``.
-
-    Flat, so that the depth of an expression is that of its parentheses.
+    ``signs``. Flat, so that the depth of an expression is that of its parentheses.
     """
 
     signs: str

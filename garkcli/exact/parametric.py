@@ -28,9 +28,8 @@ Mixed: TypeAlias = "fmpq | Parametric"
 
 
 class Rule(Frozen):
-    """A rewriting rule for a power of an unknown, such as sqrt(3)² = 3.
-
-    ``instead`` is a polynomial of smaller degree in it, without unknowns of later rules.
+    """A rewriting rule for a power of an unknown, such as sqrt(3)² = 3. ``instead`` is a polynomial
+    of smaller degree in it, without unknowns of later rules.
     """
 
     index: int

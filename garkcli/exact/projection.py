@@ -35,9 +35,8 @@ def in_plane(p: fmpq_mpoly, y: int, t: int) -> fmpq_mpoly:
 
 
 def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
-    """Returns the nonzero polynomials in t between whose roots nothing changes.
-
-    ``irreducible`` are distinct irreducible curves, ``ends`` the ends of the interval of y.
+    """Returns the nonzero polynomials in t between whose roots nothing changes. ``irreducible`` are
+    distinct irreducible curves, ``ends`` the ends of the interval of y.
     """
     return [in_t(p) for p in seen_along(irreducible, ends)]
 

@@ -141,9 +141,8 @@ def is_nonnegative(p: Polynomial) -> bool:
 
 
 def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) -> int:
-    """Returns the multiplicity of ``root`` as a root of p ≠ 0, decided exactly.
-
-    ``together`` is its multiplicity in the norm, if known.
+    """Returns the multiplicity of ``root`` as a root of p ≠ 0, decided exactly. ``together`` is its
+    multiplicity in the norm, if known.
     """
     if together is None:
         together = _multiplicity(p.norm(), root.polynomial)

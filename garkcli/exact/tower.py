@@ -99,9 +99,8 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
 def _vanishing_factor(
     characteristic: fmpq_poly, combination: tuple[int, ...], values: Callable[[], list[arb]]
 ) -> fmpq_poly:
-    """The irreducible factor that vanishes at Σ combination·values.
-
-    The factors have no common root, so enough digits exclude all but one.
+    """The irreducible factor that vanishes at Σ combination·values. The factors have no common
+    root, so enough digits exclude all but one.
     """
     _, factors = characteristic.factor()
     candidates = [fmpq_poly(factor) for factor, _ in factors]

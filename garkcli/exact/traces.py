@@ -15,10 +15,8 @@ class Untold(ValueError):
 
 
 class Trace:
-    """A printed number, or an expression of some.
-
-    A trace is never zero, and equal to nothing but itself. ``told`` is its expression, ``length``
-    the number of leaves in it.
+    """A printed number, or an expression of some. A trace is never zero, and equal to nothing but
+    itself. ``told`` is its expression, ``length`` the number of leaves in it.
     """
 
     __slots__ = ("length", "told")

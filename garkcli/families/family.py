@@ -46,10 +46,8 @@ STAGES = Option("stages", "How many stages the member of the family has.", small
 
 
 class Recipe(Frozen):
-    """A member of a family that is not made yet.
-
-    ``numbers`` are the irrational numbers that it needs: given coefficients and nodes; ``make``
-    takes their values in one exact domain.
+    """A member of a family that is not made yet. ``numbers`` are the irrational numbers that it
+    needs: given coefficients and nodes; ``make`` takes their values in one exact domain.
     """
 
     stages: int

@@ -15,9 +15,8 @@ PAPER = (
 
 
 class Term(Frozen):
-    """A term and its meaning.
-
-    ``labels`` are its other names, also in reports, ``see`` related terms.
+    """A term and its meaning. ``labels`` are its other names, also in reports, ``see`` related
+    terms.
     """
 
     name: str
@@ -41,10 +40,7 @@ TOPICS = {
 
 @lru_cache(maxsize=len(TOPICS))
 def terms_of(topic: str) -> tuple[Term, ...]:
-    """Returns the terms of a topic.
-
-    ``short`` in its file has abbreviations of sources.
-    """
+    """Returns the terms of a topic. ``short`` in its file has abbreviations of sources."""
     entries = read(f"terms-{topic}")
     short = {"paper": PAPER, **entries.pop("short", {})}
 

@@ -99,9 +99,8 @@ class Key(Frozen):
 
 
 class ReadMapping(dict[str, Any]):
-    """The values of a mapping by key, without faulty ones.
-
-    ``nodes`` has the nodes of all given keys; ``is_right`` says that there is no fault.
+    """The values of a mapping by key, without faulty ones. ``nodes`` has the nodes of all given
+    keys; ``is_right`` says that there is no fault.
     """
 
     def __init__(self, node: Node, nodes: Entries) -> None:
@@ -260,9 +259,8 @@ def placed(where: str, message: str) -> str:
 
 
 def homes(keys: Iterable[Key]) -> dict[str, Home]:
-    """Returns the places of the keys within others, by name; the first of several places.
-
-    Names that are also keys at the top, or other spellings of them, are left out.
+    """Returns the places of the keys within others, by name; the first of several places. Names
+    that are also keys at the top, or other spellings of them, are left out.
     """
     places: dict[str, Home] = {}
     known = list(keys)
@@ -454,9 +452,8 @@ def one_or_more(
     is_plain: bool = False,
     rules: Mapping[str, Any] = NOTHING,
 ) -> ValueKind:
-    """Returns the kind of one value or a list, read as a list.
-
-    ``is_plain`` says that one value is a scalar; the others are those of ``list_of``.
+    """Returns the kind of one value or a list, read as a list. ``is_plain`` says that one value is
+    a scalar; the others are those of ``list_of``.
     """
     several = list_of(item, noun, most, form="name one", rules=rules)
 
@@ -494,9 +491,8 @@ def later(module: str, name: str) -> ValueKind:
 
 
 def file_schema(title: str, text: str, kind: ValueKind, **more: Any) -> Schema:
-    """Returns the JSON Schema (draft-07) of files, as plain data.
-
-    ``more`` is added to it, such as definitions.
+    """Returns the JSON Schema (draft-07) of files, as plain data. ``more`` is added to it, such as
+    definitions.
     """
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
     return {**head, "description": text, **kind.schema(), **more}

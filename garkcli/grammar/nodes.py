@@ -82,9 +82,8 @@ def is_null(node: Node) -> bool:
 
 
 def meant_key(key: str, known: Sequence[str], words: Mapping[str, str]) -> str:
-    """Returns the known key meant by an unknown one; empty if there is none.
-
-    ``words`` has other spellings.
+    """Returns the known key meant by an unknown one; empty if there is none. ``words`` has other
+    spellings.
     """
     return words.get(key.lower(), "") or nearest(key, known)
 

@@ -18,9 +18,8 @@ MOST_SHOWN = 4
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
-    """Returns the text of a file, or of standard input for ``-``, and its name.
-
-    Raises MethodFileError if there is no such file, or it is not text.
+    """Returns the text of a file, or of standard input for ``-``, and its name. Raises
+    MethodFileError if there is no such file, or it is not text.
     """
     name = "<stdin>" if path == STDIN else path
     try:
@@ -54,10 +53,8 @@ def _not_quoted(path: str, kind: FileKind) -> Remark:
 
 
 def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
-    """Returns whether errors may quote a file.
-
-    It has to have a key of its kind, or be no link to elsewhere and have an ending: a path chosen
-    by someone else must not reveal secrets.
+    """Returns whether errors may quote a file. It has to have a key of its kind, or be no link to
+    elsewhere and have an ending: a path chosen by someone else must not reveal secrets.
     """
     if not is_elsewhere(path) and os.path.splitext(path)[1]:
         return True
@@ -93,10 +90,7 @@ def _stem(name: str) -> str:
 
 
 def decoded(name: str, data: bytes) -> str:
-    """Returns the text of a file.
-
-    Raises MethodFileError if it is too long or not UTF-8.
-    """
+    """Returns the text of a file. Raises MethodFileError if it is too long or not UTF-8."""
     if len(data) > MAX_BYTES:
         message = f"a file of more than {MAX_BYTES} bytes"
         raise MethodFileError(name, [Remark(message, "split it", 1, 1, code="file-too-large")])

@@ -22,10 +22,8 @@ MAX_PLACES = 3
 
 
 class NotedFault(Frozen):
-    """A reported fault.
-
-    ``cause`` is equal for faults with the same cause, empty for a single one; if ``is_one``, faults
-    of this cause are always reported once.
+    """A reported fault. ``cause`` is equal for faults with the same cause, empty for a single one;
+    if ``is_one``, faults of this cause are always reported once.
     """
 
     fault: errors.Remark

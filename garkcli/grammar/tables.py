@@ -24,9 +24,8 @@ DEEPEST = 2
 def read_settings(
     source: Source, table: dict[str, Any], kind: ValueKind, where: str
 ) -> ReadMapping:
-    """Returns the values of a table by key; faults are reported.
-
-    TOML gives no positions: a value is placed at the first line with its key.
+    """Returns the values of a table by key; faults are reported. TOML gives no positions: a value
+    is placed at the first line with its key.
     """
     is_whole = where == FILE
     head = None if is_whole else HEAD.search(source.text)
@@ -55,9 +54,8 @@ def read_settings(
 
 
 def _places(text: str, before: str, start: int) -> dict[str, yaml.Mark]:
-    """Returns the place of the first line with each key.
-
-    ``before`` is the pattern before each key, ``start`` the start of the table.
+    """Returns the place of the first line with each key. ``before`` is the pattern before each key,
+    ``start`` the start of the table.
     """
     places: dict[str, yaml.Mark] = {}
     line, seen = 0, 0

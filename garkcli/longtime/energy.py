@@ -46,7 +46,6 @@ class FittedLine(Frozen):
 
 def drift_of(errors: Floats, angle: float | None) -> FittedLine:
     """Returns the slope of the errors in the whole run, and its distance from those in the halves.
-
     ``angle`` is 2θ, the angle of the oscillation per step; None without one.
     """
     slope = _slope(errors, angle)
@@ -89,9 +88,8 @@ _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
 class _Errors(Frozen):
-    """The energy errors H(z_n) − H(z_0) of a run from n = 0 on, until they blow up.
-
-    ``is_exact`` says that the step map conserves energy.
+    """The energy errors H(z_n) − H(z_0) of a run from n = 0 on, until they blow up. ``is_exact``
+    says that the step map conserves energy.
     """
 
     values: Floats

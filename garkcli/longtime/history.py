@@ -27,9 +27,8 @@ Fate: TypeAlias = Literal["elliptic", "unstable", "contractive", "marginal"]
 
 
 class StepMapStability(Frozen):
-    """The long-time behaviour of the step map R of a linear problem.
-
-    RᵀJR = J if and only if ``determinant`` is 1; ``fate`` is that of almost all orbits.
+    """The long-time behaviour of the step map R of a linear problem. RᵀJR = J if and only if
+    ``determinant`` is 1; ``fate`` is that of almost all orbits.
     """
 
     determinant: Number

@@ -130,10 +130,8 @@ _Finding: TypeAlias = tuple[histories.Verdict, Shape, histories.Doubt | None]
 
 
 class _Judge(Frozen):
-    """Judges the invariants of a run.
-
-    ``step`` is h, ``excused`` the error of the energy that the rounding of the coefficients can
-    cause.
+    """Judges the invariants of a run. ``step`` is h, ``excused`` the error of the energy that the
+    rounding of the coefficients can cause.
     """
 
     record: RunRecord

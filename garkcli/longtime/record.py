@@ -216,7 +216,6 @@ class RunRecord:
 
     def lose(self, start: int, errors: Floats) -> None:
         """Notes invariants that have no value from step ``start`` on; their errors become nan.
-
         ``errors`` are those from there on, shape (m, invariants), changed in place.
         """
         for k, own in enumerate(errors.T):

@@ -89,9 +89,7 @@ def energy_rate(
     tableau: Tableau, tolerance: fmpq | None, h: float, powers: tuple[float, float]
 ) -> float:
     """Returns the energy per unit of time that rounding of coefficients can cause, to leading
-    order.
-
-    ``powers`` are along the trajectory, see ``Exchange``.
+    order. ``powers`` are along the trajectory, see ``Exchange``.
     """
     if tolerance is None:
         return 0.0

@@ -198,9 +198,8 @@ class Trends:
         return Windows(slopes, levels, np.sqrt(left))
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
-        """Returns the trend of one signal with all of at least ``LEAST`` errors.
-
-        ``signal`` is its index, ``noise`` the uncertainty of the errors, a lower bound for trends.
+        """Returns the trend of one signal with all of at least ``LEAST`` errors. ``signal`` is its
+        index, ``noise`` the uncertainty of the errors, a lower bound for trends.
         """
         found = self._fitted(signal)
         least = noise + _FLOAT * float(self.largest[signal])

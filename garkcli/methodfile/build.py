@@ -46,9 +46,8 @@ Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 
 
 class BlockBuilder:
-    """Makes the off-diagonal blocks of a file.
-
-    Errors of the mathematics become faults of ``source``.
+    """Makes the off-diagonal blocks of a file. Errors of the mathematics become faults of
+    ``source``.
     """
 
     def __init__(
@@ -67,7 +66,6 @@ class BlockBuilder:
 
     def built(self, is_general: bool) -> Blocks:
         """Returns all blocks, or only the necessary one, where the second colour sees the first.
-
         Raises MethodFileError if a block cannot be made.
         """
         blocks: Blocks = {}
@@ -119,9 +117,8 @@ class BlockBuilder:
         return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
 
     def _combined(self, text: d.RuleText, l: int, m: int) -> Matrix:
-        """Returns a combination of blocks by rules.
-
-        Raises MethodError if its weights do not sum to 1.
+        """Returns a combination of blocks by rules. Raises MethodError if its weights do not sum to
+        1.
         """
         terms = [
             (self.values.number(x), self._rule(rule)) for rule, x in text.terms if x is not None
@@ -146,9 +143,8 @@ class BlockBuilder:
 
     @cached_property
     def _orders(self) -> list[int]:
-        """The orders of the diagonal methods.
-
-        Raises MethodError for methods with unknowns or radicals.
+        """The orders of the diagonal methods. Raises MethodError for methods with unknowns or
+        radicals.
         """
         numbers = chain.from_iterable((*chain(*x.A), *x.b) for x in self.methods)
         if any(isinstance(x, Parametric) for x in numbers):
@@ -209,9 +205,8 @@ V = TypeVar("V", bound=Values)
 
 
 class Builder(Generic[V]):
-    """Builds the method that a file, or a part of it, describes.
-
-    Errors of the mathematics become faults; raises MethodFileError.
+    """Builds the method that a file, or a part of it, describes. Errors of the mathematics become
+    faults; raises MethodFileError.
     """
 
     def __init__(self, text: d.PartText, values: V) -> None:
@@ -273,9 +268,8 @@ class Builder(Generic[V]):
 
     @cached_property
     def further(self) -> Further:
-        """The embedded weights and the dense output for the colours of the tableau.
-
-        In a pair, V^{l} and F^{l} are evaluated at the same stages and have the same weights.
+        """The embedded weights and the dense output for the colours of the tableau. In a pair,
+        V^{l} and F^{l} are evaluated at the same stages and have the same weights.
         """
         description, own = self.text.description, self._own
         if own is not None and own.further is not None:
@@ -392,9 +386,8 @@ def part_of(
 
 
 def _family_nodes(text: d.FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:
-    """Returns the nodes of a family as coefficients; None if nothing has to be spelled out.
-
-    Nodes that cannot be spelled out are a fault.
+    """Returns the nodes of a family as coefficients; None if nothing has to be spelled out. Nodes
+    that cannot be spelled out are a fault.
     """
     from garkcli.tableau.polynomial_space import PolynomialSpace, simple_nodes  # few files need it
 

@@ -25,9 +25,8 @@ def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
 
 
 def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
-    """Returns the lines of ``expect`` for some of the claims of a method.
-
-    ``names`` maps the claims that are kept to their new names.
+    """Returns the lines of ``expect`` for some of the claims of a method. ``names`` maps the claims
+    that are kept to their new names.
     """
     for key, claims in _entries(method):
         if key.value == "expect" and isinstance(claims, MappingNode):

@@ -57,10 +57,8 @@ DERIVATIVES = g.mapping(
 
 
 class DerivativesText(d.OwnContent):
-    """A method that uses derivatives of f along the solution.
-
-    ``A`` has a matrix for f, one for f′f, and so on; ``c`` is None if it has the row sums of the
-    first matrix.
+    """A method that uses derivatives of f along the solution. ``A`` has a matrix for f, one for
+    f′f, and so on; ``c`` is None if it has the row sums of the first matrix.
     """
 
     A: tuple[Rows, ...]

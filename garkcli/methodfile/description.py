@@ -81,10 +81,8 @@ def places_of(rows: Iterable[Row], l: int, kind: str = "") -> Iterator[Place]:
 
 
 class PredictorText(Frozen):
-    """Weights that predict stages.
-
-    ``old`` and ``new`` have the matrices of 1, r, r², … for the slopes of the last step and of this
-    one; zeros follow the shorter of both.
+    """Weights that predict stages. ``old`` and ``new`` have the matrices of 1, r, r², … for the
+    slopes of the last step and of this one; zeros follow the shorter of both.
     """
 
     node: Node
@@ -113,10 +111,8 @@ NOTHING_FURTHER = FurtherText()
 
 
 class FamilyText(Frozen):
-    """A member of a family.
-
-    ``chosen`` has its size and the other options as written, which with the name determine the
-    member; ``numbers`` are its irrational numbers.
+    """A member of a family. ``chosen`` has its size and the other options as written, which with
+    the name determine the member; ``numbers`` are its irrational numbers.
     """
 
     node: Node
@@ -277,10 +273,8 @@ class PrkText(Content):
 
 
 class Made(NamedTuple):
-    """The tableau of a form of its own.
-
-    ``further`` returns the further weights of the form, None if it has those of all forms, which
-    ``finish`` changes.
+    """The tableau of a form of its own. ``further`` returns the further weights of the form, None
+    if it has those of all forms, which ``finish`` changes.
     """
 
     tableau: Tableau
@@ -303,10 +297,8 @@ class OwnContent(Content):
 
 
 class PartText(Frozen):
-    """A method within a construction, from this file or one of the catalogue.
-
-    ``families`` has its members of families by number, from 0, ``nodes`` the nodes of members as
-    coefficients.
+    """A method within a construction, from this file or one of the catalogue. ``families`` has its
+    members of families by number, from 0, ``nodes`` the nodes of members as coefficients.
     """
 
     source: Source
@@ -343,9 +335,8 @@ class ConstructionText(Content):
 
 
 class BlockRule(Frozen):
-    """The rule for the block A^{l,m} of the file, and its degree if given.
-
-    Colours are the methods of the file, counted from 0; a partitioned tableau has others.
+    """The rule for the block A^{l,m} of the file, and its degree if given. Colours are the methods
+    of the file, counted from 0; a partitioned tableau has others.
     """
 
     l: int

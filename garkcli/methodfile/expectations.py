@@ -29,10 +29,8 @@ _LEAST = r">=\s*(.*)"
 
 
 class ClaimedNumber(Frozen):
-    """A claimed real number.
-
-    ``number`` is None for ∞. ``half_unit`` is half a unit of the last place of a decimal, 0 for an
-    exact number. ``is_least`` says that the claim is a lower bound.
+    """A claimed real number. ``number`` is None for ∞. ``half_unit`` is half a unit of the last
+    place of a decimal, 0 for an exact number. ``is_least`` says that the claim is a lower bound.
     """
 
     text: str
@@ -44,9 +42,8 @@ class ClaimedNumber(Frozen):
         return self.text
 
     def agrees(self, root: RealRoot | None, rounding: fmpq = ZERO) -> bool:
-        """Returns whether the claim is true of a number, None for ∞.
-
-        ``rounding`` is the largest error of the number, for coefficients within a tolerance.
+        """Returns whether the claim is true of a number, None for ∞. ``rounding`` is the largest
+        error of the number, for coefficients within a tolerance.
         """
         if self.number is None:
             return root is None

@@ -123,7 +123,6 @@ def loads_family(
 
 def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
     """Returns the family of a file that was read as a method, without its demands under ``design``.
-
     Raises MethodFileError with all faults of the file.
     """
     if error.reading is None:  # the file was read in another process
@@ -277,10 +276,8 @@ def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str
 
 
 def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
-    """Returns the text of a family's file with values for its parameters.
-
-    ``head`` is a comment to begin with; ``claim``, such as ``order: 4``, is added if the file makes
-    no claims.
+    """Returns the text of a family's file with values for its parameters. ``head`` is a comment to
+    begin with; ``claim``, such as ``order: 4``, is added if the file makes no claims.
     """
     text = family.text
     given = {**family.settings, **values}

@@ -33,10 +33,8 @@ ROOT = "_root"
 
 
 class FamilyValues(Values):
-    """The coefficients of a file as rational functions of its free parameters.
-
-    Each radical is an unknown with its relation. ``change`` replaces expressions before they are
-    evaluated.
+    """The coefficients of a file as rational functions of its free parameters. Each radical is an
+    unknown with its relation. ``change`` replaces expressions before they are evaluated.
     """
 
     def __init__(
@@ -65,9 +63,8 @@ class FamilyValues(Values):
         return member(tableau, ring, values)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
-        """Returns the rational numbers between which a parameter lies by all of its ranges.
-
-        Other ends, and ranges without a number in common, are faults.
+        """Returns the rational numbers between which a parameter lies by all of its ranges. Other
+        ends, and ranges without a number in common, are faults.
         """
         least = greatest = None
         for ends in free.ranges:

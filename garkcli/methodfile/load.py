@@ -237,9 +237,8 @@ def _free(reader: MethodReader, description: Description) -> MethodFileError:
 def described(
     text: str, source: str, settings: Mapping[str, str]
 ) -> tuple[MethodReader, Description]:
-    """Returns the description of a file and its reader, which has the coefficients.
-
-    Raises MethodFileError if the file does not describe a method.
+    """Returns the description of a file and its reader, which has the coefficients. Raises
+    MethodFileError if the file does not describe a method.
     """
     reading = Source(source, text, METHOD_FILE)
     reader = MethodReader(reading, settings)
@@ -255,9 +254,8 @@ def described(
 def built(
     reader: MethodReader, description: Description, values_of: Callable[[Numbers], V]
 ) -> Builder[V]:
-    """Returns the method that a file describes, with its coefficients.
-
-    ``values_of`` evaluates them. Raises MethodFileError if they do not make a method.
+    """Returns the method that a file describes, with its coefficients. ``values_of`` evaluates
+    them. Raises MethodFileError if they do not make a method.
     """
     text = part_of(reader.source, reader.numbers, description)
     reader.source.close()

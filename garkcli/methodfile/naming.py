@@ -54,9 +54,8 @@ def read_argument(argument: str, path: str = "") -> tuple[str, str]:
 
 
 def find_named(argument: str, path: str = "") -> shelving.Shelved | None:
-    """Returns the method of the catalogue that an argument stands for; None for a file.
-
-    Raises MethodFileError if it may be both or several, or does not exist.
+    """Returns the method of the catalogue that an argument stands for; None for a file. Raises
+    MethodFileError if it may be both or several, or does not exist.
     """
     if not can_be_name(argument):
         return None
@@ -100,10 +99,8 @@ def is_both(path: str) -> bool:
 
 
 def look_up(name: str) -> shelving.Shelved | None:
-    """Returns the method with a name or an alias, or None.
-
-    Raises MethodFileError if several files in one place have the name, or several methods the
-    alias.
+    """Returns the method with a name or an alias, or None. Raises MethodFileError if several files
+    in one place have the name, or several methods the alias.
     """
     key = shelving.key_of(name)
     for shelves in _in_turn():
@@ -184,10 +181,7 @@ def _called(key: str, known: Iterable[shelving.Found]) -> list[shelving.Shelved]
 
 
 def _only(name: str, methods: Sequence[shelving.Shelved]) -> shelving.Shelved:
-    """Returns the only method of a name.
-
-    Raises MethodFileError if there are several.
-    """
+    """Returns the only method of a name. Raises MethodFileError if there are several."""
     if len(methods) == 1:
         return methods[0]
     names = dict.fromkeys(method.name for method in methods)
@@ -259,9 +253,8 @@ def hidden_by(method: shelving.Shelved) -> list[str]:
 
 
 def note_of(argument: str) -> list[str]:
-    """Returns a note if the method of a name hides another one.
-
-    Raises MethodFileError if the name is ambiguous.
+    """Returns a note if the method of a name hides another one. Raises MethodFileError if the name
+    is ambiguous.
     """
     if not can_be_name(argument) or os.path.lexists(argument):
         return []
@@ -275,9 +268,8 @@ def note_of(argument: str) -> list[str]:
 
 
 def names_beginning(start: str) -> list[str]:
-    """Returns the names that begin with a text, or else one-word aliases.
-
-    Raises MethodFileError if another package cannot be imported.
+    """Returns the names that begin with a text, or else one-word aliases. Raises MethodFileError if
+    another package cannot be imported.
     """
     key = shelving.key_of(start)
     shelves = every_shelf()
@@ -291,7 +283,6 @@ def names_beginning(start: str) -> list[str]:
 
 def expanded(argument: str) -> list[str]:
     """Returns the methods that ``catalogue:`` or ``catalogue:FOLDER`` stands for, as arguments.
-
     Empty for other arguments, and if there is no such folder.
     """
     if not argument.startswith(PREFIX) or os.path.lexists(argument):

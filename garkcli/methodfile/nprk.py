@@ -31,9 +31,8 @@ NPRK = g.mapping(
 
 
 class NprkText(d.OwnContent):
-    """A nonlinearly partitioned method; rows and matrices may end early, followed by zeros.
-
-    ``a`` has a matrix for each stage.
+    """A nonlinearly partitioned method; rows and matrices may end early, followed by zeros. ``a``
+    has a matrix for each stage.
     """
 
     a: tuple[Rows, ...]

@@ -52,9 +52,8 @@ class NumberTolerances:
         return unit_of(part, self._fewest)
 
     def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
-        """Yields the faults of the keys: node, message, cure and kind of fault.
-
-        ``used`` has the keys that apply to some rounded number.
+        """Yields the faults of the keys: node, message, cure and kind of fault. ``used`` has the
+        keys that apply to some rounded number.
         """
         known = [OTHERS, *d.BESIDE, *(name for names in self.names for name in names)]
         for key, node in self.tolerance.places.items():

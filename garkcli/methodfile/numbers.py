@@ -131,9 +131,8 @@ class Between(Frozen):
 
 
 class Free(Between, kw_only=True):
-    """A parameter without a value.
-
-    For an entry of a tableau ``where`` is its place; it is empty for a named parameter.
+    """A parameter without a value. For an entry of a tableau ``where`` is its place; it is empty
+    for a named parameter.
     """
 
     node: Node

@@ -140,9 +140,8 @@ def _filled(row: _Row, length: int) -> _Row:
 
 
 def _line(text: str, sign: str) -> _PastedLine:
-    """Returns the numbers of a line.
-
-    ``sign`` separates cells, the first of which is the node; empty for blanks.
+    """Returns the numbers of a line. ``sign`` separates cells, the first of which is the node;
+    empty for blanks.
     """
     if sign:
         node, *cells = (x.strip() for x in text.split(sign))
@@ -155,9 +154,8 @@ def _line(text: str, sign: str) -> _PastedLine:
 
 
 def _with_nodes(lines: list[_PastedLine]) -> Pasted:
-    """Reads lines with bars: stages have a node before the bar, weights have none.
-
-    The first stage of an explicit method may be its node 0 alone.
+    """Reads lines with bars: stages have a node before the bar, weights have none. The first stage
+    of an explicit method may be its node 0 alone.
     """
     first = lines[0]
     if first.node is None and len(first.row) == 1 and not first.row[0].strip("0."):

@@ -29,10 +29,8 @@ _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the 
 
 
 class ContentReader(NumbersReader):
-    """Reads the coefficients of one method of a file.
-
-    ``shaped`` is the tableau of its ``unknown``, ``tolerance`` that of the file, None if its
-    coefficients are exact.
+    """Reads the coefficients of one method of a file. ``shaped`` is the tableau of its ``unknown``,
+    ``tolerance`` that of the file, None if its coefficients are exact.
     """
 
     def __init__(self, numbers: Numbers, opened: Open) -> None:
@@ -165,9 +163,8 @@ _ABOUT = (
 
 
 class MethodReader(NumbersReader):
-    """Reads one file.
-
-    ``inside`` has the methods of the catalogue that are being read and refer to it.
+    """Reads one file. ``inside`` has the methods of the catalogue that are being read and refer to
+    it.
     """
 
     def __init__(
@@ -245,9 +242,8 @@ class MethodReader(NumbersReader):
         return self.content.shaped
 
     def _opened(self, name: str) -> Opened:
-        """Returns a method of the catalogue that this one is made from.
-
-        Raises MethodFileError if there is none, or if it refers to itself.
+        """Returns a method of the catalogue that this one is made from. Raises MethodFileError if
+        there is none, or if it refers to itself.
         """
         from garkcli.methodfile.constructed.parts import Opened
         from garkcli.methodfile.naming import read_argument

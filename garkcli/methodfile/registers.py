@@ -99,10 +99,8 @@ LOW_STORAGE = g.mapping(
 
 
 class RegistersText(OwnContent):
-    """A method in the form used by codes with few registers.
-
-    ``scheme`` is ``shu-osher``, or the form of ``low-storage``; ``numbers`` are its rows and
-    matrices, in the order of the scheme.
+    """A method in the form used by codes with few registers. ``scheme`` is ``shu-osher``, or the
+    form of ``low-storage``; ``numbers`` are its rows and matrices, in the order of the scheme.
     """
 
     scheme: str

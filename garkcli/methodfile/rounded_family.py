@@ -23,9 +23,8 @@ from garkcli.tableau.box import Box
 
 
 class Filled(Frozen, eq=False):
-    """A family with values for its unknowns.
-
-    ``given`` says of each rounded number whether it is the value of an unknown.
+    """A family with values for its unknowns. ``given`` says of each rounded number whether it is
+    the value of an unknown.
     """
 
     rounded: RoundedTableau
@@ -94,10 +93,8 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
 
 
 def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
-    """Returns a family with other numbers in place of the rounded ones.
-
-    ``shifts`` are the changes in units of the radii; if empty there are none. ``bits`` is the
-    precision of irrational numbers.
+    """Returns a family with other numbers in place of the rounded ones. ``shifts`` are the changes
+    in units of the radii; if empty there are none. ``bits`` is the precision of irrational numbers.
     """
 
     def moved(rounded: Rounded) -> Mapping[int, Expression]:

@@ -126,9 +126,8 @@ class Rounded:
         self.is_given = tuple(key in given for key in kept)
 
     def refuse_keys(self, source: Source) -> None:
-        """Reports keys of ``tolerance`` that do not apply to a number.
-
-        Raises MethodFileError if there are some.
+        """Reports keys of ``tolerance`` that do not apply to a number. Raises MethodFileError if
+        there are some.
         """
         for node, message, cure, code in self._tolerances.refusals(self.keys):
             source.fault(node, message, cure, code=code)

@@ -35,10 +35,7 @@ class FileSearch(Frozen):
 
     @property
     def family(self) -> FamilyFile:
-        """The family, read once in each process.
-
-        Raises MethodError for rounded coefficients.
-        """
+        """The family, read once in each process. Raises MethodError for rounded coefficients."""
         return _family(self.text, self.source, self.settings)
 
     @property

@@ -54,9 +54,8 @@ class UnknownLayout(Frozen):
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> UnknownLayout:
-        """Returns the layout with changed entries in its last matrix.
-
-        ``entry`` maps a row, a column (from 0) and the text there to the new text.
+        """Returns the layout with changed entries in its last matrix. ``entry`` maps a row, a
+        column (from 0) and the text there to the new text.
         """
         *others, last = self.A
         changed = tuple(
@@ -376,10 +375,8 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
 
 
 class TableauShape(Frozen):
-    """A shape of tableaus.
-
-    ``applied`` returns a layout with the shape; a shape that ``begins`` determines the colours and
-    comes first.
+    """A shape of tableaus. ``applied`` returns a layout with the shape; a shape that ``begins``
+    determines the colours and comes first.
     """
 
     name: str
@@ -506,9 +503,8 @@ class Shaped(Frozen):
 
 
 def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
-    """Returns the tableau for ``unknown``; None after a fault.
-
-    ``key`` is the node of the word ``unknown``, ``node`` that of its value.
+    """Returns the tableau for ``unknown``; None after a fault. ``key`` is the node of the word
+    ``unknown``, ``node`` that of its value.
     """
     entries: g.ReadMapping | None = UNKNOWN.read(at, node, "unknown")
     if entries is None or not entries.is_right:

@@ -176,9 +176,8 @@ class Package(Shelf):
 
 
 def _resource(file: str) -> bytes:
-    """Returns a file of this package, which may be within an archive.
-
-    ``importlib.resources`` takes as long to import as a method to check.
+    """Returns a file of this package, which may be within an archive. ``importlib.resources`` takes
+    as long to import as a method to check.
     """
     from pkgutil import get_data
 
@@ -236,9 +235,8 @@ def _points(_: tuple[str, ...]) -> list[EntryPoint]:
 
 
 def others() -> list[Shelf]:
-    """Returns the packages with an entry point of the group, by name.
-
-    Raises MethodFileError if one cannot be imported.
+    """Returns the packages with an entry point of the group, by name. Raises MethodFileError if one
+    cannot be imported.
     """
     from importlib.resources import files
 

@@ -458,10 +458,8 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
 def further_of_method(
     at: NumbersReader, entries: Entries, stages: int, names: tuple[str, str] = d.BESIDE
 ) -> d.FurtherText:
-    """Reads the further weights of one colour.
-
-    ``entries`` are beside b, which has ``stages`` weights; ``names`` are those of ``embedded`` and
-    ``dense`` in messages.
+    """Reads the further weights of one colour. ``entries`` are beside b, which has ``stages``
+    weights; ``names`` are those of ``embedded`` and ``dense`` in messages.
     """
     embedded = dense = None
     if "embedded" in entries and not _is_of_several(at, entries["embedded"], names[0], 2):
@@ -476,9 +474,8 @@ def further_of_method(
 def further_of_colours(
     at: NumbersReader, entries: Entries, stages: Sequence[int], is_shared: bool = False
 ) -> tuple[d.FurtherText, ...]:
-    """Reads the further weights of several colours.
-
-    ``is_shared`` allows a single row, or block, for all colours.
+    """Reads the further weights of several colours. ``is_shared`` allows a single row, or block,
+    for all colours.
     """
     rows: dict[int, Row | None] = {}
     blocks: dict[int, Rows | None] = {}

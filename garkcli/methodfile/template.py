@@ -57,9 +57,8 @@ def of_tableau(name: str, pasted: Pasted) -> str:
 
 
 def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
-    """Returns a method file with members of families.
-
-    ``transfer`` is the rule for the blocks between them.
+    """Returns a method file with members of families. ``transfer`` is the rule for the blocks
+    between them.
     """
     between = {"transfer": transfer} if len(members) > 1 else {}
     return new_file({"name": quoted(name), "methods": [*map(str, members)], **between})

@@ -86,9 +86,8 @@ def _block_of(key: str) -> tuple[int, int]:
 
 
 def rules_of(at: NumbersReader, node: nodes.Node, stages: Sequence[int]) -> d.TransferText:
-    """Reads ``transfer``: the rules, and the blocks given one by one.
-
-    ``stages`` are those of the colours.
+    """Reads ``transfer``: the rules, and the blocks given one by one. ``stages`` are those of the
+    colours.
     """
     if _is_unknown(node):
         edges = permutations(range(len(stages)), 2)

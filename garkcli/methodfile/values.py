@@ -19,9 +19,8 @@ T = TypeVar("T")
 
 
 class Values:
-    """The exact values of all coefficients of a file.
-
-    ``printed`` has each different coefficient, as written and its value.
+    """The exact values of all coefficients of a file. ``printed`` has each different coefficient,
+    as written and its value.
     """
 
     def __init__(self, numbers: Numbers) -> None:
@@ -67,9 +66,8 @@ class Values:
         return known
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
-        """Reports each coefficient without a real value, or else the common error.
-
-        No field is constructed, as there may be many large coefficients.
+        """Reports each coefficient without a real value, or else the common error. No field is
+        constructed, as there may be many large coefficients.
         """
         source = numbers.source
         before = len(source.faults)

@@ -114,10 +114,8 @@ class Wish(Frozen):
 
 
 class Wishes(Frozen):
-    """The content of ``design``.
-
-    ``order`` is None if the command has it; ``fixed`` are pairs of equal entries; ``entries`` are
-    all its coefficients.
+    """The content of ``design``. ``order`` is None if the command has it; ``fixed`` are pairs of
+    equal entries; ``entries`` are all its coefficients.
     """
 
     order: int | None = None

@@ -104,10 +104,8 @@ def write_form(
     tolerance: Written | None = None,
     further: Further = NOTHING,
 ) -> str:
-    """Returns a method file of one colour in a form other than ``tableau``.
-
-    ``keys`` has words, rows and matrices of exact numbers; the nodes are written unless they are
-    the row sums of A.
+    """Returns a method file of one colour in a form other than ``tableau``. ``keys`` has words,
+    rows and matrices of exact numbers; the nodes are written unless they are the row sums of A.
     """
     text = to_text if tolerance is None else _decimal_text
     with with_letters(tableau, NAMES) as letters:

@@ -18,10 +18,8 @@ MAX_USING = 62
 
 
 class Block(Frozen):
-    """Some trees of one order, consecutive in the table unless they were selected.
-
-    ``columns`` hold the trees, whose parents' ids are those of ``lower``, the table of the orders
-    below.
+    """Some trees of one order, consecutive in the table unless they were selected. ``columns`` hold
+    the trees, whose parents' ids are those of ``lower``, the table of the orders below.
     """
 
     columns: Columns

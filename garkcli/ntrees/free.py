@@ -128,9 +128,8 @@ class Structure(Frozen):
                 yield Tree(colour, tree.branches)
 
     def move_root(self, tree: Tree, index: int) -> Tree:
-        """The rooting at the root of one branch: u∘v becomes v∘u.
-
-        Raises ``ValueError`` when the structure has no such edge.
+        """The rooting at the root of one branch: u∘v becomes v∘u. Raises ``ValueError`` when the
+        structure has no such edge.
         """
         branch = tree.branches[index]
         colour = self._turned(tree.root, branch.root)
@@ -163,9 +162,8 @@ class Structure(Frozen):
         return all(map(self.is_admissible, tree.branches))
 
     def centred(self, tree: Tree) -> Tree:
-        """The rooting at the centroid, one for each free tree.
-
-        Of two centroids it is the tail of the edge between them, or the half that comes first.
+        """The rooting at the centroid, one for each free tree. Of two centroids it is the tail of
+        the edge between them, or the half that comes first.
         """
         here = self.lead(tree)
         while _twice_largest(here) > here.order:
@@ -183,9 +181,8 @@ class Structure(Frozen):
 
 
 def _twice_largest(tree: Tree) -> int:
-    """Twice the order of the largest branch: that of the tree if both its ends are centroids.
-
-    0 for a single vertex.
+    """Twice the order of the largest branch: that of the tree if both its ends are centroids. 0 for
+    a single vertex.
     """
     if not tree.branches:
         return 0

@@ -91,9 +91,8 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
 
 
 class ConditionClass(Frozen):
-    """Order conditions that are equivalent given those of lower order: a free tree.
-
-    ``centred`` is the free tree, rooted at its centroid.
+    """Order conditions that are equivalent given those of lower order: a free tree. ``centred`` is
+    the free tree, rooted at its centroid.
     """
 
     centred: Tree
@@ -105,9 +104,8 @@ class ConditionClass(Frozen):
 
     @cached_property
     def representative(self) -> Tree:
-        """The representative of the class: the rooting at the centroid.
-
-        If a quadratic term does not admit that root, the first rooting with a condition.
+        """The representative of the class: the rooting at the centroid. If a quadratic term does
+        not admit that root, the first rooting with a condition.
         """
         return next(self._admissible_rootings())
 

@@ -199,9 +199,8 @@ _VERTEX: Inside = ("", 0, 0)
 
 
 class Texts:
-    """Writes trees as text and caches the text of every parent.
-
-    ``columns`` are the trees of the table; ``colours``: whether to write colours.
+    """Writes trees as text and caches the text of every parent. ``columns`` are the trees of the
+    table; ``colours``: whether to write colours.
     """
 
     def __init__(self, columns: Columns, colours: bool) -> None:
@@ -260,9 +259,8 @@ class Texts:
 
 
 def _inserted(stem: Inside, text: str, order: int) -> Inside:
-    """Inserts a branch before all smaller ones and after those of its own order.
-
-    A last branch is never smaller than the others, so there are only two cases.
+    """Inserts a branch before all smaller ones and after those of its own order. A last branch is
+    never smaller than the others, so there are only two cases.
     """
     inside, end, largest = stem
     length = len(text)
@@ -513,9 +511,8 @@ class _Root(Frozen):
     root: int
 
     def growths(self, ids: range, arity: Arity) -> Iterator[tuple[Segment, Growth]]:
-        """Returns the nonempty segments, with what grows their trees.
-
-        ``ids`` are those of the trees without a single vertex, ``arity`` the numbers of branches.
+        """Returns the nonempty segments, with what grows their trees. ``ids`` are those of the
+        trees without a single vertex, ``arity`` the numbers of branches.
         """
         kind = self.admissible.kinds[self.root]
         start = ids.start

@@ -48,10 +48,8 @@ class _Hull(Frozen, eq=False):
 
 
 class HullSizes(Frozen, eq=False):
-    """Bounds on the residuals of one order.
-
-    ``bound`` is on |b_lᵀ ψ(u) − 1/ρ| and so on |residual|; ``members`` are pairs of |residual| and
-    tree, the largest first.
+    """Bounds on the residuals of one order. ``bound`` is on |b_lᵀ ψ(u) − 1/ρ| and so on |residual|;
+    ``members`` are pairs of |residual| and tree, the largest first.
     """
 
     bound: arb
@@ -116,7 +114,6 @@ class ApproximateSpans(OrderByOrder[_Hull]):
 
     def _new_forests(self, k: int, order: int) -> _Hull:
         """All products of the smallest branch and a forest of the others, and all single branches.
-
         The bush comes first: it has the smallest density and often shows that an order fails.
         """
         return self._joined(k, chain(self._products(k, order), [self.branches(k, order)]))

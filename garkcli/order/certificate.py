@@ -179,9 +179,7 @@ def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
     """Yields for each colour the trees with that root whose ψ span those of all trees of an order,
-    order by order, over ℚ at most s + 1.
-
-    ``orders`` are ascending from 1.
+    order by order, over ℚ at most s + 1. ``orders`` are ascending from 1.
     """
     spans = StageSpans(tableau)
     for order in orders:

@@ -78,9 +78,7 @@ def estimate_constants(
     difference: Tableau, order: int, is_rounded: bool = False
 ) -> ErrorConstants | None:
     """Returns the norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u), those of the error estimate h Σ (b_i − b̂_i)
-    k_i.
-
-    ``difference`` has the weights b − b̂. For rounded coefficients exact norms mean nothing.
+    k_i. ``difference`` has the weights b − b̂. For rounded coefficients exact norms mean nothing.
     """
     exact = 0 if is_rounded else EXACT_ESTIMATES
     return _constants(difference, order, 0, exact)

@@ -20,9 +20,8 @@ AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
 def order_of(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> AnyOrder:
-    """Returns the order of an exact or a rounded tableau, at most ``limit``.
-
-    ``spans`` are its stage vectors, if some are known; they do not depend on weights.
+    """Returns the order of an exact or a rounded tableau, at most ``limit``. ``spans`` are its
+    stage vectors, if some are known; they do not depend on weights.
     """
     if isinstance(method, Tableau):
         return find_order(method, limit, spans)

@@ -95,7 +95,6 @@ class Defects:
 
 class BoxDefects(Defects):
     """The defects of many methods at once: balls, which contain 0 if one of them has none.
-
     ``tableau`` is one of the methods, ``balls`` encloses all of them on point stages.
     """
 

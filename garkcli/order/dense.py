@@ -149,10 +149,8 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Returns whether the weights of both ends vanish on every problem.
-
-    ``ends`` returns these weights for dense output and a tableau; ``change`` transforms the tableau
-    first.
+    """Returns whether the weights of both ends vanish on every problem. ``ends`` returns these
+    weights for dense output and a tableau; ``change`` transforms the tableau first.
     """
     whole: Tableau | Near
     if isinstance(method, Tableau):

@@ -145,9 +145,8 @@ class KnownOrders(Frozen):
 def estimator(
     method: AnyTableau, embedded: Weights, orders: KnownOrders, spans: StageSpans | None = None
 ) -> Estimator:
-    """Returns the error estimate of embedded weights, which has to exceed rounding.
-
-    ``orders`` are those of b and b̂.
+    """Returns the error estimate of embedded weights, which has to exceed rounding. ``orders`` are
+    those of b and b̂.
     """
     tableau = printed(method)
     rows = _differences(tableau, embedded)

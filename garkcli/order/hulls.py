@@ -22,9 +22,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Hull(Frozen):
-    """The affine space of all base + Σ_k λ_k direction_k.
-
-    ``base`` is zero at all pivots; ``directions`` are in reduced echelon form, each with its pivot.
+    """The affine space of all base + Σ_k λ_k direction_k. ``base`` is zero at all pivots;
+    ``directions`` are in reduced echelon form, each with its pivot.
     """
 
     base: tuple[fmpq, ...]

@@ -96,9 +96,7 @@ def remembered_digits(tableau: Tableau) -> ByRadii:
 
 def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
     """Stores the method that a conjugate or pair is made of: it is as uncertain as the numbers of
-    that method.
-
-    ``which`` is ``conjugate`` or ``pair``.
+    that method. ``which`` is ``conjugate`` or ``pair``.
     """
     tableau.__dict__["made of"] = base, which
 

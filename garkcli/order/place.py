@@ -229,9 +229,8 @@ class BoxPlace:
 
 
 class SearchedBox:
-    """A box with the tableaus made of it, and the precision of work in it.
-
-    ``box`` has colours for the further weights, ``further`` these as printed.
+    """A box with the tableaus made of it, and the precision of work in it. ``box`` has colours for
+    the further weights, ``further`` these as printed.
     """
 
     def __init__(self, box: Box, further: Further = NOTHING) -> None:

@@ -73,9 +73,8 @@ def _unknown() -> MethodError:
 
 
 class _Polishing:
-    """The iteration to the nearest method that meets some rows.
-
-    ``search`` has enough bits for the slopes; ``bits`` is the precision of the shifts.
+    """The iteration to the nearest method that meets some rows. ``search`` has enough bits for the
+    slopes; ``bits`` is the precision of the shifts.
     """
 
     def __init__(self, search: Recovery, system: System, bits: int) -> None:

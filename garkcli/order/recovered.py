@@ -43,9 +43,8 @@ def key_of(box: Box) -> str:
 
 
 def recovered_of(box: Box, known: Callable[[Tree], Tree]) -> Recovered | None:
-    """Returns the stored method of a box, or None.
-
-    ``known`` is a tree with the kinds of vertices of the method.
+    """Returns the stored method of a box, or None. ``known`` is a tree with the kinds of vertices
+    of the method.
     """
     data = _all().get(key_of(box)) if box.numbers else None
     return _read(data, known) if data and "shifts" in data else None

@@ -43,10 +43,8 @@ LOWEST_FLOOR = 1e-16
 
 
 class RecoveryFailure(Frozen, eq=False):
-    """Why no method of the box meets some rows.
-
-    ``is_proved`` says that there is none; ``labels`` are the rows that exclude each other, those
-    with the largest weight first.
+    """Why no method of the box meets some rows. ``is_proved`` says that there is none; ``labels``
+    are the rows that exclude each other, those with the largest weight first.
     """
 
     is_proved: bool
@@ -257,10 +255,8 @@ class Recovery(SearchedBox):
     def recover_order(
         self, name: str, limit: int
     ) -> tuple[int, RecoveryFailure | None, list[Tree]]:
-        """Moves to a method of the largest order that the earlier results leave possible.
-
-        Returns the order, why the next one fails, and the trees that it misses; None and none at
-        the limit.
+        """Moves to a method of the largest order that the earlier results leave possible. Returns
+        the order, why the next one fails, and the trees that it misses; None and none at the limit.
         """
         at_once, alone = self.explained(name, limit)
         if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:

@@ -124,9 +124,8 @@ Forests: TypeAlias = Sequence[ForestVector]
 
 
 class Spans(OrderByOrder[Forests]):
-    """Members that span the contributions of all branches and all forests.
-
-    ``maps`` are the blocks of the tableau times ``scale``, a common denominator.
+    """Members that span the contributions of all branches and all forests. ``maps`` are the blocks
+    of the tableau times ``scale``, a common denominator.
     """
 
     def __init__(
@@ -142,9 +141,7 @@ class Spans(OrderByOrder[Forests]):
 
     def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, ForestVector]]:
         """Returns forests that span those of all trees with conditions of an order, with their root
-        colours.
-
-        ``roots`` are those of ``Tableau.roots``.
+        colours. ``roots`` are those of ``Tableau.roots``.
         """
         for l, late in roots.items():
             for forest in self.of_trees(l, order - late):

@@ -36,10 +36,8 @@ from garkcli.upward import Shown
 
 
 class Near(Frozen, eq=False):
-    """A method that is known to many bits.
-
-    ``near`` is its tableau to that precision on point stages; numbers computed from it count as
-    zero below ``grain``.
+    """A method that is known to many bits. ``near`` is its tableau to that precision on point
+    stages; numbers computed from it count as zero below ``grain``.
     """
 
     near: Tableau

@@ -145,9 +145,8 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """Returns B, C and D of a tableau, up to ``limit``, or only those in ``letters``.
-
-    A rounded tableau meets a condition if rounding explains every entry of its defect.
+    """Returns B, C and D of a tableau, up to ``limit``, or only those in ``letters``. A rounded
+    tableau meets a condition if rounding explains every entry of its defect.
     """
     defects = defects_of(method)
     tableau = defects.tableau

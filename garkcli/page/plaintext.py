@@ -139,9 +139,8 @@ def _script_mark(sign: str, form: str) -> str:
 
 
 def plain_text(text: str, encoding: str, width: int | None = None) -> str:
-    """Returns a text for a stream of this encoding.
-
-    Lines that fit ``width`` columns only before their characters are replaced are broken.
+    """Returns a text for a stream of this encoding. Lines that fit ``width`` columns only before
+    their characters are replaced are broken.
     """
     if text.isascii() or _has(encoding, EVERYTHING):
         return text
@@ -187,10 +186,8 @@ def _columns(line: str) -> int:
 
 @lru_cache(4096)
 def _has(encoding: str, text: str) -> bool:
-    """Returns whether a stream of this encoding accepts the text.
-
-    An exponent of two digits must not be partly ASCII: an encoding without fourth powers is treated
-    as one without powers.
+    """Returns whether a stream of this encoding accepts the text. An exponent of two digits must
+    not be partly ASCII: an encoding without fourth powers is treated as one without powers.
     """
     if re.match(_SCRIPT, unicodedata.name(text, "") if len(text) == 1 else ""):
         text = "⁴"
@@ -203,9 +200,7 @@ def _has(encoding: str, text: str) -> bool:
 
 def handled(error: UnicodeError) -> tuple[str, int]:
     """Returns the replacement from the first character that cannot be encoded to the end of its
-    line.
-
-    This catches what others write to the stream, without ``plain_text``.
+    line. This catches what others write to the stream, without ``plain_text``.
     """
     assert isinstance(error, UnicodeEncodeError)
     end = error.object.find("\n", error.start)

@@ -39,9 +39,7 @@ _ASIDE, _END = b"\0", b"\1"  # texts have no such signs
 @contextmanager
 def watching(what: str) -> Iterator[None]:
     """Shows what is being done while it is open: the tasks that ``garkcli.doing`` reports, or else
-    ``what``.
-
-    A terminal that cannot move its cursor shows nothing.
+    ``what``. A terminal that cannot move its cursor shows nothing.
     """
     if not is_drawn_on(sys.stderr):
         yield
@@ -98,10 +96,7 @@ Draws: TypeAlias = "Bars | Process"
 
 
 class Tasks:
-    """The tasks at work, the outermost first.
-
-    ``what`` is shown while there is none.
-    """
+    """The tasks at work, the outermost first. ``what`` is shown while there is none."""
 
     def __init__(self, what: str, bars: Draws) -> None:
         self.bars = bars

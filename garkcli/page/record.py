@@ -14,10 +14,8 @@ Owner = TypeVar("Owner")
 
 
 class Field(Frozen, Generic[Whole]):
-    """A field of a JSON object that describes a ``Whole``.
-
-    ``value`` computes it as plain data; if it is None, an optional field is left out, and another
-    one is null.
+    """A field of a JSON object that describes a ``Whole``. ``value`` computes it as plain data; if
+    it is None, an optional field is left out, and another one is null.
     """
 
     name: str

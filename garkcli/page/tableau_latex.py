@@ -30,10 +30,7 @@ def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
 def displays(
     tableau: Tableau, entries: Entries, text: Callable[[Cell], str] | None = None
 ) -> Iterator[str]:
-    """Yields the lines of the arrays.
-
-    ``text`` writes an entry in LaTeX.
-    """
+    """Yields the lines of the arrays. ``text`` writes an entry in LaTeX."""
     arrays = [
         [*([f"{letter}: \\quad"] if letter else []), *_array(entries, text, stages, driven)]
         for letter, stages, driven in parts_of(tableau)

@@ -146,9 +146,8 @@ _SLOPES = {"old": "the slopes of the last step", "new": "the slopes of earlier s
 
 
 def block_lines(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
-    """Returns a block below its name, with as many columns at a time as fit.
-
-    Entries longer than ``width`` have lines of their own.
+    """Returns a block below its name, with as many columns at a time as fit. Entries longer than
+    ``width`` have lines of their own.
     """
     count = len(cells[0])
     groups = _columns_that_fit(cells, width)

@@ -71,9 +71,8 @@ def plot(
 
 
 def plot_method(method: GarkMethod, path: str | os.PathLike[str] | None = None) -> Figure:
-    """Plots the region of stability of a method, and saves it if a path is given.
-
-    Raises MethodError if ``path`` is not a path.
+    """Plots the region of stability of a method, and saves it if a path is given. Raises
+    MethodError if ``path`` is not a path.
     """
     if path is not None:
         path = path_of(path)

@@ -139,7 +139,6 @@ _LONGEST_STEP = 6  # characters
 
 def errors_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Scene:
     """Returns the scene of errors; for one method against step sizes with its energy error.
-
     ``against`` is h, evaluations or seconds; the latter two need rows with costs.
     """
     (name, first), *others = named

@@ -65,7 +65,6 @@ _HEIGHT, _LOWER = 200, 110
 
 def energy_scene(run: LongRun, name: str = "") -> scene.Scene:
     """Returns the energy error against time, with a further panel for each other invariant.
-
     ``name`` may be empty.
     """
     about = f"{scene.capitalized(run.problem.name)}, h = {run.step}, {run.steps} steps"

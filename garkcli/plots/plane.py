@@ -54,9 +54,7 @@ def _logarithm(over: float, under: float) -> float:
 
 def outlined(x: Row, y: Row, level: Sequence[Row]) -> list[list[Point]]:
     """Returns the outlines of the region ``level`` ≤ 0 on the grid of x and y, with the region on
-    their left.
-
-    Points whose level is NaN are outside.
+    their left. Points whose level is NaN are outside.
     """
     across, up = x[1] - x[0], y[1] - y[0]
     left, bottom = x[0], y[0]
@@ -65,10 +63,8 @@ def outlined(x: Row, y: Row, level: Sequence[Row]) -> list[list[Point]]:
 
 
 def outlines(level: Sequence[Row], tolerance: float) -> list[list[Point]]:
-    """Returns the closed outlines of the region ``level`` ≤ 0, simplified.
-
-    ``level`` has the values at the nodes, rows first; points within ``tolerance`` of the line, in
-    cells, are dropped.
+    """Returns the closed outlines of the region ``level`` ≤ 0, simplified. ``level`` has the values
+    at the nodes, rows first; points within ``tolerance`` of the line, in cells, are dropped.
     """
     border = [_FAR] * (len(level[0]) + 2)
     padded = [border, *([_FAR, *row, _FAR] for row in level), border]

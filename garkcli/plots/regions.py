@@ -219,7 +219,6 @@ def region_of(
 
 def of_directions(found: Sequence[Named], explicit: int | None = None) -> list[Named]:
     """Returns the stability functions of a method with labels for the legend, "all" first.
-
     ``explicit`` is the explicit colour of two, the other being implicit.
     """
     if len(found) == 1:

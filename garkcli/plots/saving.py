@@ -46,9 +46,8 @@ def save_scene(scene: Scene, path: Path) -> None:
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Writes a figure in the format of the suffix, whole or not at all.
-
-    Raises UsageProblem for another suffix, or if the file cannot be written.
+    """Writes a figure in the format of the suffix, whole or not at all. Raises UsageProblem for
+    another suffix, or if the file cannot be written.
     """
     from matplotlib import rc_context
 

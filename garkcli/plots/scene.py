@@ -136,10 +136,8 @@ WIDTH = 360
 
 
 class Axis(Frozen):
-    """An axis from ``low`` to ``high``, which differ.
-
-    With ``is_logarithmic`` the coordinates are decimal logarithms of the numbers. ``given`` are its
-    marks; by default they are round numbers.
+    """An axis from ``low`` to ``high``, which differ. With ``is_logarithmic`` the coordinates are
+    decimal logarithms of the numbers. ``given`` are its marks; by default they are round numbers.
     """
 
     label: str
@@ -169,10 +167,8 @@ class Axis(Frozen):
 
 
 class Curve(Frozen):
-    """A curve through points.
-
-    ``style`` is a number from 0. A curve that ``is_dense`` may fill a band, which is pale on white
-    paper, so that other lines are visible on it.
+    """A curve through points. ``style`` is a number from 0. A curve that ``is_dense`` may fill a
+    band, which is pale on white paper, so that other lines are visible on it.
     """
 
     style: int
@@ -217,9 +213,8 @@ def _crosses(x: float, y: float, start: Point, end: Point) -> bool:
 
 
 class RuledLine(Frozen):
-    """A thin straight line in the colour of text.
-
-    ``is_right`` and ``is_below`` give the side of its middle on which the label is.
+    """A thin straight line in the colour of text. ``is_right`` and ``is_below`` give the side of
+    its middle on which the label is.
     """
 
     start: Point

@@ -30,10 +30,8 @@ class SolvedVelocities(Frozen):
 
 
 class Equations(Frozen):
-    """p = ∂L/∂v for velocities that only depend on each other.
-
-    ``v`` are the velocities, ``gradient`` is ∂L/∂v, ``M`` ∂²L/∂v², ``start`` has the known values
-    at the start.
+    """p = ∂L/∂v for velocities that only depend on each other. ``v`` are the velocities,
+    ``gradient`` is ∂L/∂v, ``M`` ∂²L/∂v², ``start`` has the known values at the start.
     """
 
     v: Vector
@@ -88,10 +86,8 @@ def _times(matrix: ExprMatrix, vector: Vector) -> list[Expr]:
 
 
 class _QuadraticForm(Frozen):
-    """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
-
-    ``a`` is the form as it occurs in L, ``symbol`` its symbol in φ, ``slope`` φ'(a), ``at_rest``
-    a_0.
+    """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v. ``a`` is the form as it occurs in
+    L, ``symbol`` its symbol in φ, ``slope`` φ'(a), ``at_rest`` a_0.
     """
 
     a: Expr
@@ -103,9 +99,8 @@ class _QuadraticForm(Frozen):
 
 
 def _by_form(L: Expr, equations: Equations) -> list[SolvedVelocities]:
-    """The velocities if L depends on them by one quadratic form, and linearly otherwise.
-
-    Then p − b = φ'(a) G v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
+    """The velocities if L depends on them by one quadratic form, and linearly otherwise. Then p − b
+    = φ'(a) G v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
     """
     import sympy
 

@@ -32,9 +32,7 @@ def velocities(variables: tuple[str, ...]) -> Exprs:
 
 class Lagrangian(Frozen):
     """A Lagrangian L of d velocities v with ``gradient`` ∂L/∂v, shape (d,), and ``M`` = ∂²L/∂v²,
-    shape (d, d), as sympy expressions.
-
-    ``start`` has the known values at the start.
+    shape (d, d), as sympy expressions. ``start`` has the known values at the start.
     """
 
     L: Expr

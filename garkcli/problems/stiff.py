@@ -20,9 +20,8 @@ CELLS = 8
 
 
 def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
-    """ẏ = φ'(t) − λ (y − φ(t)) with φ(t) = cos t and λ the stiffness; y = φ(t).
-
-    Source: Prothero and Robinson, Math. Comp. 28 (1974), 145–162.
+    """ẏ = φ'(t) − λ (y − φ(t)) with φ(t) = cos t and λ the stiffness; y = φ(t). Source: Prothero
+    and Robinson, Math. Comp. 28 (1974), 145–162.
     """
     variables = ("y",)
 

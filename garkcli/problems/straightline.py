@@ -279,9 +279,8 @@ def _is_negative(exponent: Expr) -> bool:
 def function(
     expressions: Vector, arguments: Vector, is_for_balls: bool
 ) -> Callable[..., list[Any]]:
-    """Compiles the expressions to one function of numbers that returns a list.
-
-    For balls the rational constants are enclosed once, at the current precision.
+    """Compiles the expressions to one function of numbers that returns a list. For balls the
+    rational constants are enclosed once, at the current precision.
     """
     code = code_of(expressions, arguments, is_for_balls)
     names = [f"a{i}" for i in range(len(arguments))]

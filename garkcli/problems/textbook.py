@@ -12,10 +12,7 @@ from garkcli.problems.vectorfield import TIME, symbols
 
 
 def dahlquist(terms: int, stiffness: fmpq) -> RightHandSide:
-    """ẏ = λ y with λ minus the stiffness; y = e^{λt}.
-
-    Source: Dahlquist, BIT 3 (1963), 27–43.
-    """
+    """ẏ = λ y with λ minus the stiffness; y = e^{λt}. Source: Dahlquist, BIT 3 (1963), 27–43."""
     variables = ("y",)
 
     def parts() -> list[Exprs]:
@@ -65,9 +62,8 @@ def logistic(terms: int, _: int) -> RightHandSide:
 
 
 def lotka_volterra(terms: int, _: int) -> RightHandSide:
-    """u̇ = u (1 − v), v̇ = v (u − 1): prey and predator, with u − ln u + v − ln v constant.
-
-    Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.1.1.
+    """u̇ = u (1 − v), v̇ = v (u − 1): prey and predator, with u − ln u + v − ln v constant. Source:
+    Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.1.1.
     """
     variables = ("u", "v")
 

@@ -24,10 +24,8 @@ MAX_SIZE = 100_000
 
 
 class Translator(Frozen):
-    """Makes sympy expressions of formulas.
-
-    ``symbols`` has the value of each name: the symbol of a variable, or the expression of a
-    parameter; ``values`` those of the parameters, for exponents.
+    """Makes sympy expressions of formulas. ``symbols`` has the value of each name: the symbol of a
+    variable, or the expression of a parameter; ``values`` those of the parameters, for exponents.
     """
 
     symbols: Mapping[str, Any]

@@ -27,9 +27,8 @@ TIME: Final = "t"
 
 
 class StateLayout(Frozen):
-    """The numbers of a state, group by group, time last.
-
-    ``dimension`` d is the size of every group except time, which has size 1.
+    """The numbers of a state, group by group, time last. ``dimension`` d is the size of every group
+    except time, which has size 1.
     """
 
     groups: tuple[Group, ...]

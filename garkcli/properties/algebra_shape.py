@@ -31,10 +31,8 @@ PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549
 
 
 class _Space(Frozen):
-    """The stages of one space.
-
-    ``M`` is the node polynomial, ``left`` the monic polynomial of the nodes without a zero row or
-    column, ``kept`` the indices of these stages.
+    """The stages of one space. ``M`` is the node polynomial, ``left`` the monic polynomial of the
+    nodes without a zero row or column, ``kept`` the indices of these stages.
     """
 
     M: fmpq_poly

@@ -52,10 +52,8 @@ def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
 
 
 def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsLast:
-    """Whether the first stage is the old value and the last one the new value: FSAL.
-
-    Then the last evaluation of a step is the first of the next. This has to hold in every stage
-    space.
+    """Whether the first stage is the old value and the last one the new value: FSAL. Then the last
+    evaluation of a step is the first of the next. This has to hold in every stage space.
     """
     spaces = range(len(tableau.spaces))
     old, new = old_value(tableau), new_value(tableau)
@@ -82,9 +80,8 @@ def old_value(tableau: Tableau) -> list[Vector]:
 def missed_entries(
     tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> list[tuple[int, int]]:
-    """The entries (colour, stage) of stage i of a point space that differ from ``wanted``.
-
-    Rounded coefficients may differ by twice their rounding; missing blocks count as zeros.
+    """The entries (colour, stage) of stage i of a point space that differ from ``wanted``. Rounded
+    coefficients may differ by twice their rounding; missing blocks count as zeros.
     """
     missed = []
     for m, row in enumerate(wanted):

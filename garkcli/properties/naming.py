@@ -37,9 +37,8 @@ def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
 
 
 def place(letter: str, tableau: Tableau, colours: Sequence[int], *indices: int) -> Place:
-    """Returns an entry of a block or row, with its colours if there are several.
-
-    Colours and indices count from 0; without indices the whole block or row is meant.
+    """Returns an entry of a block or row, with its colours if there are several. Colours and
+    indices count from 0; without indices the whole block or row is meant.
     """
     names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
     return Place(letter, tuple(names), indices)

@@ -78,9 +78,8 @@ def spaces_that_matter(tableau: Tableau) -> set[int]:
 def stage_graph(
     tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
-    """Returns the graph of all stages, or of some colours only.
-
-    Stage spaces that no step depends on are left out, unless all are such.
+    """Returns the graph of all stages, or of some colours only. Stage spaces that no step depends
+    on are left out, unless all are such.
     """
     chosen = list(range(tableau.size) if colours is None else colours)
     matters = spaces_that_matter(tableau) or set(range(len(tableau.spaces)))

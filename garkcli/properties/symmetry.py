@@ -209,9 +209,7 @@ class _TooManyError(Exception):
 
 class _SymmetrySearch:
     """Searches the involution of stages that turns a method into its adjoint, most constrained
-    stages first.
-
-    ``reflections`` are x → 1 − x in each stage algebra.
+    stages first. ``reflections`` are x → 1 − x in each stage algebra.
     """
 
     def __init__(

@@ -46,9 +46,8 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
 
 def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
-    """The publications of some methods, each once; without a reference those of their parts.
-
-    The name of a family is a method here, and ``gark`` is this program and the paper behind it.
+    """The publications of some methods, each once; without a reference those of their parts. The
+    name of a family is a method here, and ``gark`` is this program and the paper behind it.
     """
     cited: list[citation.Cited] = []
     for method in methods:

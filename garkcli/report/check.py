@@ -77,9 +77,8 @@ Failing: TypeAlias = "tuple[str, Witness, Tableau]"
 
 
 def stages_text(tableau: Tableau) -> str:
-    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum.
-
-    The stages of a colour are those at which its vector field is evaluated: those of q drive q.
+    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum. The stages of a colour
+    are those at which its vector field is evaluated: those of q drive q.
     """
     if tableau.is_partitioned:
         parts_of = [

@@ -45,9 +45,8 @@ class Cited(Frozen):
 
 
 def together(cited: Sequence[Cited]) -> list[Cited]:
-    """Methods of one publication together, in the order in which these come first.
-
-    Where in the work a method is and where its digits come from makes no other publication.
+    """Methods of one publication together, in the order in which these come first. Where in the
+    work a method is and where its digits come from makes no other publication.
     """
     found: dict[object, Cited] = {}
     for one in cited:
@@ -68,9 +67,8 @@ def _work(cited: Cited) -> object:
 
 
 def keys(cited: Sequence[Cited]) -> list[str]:
-    """A key for each publication, all different: ``Dormand1980``, with a letter if need be.
-
-    The same publications have the same keys in whatever order they come.
+    """A key for each publication, all different: ``Dormand1980``, with a letter if need be. The
+    same publications have the same keys in whatever order they come.
     """
     plain = [_key(one) for one in cited]
     found = []

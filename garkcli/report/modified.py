@@ -78,9 +78,8 @@ TERM: facts.Section[ModifiedTerm] = facts.Section(
 
 
 def _equation(report: ModifiedReport) -> facts.Answer[list[ModifiedTerm]]:
-    """The nonzero coefficients b(u); usual if there is no Hamiltonian.
-
-    A rounded method has those of its orders above 1 left out: they are zero within the tolerance.
+    """The nonzero coefficients b(u); usual if there is no Hamiltonian. A rounded method has those
+    of its orders above 1 left out: they are zero within the tolerance.
     """
     found = report.found
     zero = range(2, found.order.order + 1) if found.tolerance is not None else ()

@@ -131,9 +131,8 @@ def rounded_balls(row: Vector, tolerance: fmpq) -> list[arb]:
 
 
 def form_within(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
-    """M = B A + Aᵀ B − b bᵀ over all colours and stages, for all methods within a tolerance.
-
-    The precision is that of the caller.
+    """M = B A + Aᵀ B − b bᵀ over all colours and stages, for all methods within a tolerance. The
+    precision is that of the caller.
     """
     blocks = {
         (l, m): [rounded_balls(row, tolerance) for row in tableau.block(l, m) or ()]

@@ -51,9 +51,7 @@ def is_positive(coefficients: Sequence[arb]) -> bool | None:
 
 def _is_positive_on_unit_interval(coefficients: Sequence[arb]) -> bool | None:
     """Whether a polynomial is positive on [0, 1]: True, False with a negative value, None
-    undecided.
-
-    Pieces are halved until the enclosure of the polynomial on each has a sign.
+    undecided. Pieces are halved until the enclosure of the polynomial on each has a sign.
     """
     p = arb_poly(coefficients)
     pieces = [(fmpq(0), fmpq(1))]
@@ -94,9 +92,8 @@ def poles_are_right(Q: Sequence[arb]) -> bool | None:
 
 
 def are_coprime(P: list[arb], Q: list[arb]) -> bool:
-    """Whether P and Q have no common root for any numbers in the balls.
-
-    Proved by a nonzero resultant, the determinant of the Sylvester matrix.
+    """Whether P and Q have no common root for any numbers in the balls. Proved by a nonzero
+    resultant, the determinant of the Sylvester matrix.
     """
     degree_p = len(P) - 1
     degree_q = len(Q) - 1
@@ -120,9 +117,8 @@ MOST_TRIES = 60
 
 
 class Bounds(Frozen):
-    """A number between bounds for all methods within the tolerance.
-
-    None stands for ∞; an upper bound may also be unknown.
+    """A number between bounds for all methods within the tolerance. None stands for ∞; an upper
+    bound may also be unknown.
     """
 
     low: fmpq | None

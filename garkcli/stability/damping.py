@@ -78,9 +78,8 @@ BITS = 192
 
 
 class Ray(Frozen):
-    """The z_E on half of an axis, from 0 on, for which all z_I are damped.
-
-    ``end`` is in −z_E or in |Im z_E|; None for ∞.
+    """The z_E on half of an axis, from 0 on, for which all z_I are damped. ``end`` is in −z_E or in
+    |Im z_E|; None for ∞.
     """
 
     end: RealRoot | None
@@ -122,9 +121,8 @@ class ImexPair(Frozen):
         return _Enclosed(E=_in_balls(self.margin), u=_in_balls(u), v=_in_balls(v))
 
     def is_damped(self, a: fmpq, b: fmpq) -> bool:
-        """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided.
-
-        A root of Q(z_E, ·) in that half plane counts as a pole, even if P vanishes there.
+        """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided. A root
+        of Q(z_E, ·) in that half plane counts as a pole, even if P vanishes there.
         """
         return self._poles_are_right(a, b) and self._is_bounded(a, b)
 
@@ -189,7 +187,6 @@ class ImexPair(Frozen):
 
 def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
     """Returns the explicit and the implicit colour of a method with two; None for other methods.
-
     ``R`` is its stability function; None if it is too large.
     """
     explicit = explicit_colour(tableau)

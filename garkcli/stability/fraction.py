@@ -34,10 +34,7 @@ OFFSETS = (1, 3, 7, 13, 29)
 
 
 class Fraction(Frozen):
-    """R = P/Q with Q(0) = 1.
-
-    ``is_reduced`` says that P and Q are proved to have no common factor.
-    """
+    """R = P/Q with Q(0) = 1; ``is_reduced`` if P and Q provably have no common factor."""
 
     numerator: Multivariate
     denominator: Multivariate

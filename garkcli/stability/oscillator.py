@@ -97,7 +97,6 @@ class OscillatorStability(Frozen):
     @property
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
         """The quadratic form α (ωq)² + β ωqp + γ p² that every step conserves, as (α, β, γ) in z.
-
         For det M = 1 it is y ↦ det(y, My), up to a factor; else None.
         """
         if not self.determinant.is_one:
@@ -157,10 +156,8 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
 
 
 def _even(p: Polynomial) -> Polynomial:
-    """A polynomial in z with even powers only, in x = z².
-
-    The fields exchange ωq and p, so reflecting ωq replaces z by −z and keeps traces and
-    determinants.
+    """A polynomial in z with even powers only, in x = z². The fields exchange ωq and p, so
+    reflecting ωq replaces z by −z and keeps traces and determinants.
     """
     assert not any(p.coefficients[1::2])
     return Polynomial(p.coefficients[::2])

@@ -61,27 +61,23 @@ def roots_between(
     polynomials: Sequence[Polynomial], low: RealRoot, high: RealRoot | None
 ) -> list[RealRoot]:
     """Numbers between two others, ascending, that include all roots of polynomials there; None for
-    ∞.
-
-    Over a number field they are the roots of the norms; further numbers do no harm.
+    ∞. Over a number field they are the roots of the norms; further numbers do no harm.
     """
     norms = (Polynomial.from_flint(p.norm()) for p in polynomials if p)
     return [x for x in roots_of(norms) if low < x and (high is None or x < high)]
 
 
 class Sector(Frozen):
-    """The largest sector |arg(−z)| ≤ α in which |R| ≤ 1.
-
-    ``cosine`` is cos α; None if |R| > 1 somewhere on the negative real axis.
+    """The largest sector |arg(−z)| ≤ α in which |R| ≤ 1. ``cosine`` is cos α; None if |R| > 1
+    somewhere on the negative real axis.
     """
 
     cosine: RealRoot | None
 
 
 def largest_sector(R: StabilityFunction) -> Sector | None:
-    """The angle α of A(α)-stability; None if the resultant would be too large.
-
-    A(0) is the negative real axis.
+    """The angle α of A(α)-stability; None if the resultant would be too large. A(0) is the negative
+    real axis.
     """
     if is_a_stable(R):
         return Sector(RealRoot.rational(ZERO))

@@ -35,10 +35,8 @@ class SpringsPlane(Frozen):
 def springs_plane(
     tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
 ) -> SpringsPlane:
-    """Returns the half trace on a grid with ``points`` points on a side.
-
-    W = W_0 + a W_a + x W_x, with the three parts from three evaluations. ``slow_end`` and
-    ``fast_end`` are the largest hω.
+    """Returns the half trace on a grid with ``points`` points on a side. W = W_0 + a W_a + x W_x,
+    with the three parts from three evaluations. ``slow_end`` and ``fast_end`` are the largest hω.
     """
     zero, one = fmpq(0), fmpq(1)
     W, B, E = _floats(tableau, split, zero, zero)
@@ -69,10 +67,8 @@ def springs_plane(
 def plane_with_ends_of(
     tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
-    """Returns the plane around the intervals that were decided.
-
-    ``stable`` are the stable (hω)² of the fast spring, ``slow`` is the largest decided (hω)² of the
-    slow one.
+    """Returns the plane around the intervals that were decided. ``stable`` are the stable (hω)² of
+    the fast spring, ``slow`` is the largest decided (hω)² of the slow one.
     """
     ends = []
     for interval in stable:

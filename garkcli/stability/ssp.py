@@ -61,9 +61,8 @@ def ssp_coefficient(
 
 
 def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
-    """Returns the end of the region of absolute monotonicity in the direction ``ratios``.
-
-    A colour with 0 keeps its vector field, without a step size of its own.
+    """Returns the end of the region of absolute monotonicity in the direction ``ratios``. A colour
+    with 0 keeps its vector field, without a step size of its own.
     """
     return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 
@@ -98,9 +97,8 @@ def _radius(tableau: Tableau, ratios: Sequence[Number]) -> SspCoefficient | None
 
 
 def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
-    """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them.
-
-    K_l has the columns of colour l only; shared stages are one row.
+    """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them. K_l has
+    the columns of colour l only; shared stages are one row.
     """
     starts = []
     size = 0

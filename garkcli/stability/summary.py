@@ -67,9 +67,8 @@ class Colours(Frozen):
 
 
 def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
-    """Returns the joint stability of at least two colours, each coupled to every other.
-
-    ``ratios`` are further r_2/r_1 for the additive radius.
+    """Returns the joint stability of at least two colours, each coupled to every other. ``ratios``
+    are further r_2/r_1 for the additive radius.
     """
     late: set[str] = set()
     size = tableau.size
@@ -302,7 +301,6 @@ def stability_of_rounded(
     tableau: Tableau, tolerance: fmpq, embedded: AnyTableau | None = None
 ) -> Stability:
     """Returns the stability of the method that a rounded one is taken to mean, as far as decided.
-
     ``embedded`` is the method with its embedded weights as b, or None.
     """
     method = meant(tableau, tolerance)

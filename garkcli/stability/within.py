@@ -27,10 +27,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class BallFraction(Frozen):
-    """R = P/Q of a rounded method, coefficients from the lowest.
-
-    ``P`` has one coefficient more than there are unknown stage values; ``Q`` is det(I − zW) and no
-    longer than P.
+    """R = P/Q of a rounded method, coefficients from the lowest. ``P`` has one coefficient more
+    than there are unknown stage values; ``Q`` is det(I − zW) and no longer than P.
     """
 
     P: list[arb]
@@ -38,9 +36,8 @@ class BallFraction(Frozen):
 
 
 def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> BallFraction:
-    """Returns P and Q of a method with rounded coefficients on point stages.
-
-    ``shares`` are w_l with λ_l = w_l λ.
+    """Returns P and Q of a method with rounded coefficients on point stages. ``shares`` are w_l
+    with λ_l = w_l λ.
     """
     system = stage_system(tableau, [((w,),) for w in shares])
     # how many coefficients each entry of the system is the sum of, each counted |w_l| times
@@ -105,9 +102,8 @@ def _series(W: list[list[arb]], b: list[arb], initial: list[arb]) -> list[arb]:
 def ssp_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> ball_polynomials.Bounds:
-    """Brackets the first failure of any condition of ``garkcli.stability.ssp``.
-
-    ``shares`` are as for ``ssp_coefficient``.
+    """Brackets the first failure of any condition of ``garkcli.stability.ssp``. ``shares`` are as
+    for ``ssp_coefficient``.
     """
     pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
@@ -162,7 +158,6 @@ def stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> StabilityWithin:
     """Returns the decided results on R and the SSP coefficient of a rounded method on point stages.
-
     ``shares`` are w_l with λ_l = w_l λ.
     """
     with ctx.workprec(bits_for(tolerance)):

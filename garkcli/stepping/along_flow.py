@@ -22,9 +22,7 @@ from garkcli.tableau.tableau import Tableau
 
 class Stepped(Frozen, eq=False):
     """The additive method that takes the steps, with one colour for each derivative and one for
-    time.
-
-    ``powers`` has the power of h in the coefficients of each colour.
+    time. ``powers`` has the power of h in the coefficients of each colour.
     """
 
     tableau: Tableau

@@ -44,10 +44,8 @@ Vertex: TypeAlias = Stage | FieldEvaluation
 
 
 class StageBlock(Frozen):
-    """Vertices that are computed together.
-
-    ``unknowns`` are the stage values to solve for, empty for an explicit block, ``order`` the other
-    vertices in the order of computation.
+    """Vertices that are computed together. ``unknowns`` are the stage values to solve for, empty
+    for an explicit block, ``order`` the other vertices in the order of computation.
     """
 
     unknowns: tuple[Stage, ...]

@@ -310,10 +310,8 @@ def integrate(
 
 
 class Stepper(Mutable):
-    """A trajectory that can be advanced.
-
-    ``initial`` is (q, p) at the start, shape (2d,), or None for that of the problem, ``done`` the
-    number of steps so far.
+    """A trajectory that can be advanced. ``initial`` is (q, p) at the start, shape (2d,), or None
+    for that of the problem, ``done`` the number of steps so far.
     """
 
     integrator: Integrator

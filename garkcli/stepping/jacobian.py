@@ -72,10 +72,8 @@ class ChainRule:
         return found
 
     def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
-        """Returns (I − J)⁻¹, shape (n, n).
-
-        ``derivatives`` are those of the fields by their ``arguments``, a matrix (d, d) each, row by
-        row; ``weights`` are all numbers w.
+        """Returns (I − J)⁻¹, shape (n, n). ``derivatives`` are those of the fields by their
+        ``arguments``, a matrix (d, d) each, row by row; ``weights`` are all numbers w.
         """
         d = self.d
         n = d * len(self.unknowns)
@@ -125,10 +123,8 @@ _Slopes: TypeAlias = dict[tuple[Stage | FieldEvaluation, int], Slope]
 
 
 class JacobianWriter:
-    """Writes the lines of derivatives.
-
-    ``chains`` has the Jacobians with too many unknowns to be written out, by the indices of their
-    blocks.
+    """Writes the lines of derivatives. ``chains`` has the Jacobians with too many unknowns to be
+    written out, by the indices of their blocks.
     """
 
     def __init__(self, stages: StageWriter) -> None:

@@ -35,9 +35,8 @@ _Rows: TypeAlias = list[list[Number]]
 
 
 class StageSystem(Frozen):
-    """W, E and B of the module's docstring, over the domain of the coefficients.
-
-    The shapes are (n, n), (n, d) and (d, n), with n the number of unknown stage values in use.
+    """W, E and B of the module's docstring, over the domain of the coefficients. The shapes are (n,
+    n), (n, d) and (d, n), with n the number of unknown stage values in use.
     """
 
     W: Matrix
@@ -237,7 +236,6 @@ def conserves_energy(R: Matrix, omega: fmpq) -> bool:
 
 def deviations(step: LinearStep) -> Iterator[arb]:
     """The distances of the coefficients of h, h², … in R(h) from those of exp(hL), without end.
-
     Each is the largest of four entries, in units with ω = 1; it is zero if and only if all are.
     """
     omega = step.problem.omega

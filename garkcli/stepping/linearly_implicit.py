@@ -94,9 +94,8 @@ class LinearlyImplicit(Frozen):
 
 
 class LinearProgram(Frozen):
-    """The counterpart of ``Program`` for such a method.
-
-    A state has its numbers, time last, and their compensations, ``size`` in all.
+    """The counterpart of ``Program`` for such a method. A state has its numbers, time last, and
+    their compensations, ``size`` in all.
     """
 
     method: LinearlyImplicit

@@ -46,10 +46,7 @@ _STALLED_UNITS = 1e4
 
 
 class NewtonWriter:
-    """Writes the lines of Newton's method.
-
-    ``frozen`` has the names of the fields at y_0.
-    """
+    """Writes the lines of Newton's method. ``frozen`` has the names of the fields at y_0."""
 
     def __init__(self, stages: StageWriter, jacobians: JacobianWriter) -> None:
         self.frozen: dict[tuple[int, Group], list[str]] = {}

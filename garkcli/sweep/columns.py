@@ -138,10 +138,7 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
 
 
 def _rounded(text: str) -> float:
-    """Returns a decimal as a float.
-
-    Raises GarkError if it overflows or underflows.
-    """
+    """Returns a decimal as a float. Raises GarkError if it overflows or underflows."""
     value = float(text)
     mantissa, _, _ = text.lower().partition("e")
     is_lost = not value and mantissa.strip("-0.") != ""
@@ -180,9 +177,8 @@ def _order(result: object) -> int | None:
 
 
 def _view(which: Which, judged: SweptMethod) -> int | None:
-    """Returns the order of a Rosenbrock method for another class of problems.
-
-    None for other methods, except for f(t, y), and on DAEs if α + γ is singular.
+    """Returns the order of a Rosenbrock method for another class of problems. None for other
+    methods, except for f(t, y), and on DAEs if α + γ is singular.
     """
     if not is_rosenbrock(judged.tableau):
         timed = with_time(judged.tableau) if which == "with_time" else None
@@ -269,10 +265,7 @@ def columns() -> Mapping[str, Column]:
 
 
 def value_of(name: str, judged: SweptMethod) -> Value:
-    """Returns the value of a column.
-
-    Raises MethodError if the column does not apply to the method.
-    """
+    """Returns the value of a column. Raises MethodError if it does not apply to the method."""
     if is_rosenbrock(judged.tableau) and name not in _OF_ROSENBROCK:
         message = f"{name} applies to Runge–Kutta methods only"
         raise MethodError(message, "leave the column out", code="wanted-without-meaning")

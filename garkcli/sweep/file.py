@@ -261,9 +261,8 @@ def _file() -> g.ValueKind:
 
 
 def load_plan(path: str) -> Plan:
-    """Reads a spec file; the method files that it names are sought beside it.
-
-    Raises MethodFileError with all faults of the file, or of a method file.
+    """Reads a spec file; the method files that it names are sought beside it. Raises
+    MethodFileError with all faults of the file, or of a method file.
     """
     text, name = read_text(path, SWEEP_FILE)
     source = Source(name, text, SWEEP_FILE)

@@ -50,10 +50,8 @@ def number(value: Value) -> float:
 
 
 class Point(Frozen):
-    """One method of a sweep.
-
-    ``key`` is unique in the sweep; ``settings`` are the values of the parameters as text; ``seed``
-    is that of the search for other unknowns, if any.
+    """One method of a sweep. ``key`` is unique in the sweep; ``settings`` are the values of the
+    parameters as text; ``seed`` is that of the search for other unknowns, if any.
     """
 
     key: str
@@ -63,9 +61,8 @@ class Point(Frozen):
 
 
 class Criteria(Frozen):
-    """The columns and conditions of a sweep.
-
-    The first condition that fails ends the row of a method.
+    """The columns and conditions of a sweep. The first condition that fails ends the row of a
+    method.
     """
 
     columns: tuple[str, ...]

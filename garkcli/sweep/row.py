@@ -39,9 +39,7 @@ def first_find(point: Point) -> FoundMethod | None:
 
 def _drawn(point: Point, draw: Draw) -> FoundMethod:
     """Returns a method for which the pair has the wanted order, with randomly drawn free
-    parameters.
-
-    Raises MethodError if no such method exists, or if a weight is not positive.
+    parameters. Raises MethodError if no such method exists, or if a weight is not positive.
     """
     family = _asked(point).family
     order = point.template.order
@@ -97,9 +95,8 @@ def is_row(row: Any) -> TypeGuard[Row]:
 
 
 def row_of(criteria: Criteria, point: Point) -> Row:
-    """Returns the row of a method.
-
-    Conditions are decided first, in their order; the first that fails ends the row.
+    """Returns the row of a method. Conditions are decided first, in their order; the first that
+    fails ends the row.
     """
     row = _start(criteria, point)
     try:
@@ -162,9 +159,8 @@ def _tableau(point: Point) -> Tableau:
 
 
 def _searched(point: Point, row: Row) -> Tableau | None:
-    """Returns the method found from the seed of a row, and records it in the row.
-
-    None if its coefficients are not known exactly; then no columns are reported.
+    """Returns the method found from the seed of a row, and records it in the row. None if its
+    coefficients are not known exactly; then no columns are reported.
     """
     method = first_find(point)
     if method is None:

@@ -56,9 +56,8 @@ class AlongFlow(Frozen):
 
     @property
     def on_test_equation(self) -> Tableau:
-        """The Runge–Kutta method with the same R(z), with f_k = λ^k y.
-
-        Its stages are 1, then Y_i, and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
+        """The Runge–Kutta method with the same R(z), with f_k = λ^k y. Its stages are 1, then Y_i,
+        and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
         """
         s, n = len(self.b[0]), len(self.A)
 

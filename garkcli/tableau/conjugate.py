@@ -24,10 +24,8 @@ def conjugate_block(
     other: StageSpace,
     b_other: matrix.Vector,
 ) -> matrix.Matrix:
-    """Returns Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}.
-
-    ``here`` is the stage space of l and ``other`` that of m. Raises ZeroWeight if b^{l} has a zero
-    weight.
+    """Returns Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}. ``here`` is the
+    stage space of l and ``other`` that of m. Raises ZeroWeight if b^{l} has a zero weight.
     """
     try:
         adjoint = other.adjoint(block, b_other, here, b)

@@ -197,9 +197,8 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
 
 
 def as_colours(tableau: Tableau, further: Further) -> Tableau:
-    """The tableau with one more colour for each row of further weights, which no stage sees.
-
-    So operations on stages, such as merging equal ones, also apply to these rows.
+    """The tableau with one more colour for each row of further weights, which no stage sees. So
+    operations on stages, such as merging equal ones, also apply to these rows.
     """
     if not further.rows:
         return tableau

@@ -41,10 +41,8 @@ class Enclosure(Frozen):
 
 
 def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
-    """The entries to ``bits`` bits.
-
-    Spelled-out coefficients reach any precision; the nodes of families at most ``MAX_DIGITS``
-    digits.
+    """The entries to ``bits`` bits. Spelled-out coefficients reach any precision; the nodes of
+    families at most ``MAX_DIGITS`` digits.
     """
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
     with ctx.workprec(bits + GUARD_OF_ENTRIES):

@@ -98,8 +98,10 @@ class Family(Frozen, kw_only=True):
     """A family of methods.
 
     Attributes:
+        name: its name for people.
         tableau: its entries are rational numbers and ``Parametric`` ones.
         ring: the parameters, after them unknowns for radicals.
+        parameters: the names of the free parameters.
         ranges: for each the least and the greatest value, None if unbounded.
         radicals: the roots among the coefficients.
         relations: polynomials that vanish at every solution.
@@ -111,6 +113,7 @@ class Family(Frozen, kw_only=True):
         claims_of_wanted: claims that follow from the requirements, with their values.
         unsettled: the keys of requirements that were not worked out in time.
         real: the keys of requirements whose ``relations`` hold for real values only.
+        further: its embedded weights and its dense output.
         impossible: requirements that no value meets, with the reason.
         levels: the required levels, such as -ssp, each with the least value.
         embedded_order: the required order of the embedded weights, if the file has one.
@@ -163,9 +166,8 @@ def ring_of(tableau: Tableau) -> Parameters:
 
 
 def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
-    """Returns the family on point stages; None if the nodes have no simple radicals.
-
-    ``ring`` is that of its parameters, without roots.
+    """Returns the family on point stages; None if the nodes have no simple radicals. ``ring`` is
+    that of its parameters, without roots.
     """
     nodes = nodes_in_radicals(tableau)
     if not nodes:

@@ -248,9 +248,8 @@ def with_time(tableau: Tableau) -> Tableau | None:
 
 
 def beside_clock(tableau: Tableau, term: int) -> Tableau:
-    """Returns the tableau with time as its last colour, which stages see with their nodes.
-
-    Colours that share stages share nodes; ``term`` is that of ṫ = 1.
+    """Returns the tableau with time as its last colour, which stages see with their nodes. Colours
+    that share stages share nodes; ``term`` is that of ṫ = 1.
     """
     time = tableau.size
     columns = {(x.space, time): tuple((c_i,) for c_i in x.c) for x in tableau.colours}

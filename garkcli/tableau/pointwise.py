@@ -123,9 +123,8 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
-    """The tableau on point stages; None if the nodes have no simple radicals.
-
-    Also None if nodes and coefficients together generate too large a field.
+    """The tableau on point stages; None if the nodes have no simple radicals. Also None if nodes
+    and coefficients together generate too large a field.
     """
     radical_nodes = nodes_in_radicals(tableau)
     if not radical_nodes:

@@ -59,9 +59,8 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def of_polynomial(self, coefficients: Sequence[Number]) -> matrix.Vector:
-        """The class of a polynomial with coefficients from the lowest to the highest.
-
-        At points these are its values at the nodes.
+        """The class of a polynomial with coefficients from the lowest to the highest. At points
+        these are its values at the nodes.
         """
 
     @abstractmethod
@@ -287,7 +286,6 @@ def _value(coefficients: Sequence[Number], x: Number) -> Number:
 
 def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[matrix.Vector]:
     """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator.
-
     Elimination in the Vandermonde matrix would carry the common denominator of all of them.
     """
     x = fmpq_poly([0, 1])

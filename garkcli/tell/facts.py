@@ -153,9 +153,8 @@ class Described(Protocol[V_in]):
 
 
 class FieldBeside(Frozen, Generic[V]):
-    """A field of JSON beside that of a row, from its answer; None is left out if it is optional.
-
-    In its name ``*`` is the key of the row up to the last ``order``.
+    """A field of JSON beside that of a row, from its answer; None is left out if it is optional. In
+    its name ``*`` is the key of the row up to the last ``order``.
     """
 
     name: str

@@ -157,9 +157,8 @@ def _steps(at: PartReader, entries: g.ReadMapping, where: str) -> Iterator[_Step
 
 
 def _orders(at: PartReader, entries: g.ReadMapping, scheme: Scheme) -> tuple[int, int]:
-    """Returns the order of the method and that of the result for a repeated scheme.
-
-    The substeps that raise a symmetric method of order p contain a root of degree p + 1.
+    """Returns the order of the method and that of the result for a repeated scheme. The substeps
+    that raise a symmetric method of order p contain a root of degree p + 1.
     """
     if not scheme.has_orders:
         for key in entries.nodes.keys() & {"order", "from"}:

@@ -519,10 +519,8 @@ def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> R
 
 
 def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
-    """Returns the matrix filled with zeros to one column for each node.
-
-    It has one row less than there are nodes; a first row of zeros, for the start of the step, is
-    dropped.
+    """Returns the matrix filled with zeros to one column for each node. It has one row less than
+    there are nodes; a first row of zeros, for the start of the step, is dropped.
     """
     if len(rows) == nodes and not any(map(_is_nonzero, rows[0])):
         rows = rows[1:]
@@ -545,9 +543,7 @@ KIND = _KEYS.then(_read)
 
 def coupling_of(method: MethodFile) -> mri.Coupling | None:
     """Returns the coupling of the slow stages in a file with ``multirate: {mis: …}`` or ``{mri:
-    …}``.
-
-    None for other files, and if parameters of the file were given values.
+    …}``. None for other files, and if parameters of the file were given values.
     """
     if method.form != "multirate":
         return None

@@ -45,10 +45,8 @@ Written: TypeAlias = Callable[[Node, str], Description | None]
 
 
 class PartReader(NumbersReader):
-    """Reads the parts of a construction.
-
-    ``written`` reads methods that are spelled out, ``opened`` those of the catalogue; ``parts``
-    collects them.
+    """Reads the parts of a construction. ``written`` reads methods that are spelled out, ``opened``
+    those of the catalogue; ``parts`` collects them.
     """
 
     def __init__(
@@ -73,9 +71,8 @@ class PartReader(NumbersReader):
         return None if own is None else own.largest(self.numbers.entries)
 
     def method(self, node: Node, where: str, why: str = AT_POINTS) -> PartText | None:
-        """Reads a method: a family, coefficients of any form, or a name.
-
-        ``why`` is what needs the stages to be given by points, or empty.
+        """Reads a method: a family, coefficients of any form, or a name. ``why`` is what needs the
+        stages to be given by points, or empty.
         """
         if isinstance(node, ScalarNode):
             return self._named(node, where, why)
@@ -113,9 +110,8 @@ class PartReader(NumbersReader):
         return part
 
     def _of_catalogue(self, name: str, why: str) -> PartText:
-        """Returns a method of the catalogue, its coefficients added to those of this file.
-
-        Raises MethodFileError for an unknown name, or a family with free parameters.
+        """Returns a method of the catalogue, its coefficients added to those of this file. Raises
+        MethodFileError for an unknown name, or a family with free parameters.
         """
         opened = self._open(name)
         if opened.numbers.free:
@@ -129,9 +125,8 @@ class PartReader(NumbersReader):
         return part
 
     def made(self, node: Node, make: Make, rounding: fmpq | None = None) -> ConstructionText:
-        """Returns the construction from the parts read so far.
-
-        ``rounding`` is that of its own numbers.
+        """Returns the construction from the parts read so far. ``rounding`` is that of its own
+        numbers.
         """
         return ConstructionText(node, tuple(self.parts), make, self.rounding(rounding))
 

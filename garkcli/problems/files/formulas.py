@@ -28,10 +28,8 @@ PLACES = 60
 
 
 class FormulaReader(Mutable):
-    """Reads the formulas of one file.
-
-    ``given`` has values for parameters in place of those in the file, ``values`` the parameters
-    read so far, ``made`` their sympy expressions.
+    """Reads the formulas of one file. ``given`` has values for parameters in place of those in the
+    file, ``values`` the parameters read so far, ``made`` their sympy expressions.
     """
 
     source: Source
@@ -187,9 +185,8 @@ class Maker:
     def terms(
         self, items: Iterable[tuple[Node, str]], names: Mapping[str, str], noun: str
     ) -> list[FormulaTerm]:
-        """Returns the formulas without faults; none if the variables have faults.
-
-        ``names`` and ``noun`` are those of ``Formulas.parsed``.
+        """Returns the formulas without faults; none if the variables have faults. ``names`` and
+        ``noun`` are those of ``Formulas.parsed``.
         """
         known = names if self.text.are_named else None
         allowed = [name for name, cure in (known or {}).items() if not cure]

@@ -36,10 +36,7 @@ class HamiltonianMaker(texts.Maker):
         super().__init__(formulas, text, (*self.q, *self.p, *self.v))
 
     def problem(self) -> Hamiltonian:
-        """Returns the problem.
-
-        Raises MethodFileError with all faults found.
-        """
+        """Returns the problem. Raises MethodFileError with all faults found."""
         from garkcli.problems.hamiltonian import Hamiltonian
 
         start = self._initial()

@@ -29,10 +29,8 @@ _ANOTHER = "choose another name"
 
 
 def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
-    """Reads a problem file, or standard input for ``-``.
-
-    ``stiffness`` is the value of its parameter of this name. Raises MethodFileError with all faults
-    of the file.
+    """Reads a problem file, or standard input for ``-``. ``stiffness`` is the value of its
+    parameter of this name. Raises MethodFileError with all faults of the file.
     """
     with doing(f"reading {path}"):
         return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
@@ -56,10 +54,8 @@ def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = No
 
 
 class _Variables(Frozen):
-    """The variables of a file.
-
-    ``places`` has the nodes of well-formed names in the order of the file; ``form`` is that of the
-    problem, a Hamiltonian by default.
+    """The variables of a file. ``places`` has the nodes of well-formed names in the order of the
+    file; ``form`` is that of the problem, a Hamiltonian by default.
     """
 
     source: Source
@@ -106,9 +102,8 @@ class _Variables(Frozen):
 
 
 class _ProblemReader:
-    """Reads a file as far as only its own names are needed.
-
-    ``formulas`` has its parameters once it is read.
+    """Reads a file as far as only its own names are needed. ``formulas`` has its parameters once it
+    is read.
     """
 
     def __init__(self, source: Source, stiffness: fmpq | None) -> None:
@@ -223,9 +218,8 @@ class _ProblemReader:
 
 
 def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> keys.Side:
-    """Returns the right-hand sides of a term: variables, formulas, and their names in messages.
-
-    A single formula belongs to the only variable. Without ``names`` all are allowed.
+    """Returns the right-hand sides of a term: variables, formulas, and their names in messages. A
+    single formula belongs to the only variable. Without ``names`` all are allowed.
     """
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)

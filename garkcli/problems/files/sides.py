@@ -36,10 +36,7 @@ class SidesMaker(Maker):
         super().__init__(formulas, text, (*self.y, self.t))
 
     def problem(self) -> RightHandSide:
-        """Returns the problem.
-
-        Raises MethodFileError with all faults found.
-        """
+        """Returns the problem. Raises MethodFileError with all faults found."""
         from garkcli.problems.righthandside import RightHandSide
 
         exact = self._exact()

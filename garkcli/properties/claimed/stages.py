@@ -139,7 +139,6 @@ def symmetric(subject: Subject) -> Verdict:
 
 def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
     """Returns the verdict on a method without a symmetric renumbering, which may be reducible.
-
     ``holds`` is the verdict on the unreduced method: False, or None if undecided.
     """
     tableau = subject.tableau
