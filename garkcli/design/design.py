@@ -12,19 +12,11 @@ from typing import Any, cast, get_args
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
+from garkcli.design import member as members
 from garkcli.design import stable_parts
 from garkcli.design.conditions import FamilyCondition, FamilyConditions
 from garkcli.design.critical import smooth_points
 from garkcli.design.ideal import Ideal, without_multiples
-from garkcli.design.member import (
-    TABLEAUS,
-    Whose,
-    further_member,
-    is_admissible,
-    is_as_stable,
-    member,
-    value_of,
-)
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
@@ -75,7 +67,7 @@ class Design(Shown, Frozen):
     """
 
     family: Family
-    whose: Whose
+    whose: members.Whose
     tableau: Tableau
     steps: tuple[Step, ...]
     criterion: PairConditions | None = None
@@ -135,12 +127,19 @@ PART = 0.25
 """The share of the remaining time for a real method of a family."""
 STABLE = 0.5
 """The share of it for the P-stable transfers of a pair."""
-CLAIMS: dict[Whose, str] = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
+CLAIMS: dict[members.Whose, str] = {
+    "method": "order",
+    "conjugate": "conjugate-order",
+    "pair": "pair-order",
+}
 """The claim of a file for the order of the method, its conjugate, or its pair."""
 
 
 def find_parameters(
-    family: Family, order: int | None = None, whose: Whose = "method", seconds: float | None = None
+    family: Family,
+    order: int | None = None,
+    whose: members.Whose = "method",
+    seconds: float | None = None,
 ) -> Design:
     """The values of the parameters for which members of a family have an order.
 
@@ -153,7 +152,7 @@ def find_parameters(
     Raises:
         ZeroWeight: a weight is zero for every value, so there is no conjugate.
     """
-    tableau = TABLEAUS[whose](family.tableau)
+    tableau = members.TABLEAUS[whose](family.tableau)
     with within(seconds):
         criterion = pair_conditions(family) if whose == "pair" else None
         conditions = FamilyConditions(tableau, family.ring)
@@ -165,7 +164,7 @@ class _Finding(Frozen):
     """Decides one order after the other for the parameters of a family."""
 
     family: Family
-    whose: Whose
+    whose: members.Whose
     conditions: FamilyConditions
     criterion: PairConditions | None = None
 
@@ -210,7 +209,7 @@ class _Finding(Frozen):
             return None
         for condition in self.conditions.of_order(order):
             polynomial = condition.polynomial
-            left = [x for x in left if not value_of(polynomial, self.family.ring, x)]
+            left = [x for x in left if not members.value_of(polynomial, self.family.ring, x)]
             if not left:
                 nothing = self._start().with_zeros([self.family.ring.constant(fmpq(1))])
                 return NoValue(order, nothing, witness=condition.tree)
@@ -404,7 +403,7 @@ class _Finding(Frozen):
             return known
         ring = self.family.ring
         for point in smooth.points:
-            is_defined = all(value_of(p, ring, point.values) for p in ideal.nonzero)
+            is_defined = all(members.value_of(p, ring, point.values) for p in ideal.nonzero)
             if is_defined and any(self._is_method(point, root) for root in point.real):
                 return replace(known, is_real=True)
         if smooth.points:
@@ -424,7 +423,7 @@ class _Finding(Frozen):
         """The knowledge of a family together with its methods of the wanted stability. Raises
         NotDecided if the time limit has passed, or stability depends on several unknowns.
         """
-        tableau = TABLEAUS[self.whose](self.family.tableau)
+        tableau = members.TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
         decided: list[stable_parts.StablePart] = []
         sets: list[tuple[StableValues, ...]] = []
@@ -464,7 +463,7 @@ class _Finding(Frozen):
             is_real = False
         else:
             free = replace(self.family, stable=())
-            is_real = has_methods(free, stable, stable, partial(is_admissible, free))
+            is_real = has_methods(free, stable, stable, partial(members.is_admissible, free))
         new = tuple(p for p in solved if not ideal.contains(p))
         return Knowledge(is_real=is_real, of_stable=Zeros(stable, new))
 
@@ -486,7 +485,7 @@ class _Finding(Frozen):
             accepted = [
                 index
                 for index, root in enumerate(solution.real)
-                if is_admissible(self.family, solution, root)
+                if members.is_admissible(self.family, solution, root)
             ]
             _ = solution.real_values  # computed now, since reports show them after the time limit
             order = order_of(self.family, self.whose, solution)
@@ -499,7 +498,7 @@ class _Finding(Frozen):
         """The solution with its accepted real roots sorted by the wanted stability."""
         by_verdict: dict[bool | None, list[int]] = {True: [], False: [], None: []}
         for index in found.accepted:
-            verdict = is_as_stable(
+            verdict = members.is_as_stable(
                 self.family, self.whose, found.solution, found.solution.real[index]
             )
             by_verdict[verdict].append(index)
@@ -507,7 +506,7 @@ class _Finding(Frozen):
         return replace(found, accepted=accepted, unstable=unstable, open=undecided)
 
     def _is_method(self, solution: Solution, root: RealRoot) -> bool:
-        stable = is_admissible(self.family, solution, root) and is_as_stable(
+        stable = members.is_admissible(self.family, solution, root) and members.is_as_stable(
             self.family, self.whose, solution, root
         )
         return bool(stable)
@@ -573,15 +572,17 @@ def _with_lower(steps: Sequence[Step]) -> list[Step]:
     return completed
 
 
-def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
+def order_of(family: Family, whose: members.Whose, solution: Solution) -> Order | None:
     """The order of the method with some values, by the certificate; None if there is no method."""
     try:
-        return find_order(TABLEAUS[whose](member(family.tableau, family.ring, solution.values)))
+        return find_order(
+            members.TABLEAUS[whose](members.member(family.tableau, family.ring, solution.values))
+        )
     except (ZeroDivisionError, ZeroWeight):
         return None
 
 
-def further_of(family: Family, whose: Whose, solution: Solution) -> dict[str, Any]:
+def further_of(family: Family, whose: members.Whose, solution: Solution) -> dict[str, Any]:
     """``embedded``, ``dense`` and ``predictor`` of ``Found``, if a method has such weights."""
     is_spelled_out = all(isinstance(x, PointSpace) for x in family.tableau.spaces)
     if whose != "method" or not is_spelled_out:
@@ -589,7 +590,10 @@ def further_of(family: Family, whose: Whose, solution: Solution) -> dict[str, An
     orders: dict[str, Any] = {}
     with suppress(ZeroDivisionError):
         at = family.ring, solution.values
-        tableau, further = member(family.tableau, *at), further_member(family.further, *at)
+        tableau, further = (
+            members.member(family.tableau, *at),
+            members.further_member(family.further, *at),
+        )
         if further.dense is not None:
             orders["dense"] = dense_order(tableau, further.dense, DEFAULT_LIMIT)
         if further.predictor is not None:
@@ -632,7 +636,7 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
     return _sets(family, design.whose)
 
 
-def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
+def _sets(family: Family, whose: members.Whose) -> tuple[StableValues, ...]:
     """The set of each wanted kind of stability; empty if one is no set of values of one or two
     unknowns.
 

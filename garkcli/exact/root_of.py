@@ -11,19 +11,8 @@ from collections.abc import Iterator
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
+from garkcli.exact import nodes
 from garkcli.exact.enclosing import isolated
-from garkcli.exact.nodes import (
-    AlgebraicRoot,
-    Chain,
-    Expression,
-    Literal,
-    Name,
-    Power,
-    Root,
-    divided_by_zero,
-    is_decimal,
-    parts,
-)
 from garkcli.frozen import replace
 
 MAX_POLYNOMIAL_DEGREE = 12
@@ -37,7 +26,9 @@ MOST_BITS = 1 << 16
 VARIABLE = "x"
 
 
-def root_nearest(polynomial: Expression, near: Expression, start: int, end: int) -> Expression:
+def root_nearest(
+    polynomial: nodes.Expression, near: nodes.Expression, start: int, end: int
+) -> nodes.Expression:
     """Returns the real root of a polynomial nearest to a number; a ``Literal`` if it is rational.
 
     ``start`` and ``end`` are the offsets of the text. Raises ExpressionError if it is not a
@@ -55,27 +46,29 @@ def root_nearest(polynomial: Expression, near: Expression, start: int, end: int)
     return replace(root, start=start, end=end, decimals=tuple(_decimals(polynomial)))
 
 
-def _root(factor: fmpz_poly, number: int) -> Expression:
+def _root(factor: fmpz_poly, number: int) -> nodes.Expression:
     if factor.degree() == 1:
-        return Literal(fmpq(-factor[0], factor[1]))
+        return nodes.Literal(fmpq(-factor[0], factor[1]))
     coefficients = tuple(int(a) for a in factor.coeffs())
     if len(coefficients) == 3:
         c, b, a = (fmpq(x) for x in coefficients)
         middle = -b / (2 * a)
-        radical = Root(Literal(middle * middle - c / a), 2)
+        radical = nodes.Root(nodes.Literal(middle * middle - c / a), 2)
         sign = "-" if number == 0 else "+"
-        return Chain(f"+{sign}", (Literal(middle), radical))
-    return AlgebraicRoot(coefficients, number)
+        return nodes.Chain(f"+{sign}", (nodes.Literal(middle), radical))
+    return nodes.AlgebraicRoot(coefficients, number)
 
 
-def _decimals(expression: Expression) -> Iterator[Literal]:
-    if isinstance(expression, Literal) and is_decimal(expression):
+def _decimals(expression: nodes.Expression) -> Iterator[nodes.Literal]:
+    if isinstance(expression, nodes.Literal) and nodes.is_decimal(expression):
         yield expression
-    for part in parts(expression):
+    for part in nodes.parts(expression):
         yield from _decimals(part)
 
 
-def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tuple[fmpz_poly, int]:
+def _nearest(
+    p: fmpq_poly, target: fmpq, at: nodes.Expression, near: nodes.Expression
+) -> tuple[fmpz_poly, int]:
     """The irreducible factor with the nearest root, and the index of that root."""
     _, factors = p.numer().factor()
     bits = BITS
@@ -101,28 +94,28 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
     )
 
 
-def polynomial_in_x(expression: Expression) -> fmpq_poly:
+def polynomial_in_x(expression: nodes.Expression) -> fmpq_poly:
     """The value of an expression in ℚ[x]."""
     match expression:
-        case Literal(value=value):
+        case nodes.Literal(value=value):
             return fmpq_poly([value])
-        case Name(name=name) if name == VARIABLE:
+        case nodes.Name(name=name) if name == VARIABLE:
             return fmpq_poly([0, 1])
-        case Name():
+        case nodes.Name():
             raise _error("names other than x have no place in root_of", expression)
-        case Chain(signs=signs, operands=operands):
+        case nodes.Chain(signs=signs, operands=operands):
             total = fmpq_poly([0 if signs[0] in "+-" else 1])
             for sign, operand in zip(signs, operands, strict=True):
                 total = _joined(sign, total, polynomial_in_x(operand), operand)
                 if total.degree() > MAX_POLYNOMIAL_DEGREE or _bits(total) > MAX_COEFFICIENT_BITS:
                     raise _too_large(expression)
             return total
-        case Power(base=base, exponent=exponent):
+        case nodes.Power(base=base, exponent=exponent):
             return _power(polynomial_in_x(base), exponent, expression)
     raise _error("the polynomial has rational coefficients", expression)
 
 
-def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmpq_poly:
+def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: nodes.Expression) -> fmpq_poly:
     if sign == "+":
         return left + right
     if sign == "-":
@@ -132,17 +125,17 @@ def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmp
     if right.degree() > 0:
         raise _error("a polynomial is not divided by x", at)
     if right.degree() < 0:
-        raise divided_by_zero(at)
+        raise nodes.divided_by_zero(at)
     return left / right[0]
 
 
-def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
+def _power(base: fmpq_poly, exponent: int, at: nodes.Expression) -> fmpq_poly:
     """A power; one that would be too long is refused before it is computed."""
     if exponent < 0:
         if base.degree() > 0:
             raise _error("a polynomial is not divided by x", at)
         if base.degree() < 0:
-            raise divided_by_zero(at)
+            raise nodes.divided_by_zero(at)
         base = fmpq_poly([1 / base[0]])
     size = abs(exponent)
     if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (MAX_COEFFICIENT_BITS):
@@ -154,21 +147,21 @@ def _bits(p: fmpq_poly) -> int:
     return max((int(a.height_bits()) for a in p.coeffs()), default=0)
 
 
-def _too_large(at: Expression) -> LimitExceeded:
+def _too_large(at: nodes.Expression) -> LimitExceeded:
     limits = f"degree {MAX_POLYNOMIAL_DEGREE}, {MAX_COEFFICIENT_BITS} bits"
     message = f"the polynomial of a root is too large (limits: {limits})"
     return LimitExceeded(message, "write a smaller one", at.start, at.end)
 
 
-def _error(message: str, at: Expression) -> ExpressionError:
+def _error(message: str, at: nodes.Expression) -> ExpressionError:
     cure = "write root_of(p, r): p a polynomial in x, r a decimal near the root"
     return ExpressionError(message, cure, at.start, max(at.end, at.start + 1), code="not-a-number")
 
 
-def approximate(root: AlgebraicRoot) -> str:
+def approximate(root: nodes.AlgebraicRoot) -> str:
     """Digits of a root to which no other real root of its polynomial is as near.
 
-    >>> approximate(AlgebraicRoot((-2, 0, 0, 1), 0))
+    >>> approximate(nodes.AlgebraicRoot((-2, 0, 0, 1), 0))
     '1.259921050'
     """
     digits = 10

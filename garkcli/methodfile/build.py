@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 
 from flint import fmpq
 
+from garkcli import transfer as transfer_rules
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
@@ -28,15 +29,6 @@ from garkcli.tableau.embedded import DenseOutput, Further, Predictor, padded
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Method, Tableau, butcher
-from garkcli.transfer import (
-    PAIR_RULES,
-    RULES,
-    Rule,
-    build_on,
-    combination,
-    legendre_rule,
-    symplectic_blocks,
-)
 
 if TYPE_CHECKING:
     pass
@@ -88,7 +80,11 @@ class BlockBuilder:
         """Returns the text for a block: its own, that of the opposite block, or the default."""
         transfer = self.text.transfer
         own, opposite = transfer.blocks.get((l, m)), transfer.blocks.get((m, l))
-        if own is None and isinstance(opposite, d.RuleText) and opposite.terms[0][0] in PAIR_RULES:
+        if (
+            own is None
+            and isinstance(opposite, d.RuleText)
+            and opposite.terms[0][0] in transfer_rules.PAIR_RULES
+        ):
             return opposite
         return own or transfer.default
 
@@ -110,10 +106,12 @@ class BlockBuilder:
         rule, weight = text.terms[0]
         if weight is not None:
             return self._combined(text, l, m)
-        if rule in PAIR_RULES:
-            base = build_on(self.methods, self._orders, l, m)
+        if rule in transfer_rules.PAIR_RULES:
+            base = transfer_rules.build_on(self.methods, self._orders, l, m)
             other = l if base == m else m
-            return symplectic_blocks(PAIR_RULES[rule], self.methods, base, other)[l, m]
+            return transfer_rules.symplectic_blocks(
+                transfer_rules.PAIR_RULES[rule], self.methods, base, other
+            )[l, m]
         return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
 
     def _combined(self, text: d.RuleText, l: int, m: int) -> Matrix:
@@ -128,10 +126,14 @@ class BlockBuilder:
             message = f"the weights of the combination sum to {total}, not to 1"
             cure = "weights that sum to 1 keep the block consistent"
             raise MethodError(message, cure, code="weights-of-combination")
-        return combination(terms, self.methods[l], self.methods[m])
+        return transfer_rules.combination(terms, self.methods[l], self.methods[m])
 
-    def _rule(self, name: str, degree: int | None = None) -> Rule:
-        return RULES[name] if name != "legendre" else legendre_rule(self._alone, degree)
+    def _rule(self, name: str, degree: int | None = None) -> transfer_rules.Rule:
+        return (
+            transfer_rules.RULES[name]
+            if name != "legendre"
+            else transfer_rules.legendre_rule(self._alone, degree)
+        )
 
     @cached_property
     def _alone(self) -> list[AnyTableau]:

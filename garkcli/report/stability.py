@@ -27,23 +27,8 @@ from garkcli.stability.linear import poles_are_right
 from garkcli.stability.summary import AtPoint, Colours, LinearStability, Stability
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
-from garkcli.tell import kinds
+from garkcli.tell import facts, kinds
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Several,
-    Wording,
-    Words,
-    itself,
-    maybe,
-    via,
-)
 from garkcli.tell.latex import expression_latex
 from garkcli.tell.parts import part, parts, plot, told
 from garkcli.tell.report import Report
@@ -55,7 +40,7 @@ if TYPE_CHECKING:
     from garkcli.stability.ssp import AdditiveRadius, SspCoefficient
 
 T = TypeVar("T")
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 Extent: TypeAlias = "Sequence[Interval] | Bounds"
 """A part of an axis."""
 Form: TypeAlias = "tuple[Polynomial, Polynomial, Polynomial]"
@@ -101,7 +86,7 @@ def _square_root(root: RealRoot, digits: int) -> str:
 
 def _around_zero(
     bounds: str, nowhere: str, everywhere: str, end: Callable[[RealRoot, Plain], str]
-) -> Wording[Extent]:
+) -> facts.Wording[Extent]:
     """Words for the interval that begins at 0: of −z on the real axis, of y² on the imaginary."""
 
     def words(found: Extent, d: Plain) -> str:
@@ -133,12 +118,12 @@ def _end_data(found: Extent, d: Plain) -> dict[str, object]:
 
 
 _END = kinds.record(to=S.nullable(ALGEBRAIC))
-REAL: Kind[Extent] = Kind(
-    Json(S.one_of(_END, kinds.BOUNDS.schema), _end_data),
-    Words(_around_zero("−z ≤ ", "z = 0 only", "z ≤ 0", lambda end, d: d.upto("−z", end))),
+REAL: facts.Kind[Extent] = facts.Kind(
+    facts.Json(S.one_of(_END, kinds.BOUNDS.schema), _end_data),
+    facts.Words(_around_zero("−z ≤ ", "z = 0 only", "z ≤ 0", lambda end, d: d.upto("−z", end))),
 )
-IMAGINARY: Kind[Extent] = Kind(
-    REAL.what, Words(_around_zero("y² ≤ ", "y = 0 only", "all y", _height))
+IMAGINARY: facts.Kind[Extent] = facts.Kind(
+    REAL.what, facts.Words(_around_zero("y² ≤ ", "y = 0 only", "all y", _height))
 )
 
 
@@ -150,13 +135,15 @@ def _ssp_words(x: SspCoefficient | Bounds, d: Plain) -> str:
     return d.bounds(x) if isinstance(x, Bounds) else kinds.RADIUS.words(x, d)
 
 
-SSP = Kind(Json(S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS.schema), _ssp_data), Words(_ssp_words))
-SECTOR: Kind[RealRoot] = Kind(
-    Json(
+SSP = facts.Kind(
+    facts.Json(S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS.schema), _ssp_data), facts.Words(_ssp_words)
+)
+SECTOR: facts.Kind[RealRoot] = facts.Kind(
+    facts.Json(
         kinds.record(degrees=S.TEXT, cosine=ALGEBRAIC),
         lambda x, d: {"degrees": _degrees(x, d.digits), "cosine": root_data(x, d.digits)},
     ),
-    Words(lambda x, d: d.prose(f"α = {_degrees(x, d.digits)}°, cos α = ") + d.root(x)),
+    facts.Words(lambda x, d: d.prose(f"α = {_degrees(x, d.digits)}°, cos α = ") + d.root(x)),
 )
 """A sector by its cosine."""
 
@@ -177,9 +164,11 @@ def _fraction_data(R: Fraction, _: Plain) -> dict[str, object]:
     return {"numerator": over, "denominator": under, "lowest_terms": R.is_reduced}
 
 
-FRACTION: Kind[Fraction] = Kind(
-    Json(kinds.record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG), _fraction_data),
-    Words(
+FRACTION: facts.Kind[Fraction] = facts.Kind(
+    facts.Json(
+        kinds.record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG), _fraction_data
+    ),
+    facts.Words(
         lambda R, d: (
             d.fraction(*integral_parts(R))
             + ("" if R.is_reduced else "; perhaps not in lowest terms")
@@ -199,8 +188,8 @@ def _conserved_words(form: Form, d: Plain) -> str:
     return " + ".join(terms)
 
 
-CONSERVED: Kind[Form] = Kind(
-    Json(
+CONSERVED: facts.Kind[Form] = facts.Kind(
+    facts.Json(
         kinds.record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
         lambda form, _: dict(
             zip(
@@ -210,17 +199,18 @@ CONSERVED: Kind[Form] = Kind(
             )
         ),
     ),
-    Words(_conserved_words),
+    facts.Words(_conserved_words),
 )
-FROM_TO: Kind[SlowInterval] = Kind(
-    Json(
+FROM_TO: facts.Kind[SlowInterval] = facts.Kind(
+    facts.Json(
         kinds.record(**{"from": S.EXACT, "to": S.EXACT}),
         lambda x, _: {"from": str(x.low), "to": str(x.high)},
     ),
-    Words(lambda x, _: f"every a = (hω_slow)² from {x.low} to {x.high}"),
+    facts.Words(lambda x, _: f"every a = (hω_slow)² from {x.low} to {x.high}"),
 )
-SQUARE: Kind[fmpq] = Kind(
-    Json(S.EXACT, lambda x, _: str(x)), Words(lambda x, d: f"a = (hω_slow)² = {d.number(x)}")
+SQUARE: facts.Kind[fmpq] = facts.Kind(
+    facts.Json(S.EXACT, lambda x, _: str(x)),
+    facts.Words(lambda x, d: f"a = (hω_slow)² = {d.number(x)}"),
 )
 
 
@@ -228,12 +218,12 @@ ROUNDED = Reason("coefficients are rounded")
 LATE = Reason("it takes longer than --seconds")
 
 
-def _open(x: Stability | LinearStability | Colours, name: str) -> Answer[Never] | None:
+def _open(x: Stability | LinearStability | Colours, name: str) -> facts.Answer[Never] | None:
     """An open answer if the time was over; else None."""
-    return Answer(None, Status(open=LATE)) if name in x.late else None
+    return facts.Answer(None, Status(open=LATE)) if name in x.late else None
 
 
-def a_stable(x: LinearStability) -> Answer[bool]:
+def a_stable(x: LinearStability) -> facts.Answer[bool]:
     """Whether |R| ≤ 1 in the left half plane, or why not."""
     if x.a_stable is not False or x.within is not None:
         return _open(x, "a_stable") or kinds.truth(x.a_stable, open_because=ROUNDED)
@@ -245,15 +235,15 @@ def a_stable(x: LinearStability) -> Answer[bool]:
     return kinds.truth(False, Reason("|R(iy)| > 1 where E(y²) < 0, E = {}", E))
 
 
-def sector(x: LinearStability) -> RealRoot | Answer[RealRoot] | None:
+def sector(x: LinearStability) -> RealRoot | facts.Answer[RealRoot] | None:
     if x.within is not None:
         return None
     if x.sector is None:
-        return _open(x, "sector") or Answer(None, Status(open=Reason("too many stages")))
-    return x.sector.cosine or Answer(None, reason=Reason("no"))
+        return _open(x, "sector") or facts.Answer(None, Status(open=Reason("too many stages")))
+    return x.sector.cosine or facts.Answer(None, reason=Reason("no"))
 
 
-def _less_than_all(answer: Answer[RealRoot]) -> Level:
+def _less_than_all(answer: facts.Answer[RealRoot]) -> facts.Level:
     """Usual reports have a sector unless A-stability says it."""
     if answer.value is None:
         return USUAL if answer.status.open else DETAIL
@@ -263,29 +253,29 @@ def _less_than_all(answer: Answer[RealRoot]) -> Level:
 PRINTED = Reason("of the digits as printed, not of all methods within the tolerance")
 
 
-def limit(x: LinearStability) -> Answer[Number]:
+def limit(x: LinearStability) -> facts.Answer[Number]:
     found = x.R.at_infinity()
     if found is None:
-        return Answer(None, reason=Reason("unbounded"))
+        return facts.Answer(None, reason=Reason("unbounded"))
     if x.within is not None:
-        return Answer(found, reason=PRINTED, level=DETAIL)
-    return Answer(found)
+        return facts.Answer(found, reason=PRINTED, level=DETAIL)
+    return facts.Answer(found)
 
 
-def real(x: LinearStability) -> Extent | Answer[Extent] | None:
+def real(x: LinearStability) -> Extent | facts.Answer[Extent] | None:
     return _open(x, "real") or (x.real if x.within is None else x.within.real)
 
 
-def imaginary(x: LinearStability) -> Extent | Answer[Extent] | None:
+def imaginary(x: LinearStability) -> Extent | facts.Answer[Extent] | None:
     return _open(x, "imaginary") or (x.imaginary if x.within is None else x.within.imaginary)
 
 
-def ssp(x: LinearStability) -> SspCoefficient | Bounds | Answer[Never] | None:
+def ssp(x: LinearStability) -> SspCoefficient | Bounds | facts.Answer[Never] | None:
     if x.is_linear_alone:
         return None
     found = x.ssp if x.within is None else x.within.ssp
     without_nodes = Reason("the nodes have no simple radicals")
-    return found or _open(x, "ssp") or Answer(None, Status(open=without_nodes))
+    return found or _open(x, "ssp") or facts.Answer(None, Status(open=without_nodes))
 
 
 def _complex_words(d: Plain, real: str, imaginary: str) -> str:
@@ -320,56 +310,56 @@ def _modulus(squared: Number, digits: int) -> str:
     return _decimals(lambda _: to_ball(squared, digits + 24).sqrt(), digits)
 
 
-SIZE: Kind[Number] = Kind(Json(S.TEXT, lambda x, d: _modulus(x, d.digits)))
-DECIMALS: Kind[Sequence[Number]] = Kind(
-    Json(S.array(S.TEXT), lambda x, d: [_decimals_of(y, d.digits) for y in x]),
-    Words(lambda x, d: ", ".join(_decimals_of(y, d.digits) for y in x)),
+SIZE: facts.Kind[Number] = facts.Kind(facts.Json(S.TEXT, lambda x, d: _modulus(x, d.digits)))
+DECIMALS: facts.Kind[Sequence[Number]] = facts.Kind(
+    facts.Json(S.array(S.TEXT), lambda x, d: [_decimals_of(y, d.digits) for y in x]),
+    facts.Words(lambda x, d: ", ".join(_decimals_of(y, d.digits) for y in x)),
 )
-POINT: Section[AtPoint] = Section(
-    Row("z", kinds.EXACTS, lambda x: x.z),
-    maybe("value", kinds.EXACTS, lambda x: x.value),
-    maybe("decimals", DECIMALS, lambda x: x.value),
-    maybe("squared", kinds.EXACT, lambda x: x.squared),
-    maybe("size", SIZE, lambda x: x.squared),
-    maybe(
+POINT: facts.Section[AtPoint] = facts.Section(
+    facts.Row("z", kinds.EXACTS, lambda x: x.z),
+    facts.maybe("value", kinds.EXACTS, lambda x: x.value),
+    facts.maybe("decimals", DECIMALS, lambda x: x.value),
+    facts.maybe("squared", kinds.EXACT, lambda x: x.squared),
+    facts.maybe("size", SIZE, lambda x: x.squared),
+    facts.maybe(
         "bounded", kinds.TRUTH, lambda x: None if x.squared is None else sign(x.squared - 1) <= 0
     ),
 )
-LINEAR: Rows[LinearStability] = [
-    Row(
+LINEAR: facts.Rows[LinearStability] = [
+    facts.Row(
         "R",
         kinds.ratio("z"),
-        lambda x: Answer(
+        lambda x: facts.Answer(
             x.R, reason=PRINTED if x.within else NO_REASON, level=DETAIL if x.within else USUAL
         ),
     ),
-    maybe("R_infinity", kinds.EXACT, limit),
-    maybe("a_stable", kinds.TRUTH, a_stable, HEADLINE),
-    maybe(
+    facts.maybe("R_infinity", kinds.EXACT, limit),
+    facts.maybe("a_stable", kinds.TRUTH, a_stable, HEADLINE),
+    facts.maybe(
         "l_stable",
         kinds.TRUTH,
         lambda x: kinds.truth(x.l_stable, open_because=LATE if x.late else ROUNDED),
         lambda a: HEADLINE if a.value else DETAIL,
     ),
-    maybe("A_alpha", SECTOR, sector, _less_than_all),
-    maybe("real_interval", REAL, real),
-    maybe("imaginary_interval", IMAGINARY, imaginary),
-    maybe("ssp", SSP, ssp),
-    Row(
+    facts.maybe("A_alpha", SECTOR, sector, _less_than_all),
+    facts.maybe("real_interval", REAL, real),
+    facts.maybe("imaginary_interval", IMAGINARY, imaginary),
+    facts.maybe("ssp", SSP, ssp),
+    facts.Row(
         "points",
         parts(POINT, _points_words),
-        lambda x: Answer(x.points, reason=PRINTED if x.within and x.points else NO_REASON),
+        lambda x: facts.Answer(x.points, reason=PRINTED if x.within and x.points else NO_REASON),
         label="at points",
     ),
 ]
-OF_COLOUR: Section[LinearStability] = Section(
-    Row("name", kinds.TEXT, lambda x: x.name, DATA),
+OF_COLOUR: facts.Section[LinearStability] = facts.Section(
+    facts.Row("name", kinds.TEXT, lambda x: x.name, DATA),
     LINEAR,
     title=lambda x, d: f"colour {d.prose(x.name)} alone",
 )
 
 
-OF_ALL: Section[LinearStability] = Section(
+OF_ALL: facts.Section[LinearStability] = facts.Section(
     LINEAR, title=lambda _, d: d.prose("one λ for both parts")
 )
 _OTHERWISE: dict[str, dict[str, Any]] = {
@@ -378,31 +368,33 @@ _OTHERWISE: dict[str, dict[str, Any]] = {
     "real_interval": {"level": DETAIL},
     "imaginary_interval": {"level": DETAIL},
 }
-OF_EMBEDDED: Section[LinearStability] = Section(
+OF_EMBEDDED: facts.Section[LinearStability] = facts.Section(
     [row.but(**_OTHERWISE.get(row.key, {})) for row in LINEAR if row.key != "ssp"],
     title=lambda _, d: d.prose("embedded weights"),
 )
-EMBEDDED: Row[StabilityReport] = maybe(
+EMBEDDED: facts.Row[StabilityReport] = facts.maybe(
     "embedded", part(OF_EMBEDDED), lambda x: _open(x.found, "embedded") or x.found.embedded
 )
 
 
-def conserved(o: OscillatorStability) -> Answer[Form]:
+def conserved(o: OscillatorStability) -> facts.Answer[Form]:
     if not o.determinant.is_one:
-        return Answer(None, reason=Reason("none: the determinant is not 1"))
+        return facts.Answer(None, reason=Reason("none: the determinant is not 1"))
     if o.conserved is None:
-        return Answer(None, reason=Reason("every one: the step is a multiple of the identity"))
-    return Answer(o.conserved)
+        return facts.Answer(
+            None, reason=Reason("every one: the step is a multiple of the identity")
+        )
+    return facts.Answer(o.conserved)
 
 
-def p_stable(o: OscillatorStability) -> Answer[bool]:
+def p_stable(o: OscillatorStability) -> facts.Answer[bool]:
     """Neither growth nor decay on the oscillator for any step size, and where that ends."""
     if o.is_i_stable and not o.is_p_stable:
         return kinds.truth(False, "solutions decay")
     return i_stable(o)
 
 
-def i_stable(o: OscillatorStability) -> Answer[bool]:
+def i_stable(o: OscillatorStability) -> facts.Answer[bool]:
     """Stability for every step size on the oscillator, and where it ends."""
     if o.is_i_stable:
         return kinds.truth(True)
@@ -413,24 +405,26 @@ def i_stable(o: OscillatorStability) -> Answer[bool]:
     return kinds.truth(False, Reason(f"not stable {where} x = {{}}", ROOT_ALONE(first.end)))
 
 
-ROOT_ALONE: Kind[RealRoot] = told(lambda x, d: d.root(x))
+ROOT_ALONE: facts.Kind[RealRoot] = told(lambda x, d: d.root(x))
 
 
-def phase(o: OscillatorStability) -> Answer[int]:
+def phase(o: OscillatorStability) -> facts.Answer[int]:
     if o.phase.order is None:
-        return Answer(None, reason=Reason("none: the frequency is exact"))
+        return facts.Answer(None, reason=Reason("none: the frequency is exact"))
     if o.phase.constant is None:
-        return Answer(o.phase.order, reason=Reason("the frequency is wrong for small step sizes"))
+        return facts.Answer(
+            o.phase.order, reason=Reason("the frequency is wrong for small step sizes")
+        )
     where = "behind" if sign(o.phase.constant) > 0 else "ahead"
     lag, z = kinds.term("z", o.phase.order + 1), Formula("z = hω", r"z = h\omega")
     reason = Reason(f"{{}}, {{}}: {where}", lag(o.phase.constant), z)
-    return Answer(o.phase.order, reason=reason)
+    return facts.Answer(o.phase.order, reason=reason)
 
 
-PHASE: Kind[int] = Kind(Json(S.COUNT), Words(lambda n, _: f"of order {n}"))
+PHASE: facts.Kind[int] = facts.Kind(facts.Json(S.COUNT), facts.Words(lambda n, _: f"of order {n}"))
 
 
-def stable_in(latex: str, text: str) -> Kind[Sequence[Interval]]:
+def stable_in(latex: str, text: str) -> facts.Kind[Sequence[Interval]]:
     """The kind of stable intervals of x, with the root of each end, which is one of ``text``."""
 
     def zone(x: Interval, d: Plain) -> str:
@@ -439,9 +433,9 @@ def stable_in(latex: str, text: str) -> Kind[Sequence[Interval]]:
         end = _square_root(x.end, d.digits)
         return f"{d.interval(x, 'x')}, {d.formula(latex, text)} to {end}"
 
-    return Kind(
-        Several(kinds.INTERVAL),
-        Words(lambda xs, d: " or ".join(zone(x, d) for x in xs) if xs else "for no x"),
+    return facts.Kind(
+        facts.Several(kinds.INTERVAL),
+        facts.Words(lambda xs, d: " or ".join(zone(x, d) for x in xs) if xs else "for no x"),
     )
 
 
@@ -449,38 +443,38 @@ STABLE = stable_in(r"h\omega", "hω")
 STABLE_FAST = stable_in(r"h\omega_{\mathrm{fast}}", "hω_fast")
 
 
-def discriminant(o: OscillatorStability) -> Answer[Polynomial]:
+def discriminant(o: OscillatorStability) -> facts.Answer[Polynomial]:
     """4D² − N², with its meaning."""
     meaning = "tr M = N/D for a step M"
     if o.determinant.is_one:
         meaning += ", which is stable where this is positive"
-    return Answer(o.discriminant, reason=Reason(meaning))
+    return facts.Answer(o.discriminant, reason=Reason(meaning))
 
 
 OF_WAVES = "oscillator stable, x = (hω)²"
-OSCILLATOR: Rows[OscillatorStability] = [
-    Row("trace", kinds.ratio("x"), lambda x: x.trace, DETAIL),
-    Row("determinant", kinds.ratio("x"), lambda x: x.determinant, DETAIL),
-    Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
-    Row("stable", STABLE, lambda x: x.stable, label=OF_WAVES),
-    maybe("p_stable", kinds.TRUTH, p_stable),
-    maybe("i_stable", kinds.TRUTH, i_stable),
-    maybe("phase_order", PHASE, phase),
-    maybe("phase_constant", kinds.EXACT, lambda x: x.phase.constant, DATA),
-    maybe("conserved", CONSERVED, conserved, DETAIL),
+OSCILLATOR: facts.Rows[OscillatorStability] = [
+    facts.Row("trace", kinds.ratio("x"), lambda x: x.trace, DETAIL),
+    facts.Row("determinant", kinds.ratio("x"), lambda x: x.determinant, DETAIL),
+    facts.Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
+    facts.Row("stable", STABLE, lambda x: x.stable, label=OF_WAVES),
+    facts.maybe("p_stable", kinds.TRUTH, p_stable),
+    facts.maybe("i_stable", kinds.TRUTH, i_stable),
+    facts.maybe("phase_order", PHASE, phase),
+    facts.maybe("phase_constant", kinds.EXACT, lambda x: x.phase.constant, DATA),
+    facts.maybe("conserved", CONSERVED, conserved, DETAIL),
 ]
 
 
-def algebraic(x: StabilityReport) -> Answer[bool]:
+def algebraic(x: StabilityReport) -> facts.Answer[bool]:
     found = x.found
     if found.algebraic is None:
         late = _open(found, "algebraic")
         if late is not None:
             return late
         if found.is_linear_alone:
-            return Answer(None, reason=Reason("not applicable: not a Runge-Kutta method"))
+            return facts.Answer(None, reason=Reason("not applicable: not a Runge-Kutta method"))
         if found.tolerance is None:
-            return Answer(None, reason=Reason("not applicable: the parts are not coupled"))
+            return facts.Answer(None, reason=Reason("not applicable: the parts are not coupled"))
         return kinds.truth(found.algebraic_within, open_because=ROUNDED)
     why = [] if found.algebraic.weights_are_positive else ["a weight is negative"]
     if not found.algebraic.form_is_positive:
@@ -495,18 +489,18 @@ def title(x: StabilityReport, d: Plain) -> str:
     return name if within is None else d.known(name, Status(within))
 
 
-def head(kind: str) -> Rows[StabilityReport]:
+def head(kind: str) -> facts.Rows[StabilityReport]:
     return [
         *kinds.FILE_AND_NAME,
-        Row("derivation", kinds.DERIVATION, lambda x: x.derivation, DATA),
-        Row("kind", kinds.constant(kind), lambda _: kind, DATA),
-        maybe("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA),
+        facts.Row("derivation", kinds.DERIVATION, lambda x: x.derivation, DATA),
+        facts.Row("kind", kinds.constant(kind), lambda _: kind, DATA),
+        facts.maybe("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA),
     ]
 
 
-RADII: Section[AdditiveRadius] = Section(
-    Row("direction", kinds.EXACTS, lambda x: x.ratios),
-    maybe("radius", kinds.RADIUS, lambda x: x.radius),
+RADII: facts.Section[AdditiveRadius] = facts.Section(
+    facts.Row("direction", kinds.EXACTS, lambda x: x.ratios),
+    facts.maybe("radius", kinds.RADIUS, lambda x: x.radius),
 )
 
 
@@ -522,15 +516,17 @@ def _radii_words(found: Sequence[AdditiveRadius], d: Plain) -> str:
     return "; ".join(texts)
 
 
-def _ray(sign: str) -> Kind[Ray]:
+def _ray(sign: str) -> facts.Kind[Ray]:
     def words(ray: Ray, d: Plain) -> str:
         if ray.end is None:
             return "no limit"
         return "none" if ray.end.exact == 0 else d.upto(sign, ray.end)
 
-    return Kind(
-        Json(_END, lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)}),
-        Words(words),
+    return facts.Kind(
+        facts.Json(
+            _END, lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)}
+        ),
+        facts.Words(words),
     )
 
 
@@ -544,11 +540,11 @@ def imex(x: StabilityReport) -> Imex | None:
     return Imex(colours, colours.pair) if colours is not None and colours.pair else None
 
 
-IMEX: Section[Imex] = Section(
-    Row("explicit", kinds.TEXT, lambda x: x.colours.names[x.pair.explicit], DATA),
-    Row("implicit", kinds.TEXT, lambda x: x.colours.names[x.pair.implicit], DATA),
-    maybe("real_interval", _ray("−z"), lambda x: _open(x.colours, "real") or x.colours.real),
-    maybe(
+IMEX: facts.Section[Imex] = facts.Section(
+    facts.Row("explicit", kinds.TEXT, lambda x: x.colours.names[x.pair.explicit], DATA),
+    facts.Row("implicit", kinds.TEXT, lambda x: x.colours.names[x.pair.implicit], DATA),
+    facts.maybe("real_interval", _ray("−z"), lambda x: _open(x.colours, "real") or x.colours.real),
+    facts.maybe(
         "imaginary_interval",
         _ray("|z|"),
         lambda x: _open(x.colours, "imaginary") or x.colours.imaginary,
@@ -560,20 +556,20 @@ IMEX: Section[Imex] = Section(
 )
 
 
-PLOT: Row[StabilityReport] = plot(
+PLOT: facts.Row[StabilityReport] = plot(
     lambda x: stability_scene([(x.name, x.found)], x.is_order_star, x.plane),
     lambda x: bool(x.found.linear or x.found.oscillator or x.plane),
 )
 
 
-def fraction(x: Colours) -> Fraction | Answer[Fraction]:
+def fraction(x: Colours) -> Fraction | facts.Answer[Fraction]:
     too_large = Reason(f"too large: {x.lines} lines determine it (limit {MOST_LINES})")
-    return x.R or _open(x, "R") or Answer(None, reason=too_large)
+    return x.R or _open(x, "R") or facts.Answer(None, reason=too_large)
 
 
-OF_COLOURS: Rows[Colours] = (
-    maybe("R", FRACTION, fraction, label="R(z1, z2, …)"),
-    maybe("ssp_radii", parts(RADII, _radii_words), lambda x: _open(x, "radii") or x.radii),
+OF_COLOURS: facts.Rows[Colours] = (
+    facts.maybe("R", FRACTION, fraction, label="R(z1, z2, …)"),
+    facts.maybe("ssp_radii", parts(RADII, _radii_words), lambda x: _open(x, "radii") or x.radii),
 )
 
 
@@ -646,7 +642,7 @@ def _coupled_words(x: Imex, d: Plain) -> str:
     return f"{_interval('real', real, d)}, {_interval('imaginary', imaginary, d)}"
 
 
-def _after_colon(words: Wording[T]) -> Kind[T]:
+def _after_colon(words: facts.Wording[T]) -> facts.Kind[T]:
     return told(words, lambda name, x, _, d: f"{name}: {words(x, d)}")
 
 
@@ -659,64 +655,70 @@ def _implicit_words(x: LinearStability, d: Plain) -> str:
     return d.prose(x.words)
 
 
-def _line(section: Section[T]) -> Kind[T]:
+def _line(section: facts.Section[T]) -> facts.Kind[T]:
     """The rows of a section, shown in text but not in JSON."""
-    return Kind(None, part(section).shown)
+    return facts.Kind(None, part(section).shown)
 
 
-def coupled(x: StabilityReport) -> Imex | Answer[Never]:
+def coupled(x: StabilityReport) -> Imex | facts.Answer[Never]:
     """The implicit-explicit pair, or why its interval is not known."""
     if x.found.colours is None:
-        return Answer(None, Status(open=ROUNDED))
+        return facts.Answer(None, Status(open=ROUNDED))
     found = imex(x)
     if found is not None:
         return found
     R = fraction(x.found.colours)
-    assert isinstance(R, Answer)
-    return Answer(None, Status(open=R.status.open or R.reason))
+    assert isinstance(R, facts.Answer)
+    return facts.Answer(None, Status(open=R.status.open or R.reason))
 
 
 def _colours(x: StabilityReport) -> Colours | None:
     return x.found.colours
 
 
-ALIKE: Rows[StabilityReport] = via(lambda x: x.found.linear[0], LINEAR)
-ALONE: Row[StabilityReport] = Row("colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL)
-SEVERAL: Rows[StabilityReport] = [
-    *via(_colours, OF_COLOURS[:1]),
+ALIKE: facts.Rows[StabilityReport] = facts.via(lambda x: x.found.linear[0], LINEAR)
+ALONE: facts.Row[StabilityReport] = facts.Row(
+    "colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL
+)
+SEVERAL: facts.Rows[StabilityReport] = [
+    *facts.via(_colours, OF_COLOURS[:1]),
     *(row for row in ALIKE if row.key != "R"),
     ALONE,
-    Row("R_alike", kinds.ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
-    *via(_colours, OF_COLOURS[1:]),
-    maybe("pair", part(IMEX), imex),
+    facts.Row("R_alike", kinds.ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
+    *facts.via(_colours, OF_COLOURS[1:]),
+    facts.maybe("pair", part(IMEX), imex),
 ]
 
 
-def _of_linear(*keys: str) -> Section[LinearStability]:
+def _of_linear(*keys: str) -> facts.Section[LinearStability]:
     """Returns rows of ``LINEAR`` by their keys."""
     rows = {row.key: row for row in LINEAR}
-    return Section([rows[key] for key in keys])
+    return facts.Section([rows[key] for key in keys])
 
 
 EXPLICIT = _of_linear("real_interval", "imaginary_interval", "ssp")
 IMPLICIT = _of_linear("R_infinity", "A_alpha", "ssp")
-OF_BOTH: Rows[ImexParts] = [
-    Row("implicit_part", told(_implicit_words), lambda x: x.implicit, HEADLINE),
-    Row("explicit_part", _after_colon(_explicit_words), lambda x: x.explicit, HEADLINE),
-    Row("of_implicit", _line(IMPLICIT), lambda x: x.implicit, label="implicit part", is_short=True),
-    Row("of_explicit", _line(EXPLICIT), lambda x: x.explicit, label="explicit part", is_short=True),
+OF_BOTH: facts.Rows[ImexParts] = [
+    facts.Row("implicit_part", told(_implicit_words), lambda x: x.implicit, HEADLINE),
+    facts.Row("explicit_part", _after_colon(_explicit_words), lambda x: x.explicit, HEADLINE),
+    facts.Row(
+        "of_implicit", _line(IMPLICIT), lambda x: x.implicit, label="implicit part", is_short=True
+    ),
+    facts.Row(
+        "of_explicit", _line(EXPLICIT), lambda x: x.explicit, label="explicit part", is_short=True
+    ),
 ]
-PARTS: Rows[StabilityReport] = [
-    *via(imex_parts, OF_BOTH),
-    Row("coupled", _after_colon(_coupled_words), coupled, HEADLINE),
+PARTS: facts.Rows[StabilityReport] = [
+    *facts.via(imex_parts, OF_BOTH),
+    facts.Row("coupled", _after_colon(_coupled_words), coupled, HEADLINE),
 ]
 """An implicit-explicit method by its parts: what one λ for both says comes with -v."""
-ONE_LAMBDA: Row[StabilityReport] = Row(
+ONE_LAMBDA: facts.Row[StabilityReport] = facts.Row(
     "one_lambda", _line(OF_ALL), lambda x: x.found.linear[0], DETAIL, label="one λ"
 )
 
 
-def _by_parts(rows: Rows[StabilityReport]) -> Rows[StabilityReport]:
+def _by_parts(rows: facts.Rows[StabilityReport]) -> facts.Rows[StabilityReport]:
     """The rows of an implicit-explicit method, its parts first."""
     of_one_lambda = {row.key for row in LINEAR} - {"points"} | {"R_alike"}
     changes = {"pair": {"label": "coupled"}, "points": {"label": "at points, z1 = z2"}}
@@ -731,7 +733,7 @@ def _by_parts(rows: Rows[StabilityReport]) -> Rows[StabilityReport]:
     ]
 
 
-def _waves(linear: str, waves: str) -> Rows[StabilityReport]:
+def _waves(linear: str, waves: str) -> facts.Rows[StabilityReport]:
     """The rows of the oscillator; first where there is no other test equation."""
     rows = WAVES[waves]
     if linear != "none":
@@ -742,10 +744,10 @@ def _waves(linear: str, waves: str) -> Rows[StabilityReport]:
     ]
 
 
-WAVES: dict[str, Rows[StabilityReport]] = {
+WAVES: dict[str, facts.Rows[StabilityReport]] = {
     "none": [],
-    "late": [maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
-    "known": via(lambda x: x.found.oscillator, OSCILLATOR),
+    "late": [facts.maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
+    "known": facts.via(lambda x: x.found.oscillator, OSCILLATOR),
 }
 """Rows about the oscillator, by the state of knowledge."""
 
@@ -757,18 +759,18 @@ def _left_out_words(_: StabilityReport, d: Plain) -> str:
     )
 
 
-LEFT_OUT: Row[StabilityReport] = maybe(
+LEFT_OUT: facts.Row[StabilityReport] = facts.maybe(
     "left_out",
-    Kind(None, Words(_left_out_words)),
+    facts.Kind(None, facts.Words(_left_out_words)),
     lambda x: x if x.found.linear and x.found.tolerance is not None else None,
     label="not within a tolerance",
 )
-TAIL: Rows[StabilityReport] = [
-    maybe("algebraically_stable", kinds.TRUTH, algebraic),
+TAIL: facts.Rows[StabilityReport] = [
+    facts.maybe("algebraically_stable", kinds.TRUTH, algebraic),
     LEFT_OUT,
     PLOT,
 ]
-LINEARS: dict[str, Rows[StabilityReport]] = {
+LINEARS: dict[str, facts.Rows[StabilityReport]] = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, ALONE, EMBEDDED],
     "several": [*head("linear"), *SEVERAL, EMBEDDED],
@@ -779,7 +781,7 @@ LINEARS: dict[str, Rows[StabilityReport]] = {
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 COLUMNS_OF_PARTS = ("file", "implicit_part", "explicit_part", "coupled")
 FORMS = {
-    (linear, waves): Section(
+    (linear, waves): facts.Section(
         rows,
         _waves(linear, waves),
         TAIL,
@@ -798,9 +800,9 @@ def factors(p: Polynomial) -> list[tuple[Polynomial, int]]:
     return [(Polynomial.from_flint(factor), power) for factor, power in found]
 
 
-FACTOR: Section[tuple[Polynomial, int]] = Section(
-    Row("factor", kinds.polynomial("x"), lambda x: x[0]),
-    Row("multiplicity", kinds.POSITION, lambda x: x[1]),
+FACTOR: facts.Section[tuple[Polynomial, int]] = facts.Section(
+    facts.Row("factor", kinds.polynomial("x"), lambda x: x[0]),
+    facts.Row("multiplicity", kinds.POSITION, lambda x: x[1]),
 )
 
 
@@ -808,36 +810,36 @@ def _factors_words(found: Sequence[tuple[Polynomial, int]], d: Plain) -> str:
     return "; ".join(d.polynomial(p, "x") + (f", {k} times" if k > 1 else "") for p, k in found)
 
 
-OF_SPRINGS: Rows[TwoFrequencies] = (
-    Row("slow", SQUARE, lambda x: x.slow, label="two springs, x = (hω_fast)²"),
-    Row("trace", kinds.ratio("x"), lambda x: x.trace, DETAIL),
-    Row("determinant", kinds.ratio("x"), lambda x: x.determinant, DETAIL),
-    Row(
+OF_SPRINGS: facts.Rows[TwoFrequencies] = (
+    facts.Row("slow", SQUARE, lambda x: x.slow, label="two springs, x = (hω_fast)²"),
+    facts.Row("trace", kinds.ratio("x"), lambda x: x.trace, DETAIL),
+    facts.Row("determinant", kinds.ratio("x"), lambda x: x.determinant, DETAIL),
+    facts.Row(
         "factors",
         parts(FACTOR, _factors_words),
-        lambda s: Answer(factors(s.discriminant), reason=Reason("tr M = N/D for a step M")),
+        lambda s: facts.Answer(factors(s.discriminant), reason=Reason("tr M = N/D for a step M")),
     ),
-    Row("stable", STABLE_FAST, lambda x: x.stable),
+    facts.Row("stable", STABLE_FAST, lambda x: x.stable),
 )
-OF_SLOW: Rows[SlowInterval] = (
-    itself("slow", FROM_TO, label="two springs, x = (hω_fast)²"),
-    Row("stable", STABLE_FAST, lambda x: x.stable),
-    maybe(
+OF_SLOW: facts.Rows[SlowInterval] = (
+    facts.itself("slow", FROM_TO, label="two springs, x = (hω_fast)²"),
+    facts.Row("stable", STABLE_FAST, lambda x: x.stable),
+    facts.maybe(
         "stable_for_every_fast",
         kinds.TRUTH,
         lambda x: kinds.truth(x.is_stable_for_all, open_because="at the x below"),
     ),
-    Row("open_points", kinds.ROOTS, lambda x: x.open_points),
+    facts.Row("open_points", kinds.ROOTS, lambda x: x.open_points),
 )
-SPRINGS: Section[StabilityReport] = Section(
-    head("two-frequencies"), via(lambda x: x.springs, OF_SPRINGS), PLOT, title=title
+SPRINGS: facts.Section[StabilityReport] = facts.Section(
+    head("two-frequencies"), facts.via(lambda x: x.springs, OF_SPRINGS), PLOT, title=title
 )
-SLOW: Section[StabilityReport] = Section(
-    head("slow-interval"), via(lambda x: x.slow, OF_SLOW), PLOT, title=title
+SLOW: facts.Section[StabilityReport] = facts.Section(
+    head("slow-interval"), facts.via(lambda x: x.slow, OF_SLOW), PLOT, title=title
 )
 
 
-def form(x: StabilityReport) -> Section[StabilityReport]:
+def form(x: StabilityReport) -> facts.Section[StabilityReport]:
     """The rows of a report: fields are there by what the method is."""
     if x.slow is not None:
         return SLOW
