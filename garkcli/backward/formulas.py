@@ -11,7 +11,7 @@ from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
-from garkcli.exact.nodes import Expression
+from garkcli.exact.nodes import AlgebraicRoot, Expression
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.free import Structure
 from garkcli.ntrees.kind import LINEAR
@@ -305,7 +305,6 @@ def in_sympy(number: Number) -> Any:
 
 
 def _radical(radical: Expression) -> Any:
-    from garkcli.exact.nodes import AlgebraicRoot
     from garkcli.exact.rewriting import roots_in
     from garkcli.problems.translate import Translator
 

@@ -270,7 +270,7 @@ the solution.
 _BITS = 4 * _DIGITS
 
 
-@doing("invariants along the righthandside.solution")
+@doing("invariants along the solution")
 def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
     after which it is measured.

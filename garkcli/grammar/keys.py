@@ -88,8 +88,6 @@ class Key(Frozen):
 
     def entries(self, above: str, page: str) -> Iterator[KeyMeaning]:
         """Yields the entries of the glossary for the key and the keys within it."""
-        from garkcli.glossary.key import KeyMeaning  # only pages and explanations tell of keys
-
         path, own = above + self.name, self.page or page
         if self.is_listed:
             yield KeyMeaning(path, self.text, self.line, self.default, own, self.is_word)

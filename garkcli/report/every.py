@@ -93,8 +93,6 @@ def lifted(inner: Kind[V]) -> Kind[FamilyFact]:
     """The kind for families: a value with exceptions."""
 
     def words(f: FamilyFact, d: Plain) -> str:
-        from garkcli.tell.dialect import Plain
-
         plain, of_value = (
             Plain(colours=d.colours),
             cast("Callable[[object, Plain], str]", inner.words),

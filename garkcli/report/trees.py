@@ -15,7 +15,7 @@ from garkcli.ntrees.free import Structure
 from garkcli.ntrees.notation import format_tree, parse_tree
 from garkcli.ntrees.symplectic import Kind as Symplectic
 from garkcli.ntrees.tree import Tree
-from garkcli.order.meant import AnyTableau, printed
+from garkcli.order.meant import AnyTableau, derived, printed
 from garkcli.page.schema import TEXT, Schema, array, counts_of, one_of, published
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
@@ -350,7 +350,6 @@ def subject_of_method(method: AnyTableau, orders: range) -> SymplecticSubject:
             momenta only.
         ZeroWeight: the pair would divide by zero.
     """
-    from garkcli.order.meant import derived
     from garkcli.order.simplifying import is_symplectic
 
     if not is_symplectic(method):

@@ -219,8 +219,6 @@ class Said(Frozen, Generic[V]):
         return self.kind.words(self.value, dialect)
 
     def __str__(self) -> str:
-        from garkcli.tell.dialect import Plain
-
         return self.words(Plain())
 
 

@@ -10,7 +10,7 @@ from garkcli.errors import printable
 from garkcli.exact.display import shortest, to_latex
 from garkcli.exact.letters import LETTERS
 from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
-from garkcli.page.exactly import polynomial_latex, quotient_latex
+from garkcli.page.exactly import definition, definition_latex, polynomial_latex, quotient_latex
 from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, GridLayout, Plain
 from garkcli.tell.latex import expression_latex
 
@@ -99,8 +99,6 @@ class Html(Plain):
         return [f"<p>… {count} more</p>"]
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:
-        from garkcli.page.exactly import definition, definition_latex
-
         for root, letter in letters.items():
             if letter in text or LETTERS[letter].strip() in text:
                 latex = definition_latex(root, letter)

@@ -6,12 +6,12 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from garkcli.errors import printable
+from garkcli.errors import ExpressionError, printable
 from garkcli.exact.display import to_latex
 from garkcli.exact.letters import LETTERS
 from garkcli.exact.polynomial_text import root_text
 from garkcli.ntrees.notation import format_latex, parse_tree
-from garkcli.page.exactly import multivariate_latex, polynomial_latex
+from garkcli.page.exactly import definition_latex, multivariate_latex, polynomial_latex
 from garkcli.page.latex import greek
 from garkcli.tell.dialect import WHOLE, Cells, GridLayout, Plain
 
@@ -63,7 +63,6 @@ def _sign(found: re.Match[str]) -> str:
 
 def expression_latex(text: str) -> str | None:
     """An expression of method files; None if the text is another one, or too large."""
-    from garkcli.errors import ExpressionError
     from garkcli.exact.expression import parse
     from garkcli.exact.rewriting import format_expression
 
@@ -183,8 +182,6 @@ class Latex(Plain):
         yield ""
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:
-        from garkcli.page.exactly import definition_latex
-
         for root, letter in letters.items():
             if LETTERS[letter].strip() in text:
                 yield rf"\[ {definition_latex(root, letter)} \]"

@@ -12,7 +12,8 @@ from garkcli import hamiltonian, load, loads
 from garkcli.backward import formulas
 from garkcli.backward.formulas import in_sympy, modified_formula
 from garkcli.errors import UsageProblem
-from garkcli.problems.hamiltonian import Hamiltonian, symbols
+from garkcli.problems.hamiltonian import Hamiltonian
+from garkcli.problems.vectorfield import symbols
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import bch

@@ -194,8 +194,8 @@ def test_the_rest_is_decided_where_one_part_is_late(monkeypatch: pytest.MonkeyPa
     [
         ("usual_oscillator", "rk4", "oscillator stable, x = (hω)²"),
         ("algebraic_stability", "rk4", "algebraically stable"),
-        ("is_a_stable", "gauss-2", "A-stable"),
-        ("real_set", "rk4", "real axis"),
+        ("linear_problems.is_a_stable", "gauss-2", "A-stable"),
+        ("linear_problems.real_set", "rk4", "real axis"),
         ("ssp_coefficient", "rk4", "SSP coefficient"),
         ("stability_fraction", "methods/ark-ars222.gark.yaml", "R(z1, z2, …)"),
         ("additive_radius", "methods/ark-ars222.gark.yaml", "additive SSP radii"),
@@ -216,7 +216,7 @@ def test_without_time_for_r_nothing_is_said(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """All else is about R: the exit code is that of what is not decided."""
-    monkeypatch.setattr("garkcli.stability.summary.stability_function", late)
+    monkeypatch.setattr("garkcli.stability.linear.stability_function", late)
     monkeypatch.setattr("sys.argv", ["gark", "stability", "gauss-2"])
     with pytest.raises(SystemExit) as ended:
         main()

@@ -23,15 +23,8 @@ from garkcli.order.simplifying import simplifying
 from garkcli.tableau import polynomial_space
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
-from garkcli.tableau.pointwise import (
-    Cell,
-    coordinates_at_nodes,
-    entries,
-    in_points,
-    numeric_entries,
-    powers_of_nodes,
-)
-from garkcli.tableau.polynomial_space import PolynomialSpace
+from garkcli.tableau.pointwise import Cell, entries, in_points, numeric_entries
+from garkcli.tableau.polynomial_space import PolynomialSpace, coordinates_at_nodes, powers_of_nodes
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau, butcher
 from garkcli.transfer import collocation

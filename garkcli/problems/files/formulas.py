@@ -19,7 +19,7 @@ from garkcli.grammar.source import Entries, Source
 from garkcli.grammar.spellings import explained, number_text
 from garkcli.problems.expr import Expr, Invariants, Place, Vector, rational
 from garkcli.problems.files.keys import ProblemText
-from garkcli.problems.translate import Translator
+from garkcli.problems.translate import MAX_SIZE, Translator, size_of_derivatives
 
 BITS = 320
 """The precision of the values of formulas."""
@@ -266,8 +266,6 @@ class Maker:
 
     def check_size(self, terms: Sequence[FormulaTerm]) -> None:
         """Reports terms whose derivatives are too long."""
-        from garkcli.problems.translate import MAX_SIZE, size_of_derivatives
-
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]

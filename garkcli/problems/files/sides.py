@@ -10,7 +10,7 @@ from flint import arb, fmpq
 
 from garkcli.problems.files.formulas import FormulaReader, FormulaTerm, Maker, named, nearby
 from garkcli.problems.files.keys import STIFFNESS, ProblemText, Side
-from garkcli.problems.vectorfield import TIME
+from garkcli.problems.vectorfield import TIME, symbols
 
 if TYPE_CHECKING:
     from garkcli.problems.righthandside import RightHandSide
@@ -27,8 +27,6 @@ class SidesMaker(Maker):
     """Makes the problem of a file with ``rhs``."""
 
     def __init__(self, formulas: FormulaReader, text: ProblemText) -> None:
-        from garkcli.problems.vectorfield import symbols
-
         self.y = symbols(text.variables, "y")
         (self.t,) = symbols(text.variables, TIME)
         self.variables = text.variables if text.are_named else ()

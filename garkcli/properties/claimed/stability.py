@@ -23,7 +23,7 @@ from garkcli.properties.naming import entry, entry_is, number_words, place
 from garkcli.properties.subject import MISSING_BLOCKS, SEES_ALL, Subject, claimed
 from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import NO_REASON, Formula, Reason
-from garkcli.stability.linear import StabilityFunction, e_polynomial, imaginary_set, poles_are_right
+from garkcli.stability import linear as linear_problems
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -44,19 +44,19 @@ def decide_within(found: bool | None) -> Verdict:
     return Verdict(found)
 
 
-def obstacle_to_a_stability(R: StabilityFunction) -> Reason:
+def obstacle_to_a_stability(R: linear_problems.StabilityFunction) -> Reason:
     """Why |R| > 1 somewhere in the left half plane; empty for an A-stable method."""
     P, Q = R.numerator, R.denominator
     if P.degree > Q.degree:
         return Reason("R(z) is not bounded: its numerator has the larger degree")
-    if not poles_are_right(Q):
+    if not linear_problems.poles_are_right(Q):
         return Reason("R has a pole at z = {}", _left_pole(Q))
-    gap = first_gap(imaginary_set(R))
+    gap = first_gap(linear_problems.imaginary_set(R))
     if gap is None:
         return NO_REASON
     where = "|R(iy)| > 1 at x = y² = {}"
     x = Formula(str(between(gap.start, gap.end)))
-    (E,) = integral([e_polynomial(R)])
+    (E,) = integral([linear_problems.e_polynomial(R)])
     text = polynomial_text(E, "x")
     return (
         Reason(f"{where}: there {{}} < 0", x, Formula(text))
@@ -283,13 +283,11 @@ def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
 )
 def real_stability(subject: Subject) -> Verdict:
     """The length of the real stability interval: the largest x with |R(z)| ≤ 1 on [−x, 0]."""
-    from garkcli.stability.linear import real_set
-
     if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return _between(subject.intervals.real)
-    return Verdict(Size(first_end(real_set(subject.linear))))
+    return Verdict(Size(first_end(linear_problems.real_set(subject.linear))))
 
 
 @claimed(
@@ -303,11 +301,9 @@ def imaginary_stability(subject: Subject) -> Verdict:
     """The length of the imaginary stability interval: the largest y with |R(z)| ≤ 1 on [−iy,
     iy].
     """
-    from garkcli.stability.linear import imaginary_set
-
     if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
         return _between(subject.intervals.imaginary, is_squared=True)
-    squared = first_end(imaginary_set(subject.linear))
+    squared = first_end(linear_problems.imaginary_set(subject.linear))
     return Verdict(Size(None if squared is None else square_root(squared)))
