@@ -355,7 +355,7 @@ def truth(key: str) -> Row[Analysis]:
         return replace(answer, level=USUAL if is_told else DETAIL)
 
     kind = Kind(kinds.TRUTH.what, Words(kinds.truth_words, phrase=phrase))
-    return maybe(find(key).field, kind, get)
+    return maybe(find(key).field, kind, get, USUAL if words else DETAIL)
 
 
 def _names(tableau: Tableau, space: int) -> list[str]:
@@ -473,6 +473,8 @@ def count_rows(key: str) -> Rows[Analysis]:
 
 
 def colours_apart(a: Analysis) -> list[OfColour] | None:
+    if a.tableau.size == 1:
+        return None
     found = by_colour(a)
     kinds_of = {(x.shape and x.shape.kind, x.stage_order) for x in found}
     return found if len(kinds_of) > 1 else None
@@ -498,7 +500,9 @@ OWN_ROWS: dict[str, Rows[Analysis]] = {
         maybe(
             "gamma",
             kinds.GAMMA,
-            lambda a: Answer(a.subject.shape.gamma, Status(within(a, "gamma"))),
+            lambda a: Answer(
+                a.subject.shape.gamma, Status(rounding("gamma", a.subject.shape.gamma, a.tolerance))
+            ),
         ),
     ),
     "implicit-stages": (
@@ -529,6 +533,7 @@ PROPERTIES: Section[Analysis] = Section(
         "by_colour",
         parts(COLOUR),
         lambda a: Answer(by_colour(a), level=DETAIL if a.tableau.size > 1 else DATA),
+        DETAIL,
     ),
     Row(
         "undecided",
