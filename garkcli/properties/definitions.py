@@ -8,7 +8,7 @@ from typing import Literal
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
 from garkcli.properties.registry import KEYS
-from garkcli.properties.subject import KINDS, Kind, Property, find
+from garkcli.properties.verdict import KINDS, Kind
 
 
 class Definition(Frozen):
@@ -289,18 +289,21 @@ ORDERS = {found.key: found for found in _ORDERS}
 """The claims that are not properties, by key."""
 
 
-def _of_property(found: Property) -> Definition:
+def _of_property(key: str) -> Definition:
+    from garkcli.properties.subject import find  # decisions, which most files do without
+
+    found = find(key)
     return Definition(found.key, found.text, found.source, found.kind, found.meaning)
 
 
 def every_definition() -> list[Definition]:
-    return [*ORDERS.values(), *(_of_property(find(key)) for key in KEYS)]
+    return [*ORDERS.values(), *(_of_property(key) for key in KEYS)]
 
 
 def definition(key: str) -> Definition:
     """The definition of a claim. Raises UsageProblem if there is no such claim."""
     if key in KEYS:
-        return _of_property(find(key))
+        return _of_property(key)
     if key in ORDERS:
         return ORDERS[key]
     message = f"no claim {key!r}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cache, cached_property
 from importlib import import_module
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -20,7 +20,7 @@ from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.reduction import at_points, reduced
 from garkcli.properties.registry import KEYS
 from garkcli.properties.symmetry import Symmetry, symmetry
-from garkcli.properties.verdict import Verdict
+from garkcli.properties.verdict import Asks, Kind, Verdict
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.stages import PointSpace
@@ -31,20 +31,6 @@ if TYPE_CHECKING:
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.within import StabilityWithin
 
-Kind: TypeAlias = Literal["truth", "count", "number"]
-"""The kinds of values: true or false, an integer, or a real number that may be infinite."""
-KINDS: dict[Kind, str] = {
-    "truth": "`true` or `false`",
-    "count": 'a whole number, or `">= n"`',
-    "number": "an exact number such as `2*sqrt(2)`, a decimal that it is rounded to,"
-    ' `infinity`, or `">= x"`',
-}
-"""The notation of claims of each kind."""
-Asks: TypeAlias = Literal["zeros", "equations", "signs"]
-"""The question about the coefficients that decides a property: which are zero, which equations they
-meet, or which signs some numbers have. Rounded coefficients meet equations within their tolerance;
-the other properties hold for all methods there, or are undecided.
-"""
 MISSING_BLOCKS = Reason("some stages do not depend on every vector field")
 """Why properties of all vector fields together are not defined if blocks are missing."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import inf
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from garkcli.frozen import Frozen
 from garkcli.reason import NO_REASON, Formula, Reason
@@ -13,6 +13,20 @@ if TYPE_CHECKING:
 
     from garkcli.exact.roots import RealRoot
 
+Kind: TypeAlias = Literal["truth", "count", "number"]
+"""The kinds of values: true or false, an integer, or a real number that may be infinite."""
+KINDS: dict[Kind, str] = {
+    "truth": "`true` or `false`",
+    "count": 'a whole number, or `">= n"`',
+    "number": "an exact number such as `2*sqrt(2)`, a decimal that it is rounded to,"
+    ' `infinity`, or `">= x"`',
+}
+"""The notation of claims of each kind."""
+Asks: TypeAlias = Literal["zeros", "equations", "signs"]
+"""The question about the coefficients that decides a property: which are zero, which equations they
+meet, or which signs some numbers have. Rounded coefficients meet equations within their tolerance;
+the other properties hold for all methods there, or are undecided.
+"""
 _DIGITS = 12
 _LONG = 60
 
