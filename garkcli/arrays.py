@@ -11,5 +11,4 @@ if TYPE_CHECKING:
     Array: TypeAlias = NDArray[Any]
     """Numbers of any type; of any shape, as all below."""
     Floats: TypeAlias = NDArray[np.float64]
-    Complexes: TypeAlias = NDArray[np.complex128]
     Integers: TypeAlias = NDArray[np.int64]

@@ -14,7 +14,6 @@ from garkcli.doing import hush
 from garkcli.terminal import is_terminal
 
 STDIN = "-"
-"""The path of standard input."""
 _OWN_STREAM = r"/dev/(?:fd/)?(\d{1,9}|stdin|stdout|stderr)|/proc/self/fd/(\d{1,9})"
 _NAMED = {"stdin": 0, "stdout": 1, "stderr": 2}
 _inputs: ContextVar[set[tuple[int, int]] | None] = ContextVar("inputs", default=None)

@@ -8,7 +8,6 @@ from garkcli.frozen import Frozen
 
 ARXIV = "https://arxiv.org/abs/"
 WORKS = ("article", "book", "chapter", "report", "software", "thesis", "web")
-"""The types of publications."""
 
 
 class Reference(Frozen, kw_only=True):

@@ -162,7 +162,6 @@ AnyAnalysis: TypeAlias = (
     "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | DerivativesAnalysis"
     " | InfinitesimalAnalysis"
 )
-"""The analysis of a method of any kind."""
 
 
 @doing("conjugate and pair")

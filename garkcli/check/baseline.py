@@ -16,11 +16,8 @@ from garkcli.files import read_bytes
 from garkcli.frozen import Frozen
 
 File: TypeAlias = Mapping[str, Any]
-"""The entry of a file in a JSON report."""
 Earlier: TypeAlias = Mapping[str, File]
-"""The files of an earlier report by path."""
 SCHEMA = "gark/check/1"
-"""The schema of the report that serves as a baseline."""
 ORDERS = (
     "order",
     "conjugate_order",

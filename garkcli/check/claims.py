@@ -107,14 +107,11 @@ OF_ROSENBROCK = (
     *("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order"),
     *OF_DAE,
 )
-"""The further orders of Rosenbrock methods."""
 OF_NYSTROM = (
     *("position-order", "velocity-order", "embedded-position-order", "embedded-velocity-order"),
     *_OF_DENSE_STEPS,
 )
-"""The orders that Nyström methods have besides."""
 OF_INFINITESIMAL = ("slow-order",)
-"""The orders of multirate methods with exact fast solutions."""
 
 
 _OF_OTHERS = frozenset({*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL})

@@ -27,7 +27,6 @@ from garkcli.tableau.family import ring_of
 from garkcli.tableau.tableau import Tableau
 
 Worded: TypeAlias = "Value | str"
-"""A part of a reason."""
 MOST_SPECIAL = 60
 """The largest number of exceptional values that are examined."""
 

@@ -276,7 +276,6 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
 MOST_DEGREE = 6
 """Values of larger degree are not examined over their number field."""
 _SAMPLES = [fmpq(*x) for x in ((2, 7), (3, 5), (7, 4), (-5, 3), (11, 3))]
-"""Sample values of parameters."""
 MOST_SAMPLES = 40
 
 

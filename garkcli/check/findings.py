@@ -47,7 +47,6 @@ _SHORT = 20
 _LONG = 60
 """Length of value and residual beyond which a witness is shown in decimals."""
 _MOST = 3
-"""Most repairs in a hint."""
 
 
 def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
@@ -59,11 +58,9 @@ DENSE_ORDERS = {
     "dense-position-order": "position_order",
     "dense-velocity-order": "velocity_order",
 }
-"""Claims on orders of dense output, and the attributes for them."""
 
 
 PREDICTOR_ORDERS = ("predictor-order", "predictor-order-equal-steps")
-"""Claims on a predictor."""
 
 
 def dense_witness_text(dense: DenseWitness, colours: bool | Sequence[str]) -> Reason:

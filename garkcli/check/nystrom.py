@@ -18,7 +18,6 @@ from garkcli.tableau.embedded import NOTHING, DenseOutput, Further
 from garkcli.tableau.tableau import Tableau
 
 VIEWS: dict[str, Which] = {"position-order": "in_positions", "velocity-order": "in_velocities"}
-"""The orders of the two components, by their claims."""
 OF_OSCILLATOR = frozenset({"p-stable", "i-stable"})
 """Properties of the partitioned method with the same steps."""
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Nyström method is not")

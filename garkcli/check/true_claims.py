@@ -29,11 +29,8 @@ OF_NYSTROM = (
     *("embedded-order", "embedded-position-order", "embedded-velocity-order"),
     *("dense-order", "dense-position-order", "dense-velocity-order"),
 )
-"""Claims on the orders of Nyström methods."""
 OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")
-"""Claims on the orders of multirate methods with exact fast solutions."""
 OF_DERIVATIVES = ("order", "embedded-order", "a-stable", "l-stable")
-"""Claims of methods that use derivatives."""
 OF_OTHER_KINDS = {
     "a Rosenbrock method": OF_ROSENBROCK,
     "a Nyström method": OF_NYSTROM,
@@ -41,7 +38,6 @@ OF_OTHER_KINDS = {
     "a multiderivative method": OF_DERIVATIVES,
     "a multirate method with the exact fast part": OF_INFINITESIMAL,
 }
-"""Claims of methods that are not GARK methods, by kind."""
 DIGITS = 12
 """Digits of numbers without simple radicals; a decimal claims these digits only."""
 

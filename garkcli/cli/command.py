@@ -33,12 +33,10 @@ ONE_METHOD = (
     "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
     "or - for standard input"
 )
-"""The description of one method on the command line."""
 SEVERAL = (
     "a directory stands for all *.gark.yaml below it, a pattern (in quotes, ** for any "
     "directories) for the files that match"
 )
-"""The description of several methods."""
 
 
 class Declared(Frozen, Generic[Given]):

@@ -48,7 +48,6 @@ PROOFS = ("exact", "exists", "numerical")
 
 
 SECONDS = 60.0
-"""The default time of ``gark design``."""
 _STABLE = "stable_values.wanted"
 
 

@@ -13,7 +13,6 @@ from garkcli.errors import UsageProblem
 AUTO = "auto"
 """The format that suits the environment of the command."""
 PLAIN = ".txt"
-"""The ending of any text."""
 ENDINGS: Mapping[str, tuple[str, ...]] = {
     ".json": ("json", "sarif"),
     ".jsonl": ("jsonl", "ndjson"),

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
 CERTIFICATE = "certificate"
 PROOFS = ("json", *(x for x in FORMATS if x != "json"), "coq")
-"""The formats of certificates."""
 
 
 def targets() -> list[str]:

@@ -301,7 +301,6 @@ FOLDER: Kind[str] = Kind(
 )
 PICTURE: Kind[str] = Kind({**file().settings, "callback": arguments.picture})
 DECIMALS = number("N", 1, 1000)
-"""The digits of decimals."""
 
 
 class Options(Frozen):

@@ -225,7 +225,6 @@ COMMANDS = {
         ("gark lsp --once mine.yaml", "gark lsp --once rk4"),
     ),
 }
-"""The commands in the order of the help."""
 FORMER = {
     "conjugate": ("tableau", "--conjugate"),
     "reduce": ("convert", "--to", "reduced"),

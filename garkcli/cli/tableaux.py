@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 DEFAULT_DIGITS = 17
-"""The default number of digits of entries without simple radicals."""
 EXIT_CODES = {
     "identical": 0,
     "same": 0,

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 MANY = 1_000_000
 """For more lines the command asks first."""
 MAX_PICTURES = 2000
-"""The largest number of trees on a sheet of pictures."""
 BLOCK_SIZE = 1 << 14
 """The number of trees that are made at a time."""
 
@@ -58,7 +57,6 @@ RULES = (
     ),
     opt.needs((KIND, MEMBERS), SYMPLECTIC, "OPTION is about free trees", "add --symplectic"),
 )
-"""The rules about symplectic methods."""
 
 
 class TreesOptions(opt.Options):

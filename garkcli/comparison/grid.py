@@ -23,7 +23,6 @@ from garkcli.tableau.pointwise import Block, Cell, Row, entries
 DIGITS = 60
 """Digits of entries without simple radicals."""
 CellRows: TypeAlias = tuple[Row, ...]
-"""One row for each colour."""
 
 
 class Grid(Frozen):

@@ -26,9 +26,7 @@ from garkcli.transfer import Rule
 Slope: TypeAlias = tuple[int, int]
 """A stage of a colour, both from 0."""
 Value: TypeAlias = Mapping[Slope, Number]
-"""The coefficients of the slopes in a value."""
 START: Value = {}
-"""The value at the beginning of the step."""
 
 
 def summed(*values: Value) -> Value:

@@ -227,7 +227,6 @@ OF_FILES: Mapping[str, Callable[..., Steps]] = {
     "2S": two_s,
     "3S*": three_registers,
 }
-"""The schemes of method files."""
 
 
 def as_butcher(

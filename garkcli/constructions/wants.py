@@ -193,7 +193,6 @@ KINDS = (
 )
 """The kinds of methods, besides GARK methods, that have requirements."""
 EVERY = {**WANTS, **{key: want for kind in KINDS for key, want in kind.own.items()}}
-"""All requirements, by key."""
 
 
 def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:

@@ -25,7 +25,6 @@ from garkcli.stepping.integrator import FLOAT_PRECISION, Binding, Integrator
 from garkcli.stepping.linear import whole_steps
 
 MAX_STEPS = 1_000_000
-"""Most steps of one row."""
 GROWTH = 16
 """The largest growth of round-off. On the built-in problems it was at most 1."""
 _ENOUGH = 30  # digits whose round-off alone proves enough where every condition holds

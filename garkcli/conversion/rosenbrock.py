@@ -34,7 +34,6 @@ PRINTED = "printed"
 TRANSFORMED = "transformed"
 """The form with A, C, γ_ii and m."""
 FORMS = ("spelled-out", PRINTED, TRANSFORMED)
-"""The forms of Rosenbrock methods, as words of ``--to``."""
 _Parts: TypeAlias = "dict[str, tuple[Vector, ...]]"
 """The rows of each key in the file; a vector has one row."""
 _Texts: TypeAlias = "Mapping[str, Sequence[Sequence[str]]]"

@@ -20,7 +20,6 @@ from garkcli.graph import solving_order
 from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]
-"""A stage: its space, and its index there."""
 Classes: TypeAlias = dict[Stage, int]
 _Signature: TypeAlias = tuple[Any, ...]
 """A key of a stage; those of one round can be sorted."""

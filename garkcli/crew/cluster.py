@@ -20,7 +20,6 @@ from garkcli.exact.pickling import register
 from garkcli.version import __version__
 
 WINDOW = 400
-"""Most items that the cluster has at a time."""
 TIMEOUT = 20
 """Seconds to wait for a scheduler."""
 _ONE_AT_A_TIME = Lock()

@@ -63,7 +63,6 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
 
 
 MAX_DEGREE = 12
-"""Largest degree of root_of in method files."""
 DIGITS = 20
 """Decimals that identify a root of a polynomial."""
 

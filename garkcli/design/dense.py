@@ -112,4 +112,3 @@ DENSE = (
         _continuity,
     ),
 )
-"""The wants on dense output."""

@@ -191,7 +191,6 @@ def is_in(intervals: Sequence[Interval], value: Number, root: RealRoot) -> bool:
 
 
 MOST_DEGREE = 6
-"""Largest degree of a solution whose stability is decided."""
 
 
 def method_at(

@@ -62,4 +62,3 @@ PREDICTOR = (
         _order_of_equal_steps,
     ),
 )
-"""The wants on a predictor."""

@@ -38,7 +38,6 @@ MOST_TERMS = 60
 MOST_POINTS = 60
 """Most solutions that are examined, complex ones included."""
 SAMPLES = 24
-"""Values of unknowns that are tried."""
 MOST_LARGE = 4
 """Most steps with a large Gröbner basis."""
 PARTS = 12

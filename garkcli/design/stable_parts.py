@@ -61,7 +61,6 @@ from garkcli.tableau.tableau import Tableau
 VALUES = [
     fmpq(*x) for x in ((1, 2), (1, 3), (3, 4), (1, 4), (2, 3), (1, 1), (3, 5), (6, 5), (0, 1))
 ]
-"""Values tried for free coordinates."""
 MOST_POINTS = 300
 """Most points of a part tried for a method."""
 

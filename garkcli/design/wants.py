@@ -34,7 +34,6 @@ LEVELS = {
     "sector": "α in degrees with |R| ≤ 1 where |arg(−z)| ≤ α",
     "oscillator-interval": "z with bounded powers of the oscillator's step for hω ≤ z",
 }
-"""Bounds on objectives that files may want, in words."""
 MOST_PRODUCTS = 200
 """Most products of blocks in the conditions of weak stage order."""
 
@@ -367,4 +366,3 @@ WANTS = {
         *PREDICTOR,
     )
 }
-"""All wants by their keys, in the order of the documentation."""

@@ -141,7 +141,6 @@ class GenericWeights:
 BITS = 300
 """Least precision for printed numbers."""
 STARTS = 100
-"""Random starts for nonlinear conditions."""
 TRIES = 20
 """Choices of free unknowns tried for the wanted ranges and signs."""
 MOST = 5

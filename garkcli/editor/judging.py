@@ -23,7 +23,6 @@ from garkcli.tell.outputs import label, words
 SECONDS = 5.0
 """Seconds for a file; then the rest stays undecided."""
 ORDERS = ("order", "embedded_order", "conjugate_order", "pair_order")
-"""The rows of ``gark check`` in the lens."""
 COLUMNS = 200
 LATE = "not decided in time; gark check takes longer"
 """The lens of a file that takes too long."""

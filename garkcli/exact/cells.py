@@ -20,7 +20,6 @@ from garkcli.frozen import Frozen
 
 T = TypeVar("T")
 Point: TypeAlias = fmpq | RealRoot
-"""A number at which polynomials have signs."""
 
 
 class Interval(Frozen):

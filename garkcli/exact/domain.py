@@ -92,15 +92,12 @@ def rational_square_root(number: fmpq) -> fmpq | None:
 
 
 Radical: TypeAlias = nodes.Root | nodes.AlgebraicRoot
-"""A generator of a number field."""
 MAX_BITS = 60_000
 """Most bits of the numerator or denominator of a coefficient."""
 MAX_BITS_TOGETHER = 20_000_000
 """Most bits of all different coefficients of one file."""
 MAX_RADICALS = 32
-"""Most different radicals of one file."""
 MAX_DEGREE = 48
-"""Largest degree of the number field of one file."""
 MAX_EFFORT = 400_000
 """Limit of bits times degree² when a radical is adjoined: about a second."""
 MAX_PRECISION = 8192

@@ -33,7 +33,6 @@ MAX_DEPTH = 60
 MAX_DIGITS = 1_000
 """Most digits of one number with its decimal exponent written out."""
 MAX_EXPONENT = 64
-"""Largest exponent after ``**``."""
 MAX_ROOT = 12
 """Largest index of a root."""
 
@@ -44,7 +43,6 @@ _TOKEN = re.compile(
 )
 ROOT_SIGN = "√"
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
-"""Roots with a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     **dict.fromkeys("\N{FRACTION SLASH}\N{DIVISION SLASH}\N{DIVISION SIGN}", "use the sign /"),
     "\N{VULGAR FRACTION ONE THIRD}": "write 1/3",

@@ -282,7 +282,6 @@ class Algebraic:
 
 
 Number: TypeAlias = fmpq | Algebraic
-"""An exact real number."""
 
 
 def poly_of(number: Number) -> fmpq_poly:

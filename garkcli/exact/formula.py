@@ -26,7 +26,6 @@ from garkcli.exact.rewriting import format_expression
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
 """Functions of formulas besides roots, differentiable wherever they are defined."""
 CONSTANTS = ("pi",)
-"""Names with a fixed value."""
 RESERVED = frozenset({*FUNCTIONS, *CONSTANTS, *ROOTS})
 """Names that variables and parameters cannot have."""
 _CURES = {
@@ -101,9 +100,7 @@ def _cure_of(name: str) -> tuple[str, str]:
 
 
 Value: TypeAlias = fmpq | arb
-"""A number in a formula."""
 MAX_DENOMINATOR = 10_000
-"""Largest denominator of an exponent."""
 FLOAT_BITS = 1000
 """Values are below 2^``FLOAT_BITS``, so that products with floats do not overflow."""
 _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for name in FUNCTIONS}

@@ -159,7 +159,6 @@ def characteristic_coefficients(A: Matrix) -> list[Any]:
 
 
 _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
-"""Pairs (k, A_k)."""
 _Rational: TypeAlias = Sequence[fmpq]
 MIN_BITS_APART = 20_000
 """Rows with fewer bits in all denominators are never summed as fractions."""

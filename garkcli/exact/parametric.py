@@ -21,10 +21,8 @@ from garkcli.exact.rewriting import name_latex
 from garkcli.frozen import Frozen
 
 MAX_TERMS = 500_000
-"""Most terms of an expanded product."""
 _NAME = r"[A-Za-z_]\w*"
 Mixed: TypeAlias = "fmpq | Parametric"
-"""A rational number or a rational function."""
 
 
 class Rule(Frozen):

@@ -9,7 +9,6 @@ from typing import Any, TypeAlias
 import flint
 
 Made: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
-"""A constructor and its arguments."""
 Dyadic: TypeAlias = tuple[int, int]
 """(m, e) for m · 2^e."""
 

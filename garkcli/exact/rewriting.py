@@ -15,7 +15,6 @@ from garkcli.exact.nodes import parts
 from garkcli.frozen import replace
 
 MAX_SIZE = 2_000
-"""Most operations in a number or formula of a file, with parameters expanded."""
 
 
 def size_of(expression: nodes.Expression, sizes: Mapping[str, int]) -> int:

@@ -33,7 +33,6 @@ FAMILIES: Mapping[str, MethodFamily] = {family.name: family for family in _famil
 BY_STAGES: Mapping[str, MethodFamily] = {
     name: family for name, family in FAMILIES.items() if family.keys == ("stages",)
 }
-"""The families whose members have a number of stages and no options."""
 
 
 OTHER_NAMES: Mapping[str, str] = {

@@ -126,7 +126,6 @@ def _messages() -> tuple[_Message, ...]:
 
 
 COMMANDS = {"check": "docs/ci.md", "audit": "docs/audit.md"}
-"""The commands that have findings, with their pages."""
 
 
 class FindingKind(Frozen):

@@ -35,7 +35,6 @@ TOPICS = {
     "design": "Methods with unknowns",
     "reports": "What reports say",
 }
-"""The files of terms in the order of the documentation, with their subjects."""
 
 
 @lru_cache(maxsize=len(TOPICS))

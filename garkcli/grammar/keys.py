@@ -24,7 +24,6 @@ Read: TypeAlias = Callable[[Any, Node, str], Any]
 messages, to the value; None after a fault.
 """
 FILE = "the file"
-"""The name of the whole file in messages."""
 NOTHING: Mapping[str, Any] = {}
 
 

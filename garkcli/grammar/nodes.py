@@ -117,9 +117,7 @@ def shortened(text: str, length: int = 60) -> str:
 
 
 MAX_NODES = 50_000
-"""The largest number of YAML values in a file, with aliases counted at each use."""
 MAX_NESTING = 12
-"""The deepest nesting of lists and mappings; files need six."""
 
 
 def position(mark: Any) -> tuple[int, int]:

@@ -61,11 +61,9 @@ def _elsewhere(others: Sequence[Place]) -> str:
 
 
 MAX_BYTES = 1_000_000
-"""The largest file that is read."""
 _MOST_DIGITS = 6
 """The largest number of digits of an integer."""
 MAX_FAULTS = 200
-"""The largest number of faults that are reported one by one."""
 MAX_FAULTS_READ = 1_000
 """Reading stops after this number of faults."""
 

@@ -80,7 +80,6 @@ def _sign(x: Number) -> int:
 
 
 MAX_STEPS = 10_000_000
-"""Most steps of a run."""
 SERIES = 2000
 """Most points of a series kept for plots."""
 BLOW_UP = 1e30

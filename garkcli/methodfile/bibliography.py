@@ -120,7 +120,6 @@ def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
 REFERENCE = ValueKind(
     lambda: {"anyOf": [TEXT.schema(), _REFERENCE.schema()]}, _reference, _REFERENCE.inside
 )
-"""The publication of a method: a text or its fields."""
 
 
 def _aliases(at: Any, node: Node, where: str) -> tuple[str, ...]:

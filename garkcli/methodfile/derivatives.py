@@ -17,7 +17,6 @@ from garkcli.tableau.embedded import Further
 
 _FORM = "give {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}: of f, then of f′f, …"
 MOST = 9
-"""The largest number of derivatives."""
 _ARRAY = {"type": "array", "items": {"type": "array"}}
 
 
@@ -53,7 +52,6 @@ DERIVATIVES = g.mapping(
     ),
     form=_FORM,
 )
-"""A method that uses derivatives of f."""
 
 
 class DerivativesText(d.OwnContent):

@@ -58,7 +58,6 @@ FAMILY = mapping(
     form=_FORM_OF_MEMBER,
     rules=[OfSchema(_member(family)) for family in FAMILIES.values()],
 )
-"""A member of a family."""
 _KEYS = {key.name: key for key in FAMILY.inside()}
 
 

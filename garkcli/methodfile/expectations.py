@@ -91,7 +91,6 @@ def _half_unit(text: str) -> fmpq:
 
 
 CLAIMS = (*ORDERS, *KEYS)
-"""All claims that a file may make."""
 _FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = r">=\s*([0-9]{1,4})"
 
@@ -175,7 +174,6 @@ def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
 
 
 EXPECT = ValueKind(mapping(more=claims).schema, _read, claims)
-"""The claims of a file."""
 
 
 OF_ORDERS = {

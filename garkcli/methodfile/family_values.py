@@ -23,9 +23,7 @@ from garkcli.tableau.family import Radical, reducing
 from garkcli.tableau.tableau import Method, Tableau
 
 MAX_DEGREE = 200
-"""The largest degree of a coefficient in the parameters."""
 MAX_TERMS = 2_000
-"""The largest number of terms in the numerator or the denominator of a coefficient."""
 MAX_TERMS_TOGETHER = 200_000
 """The largest number of terms of all different coefficients of a file."""
 ROOT = "_root"

@@ -231,7 +231,6 @@ KEYS = {
         ),
     )
 }
-"""The keys of a method file by name, in the order of the documentation."""
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
 """The keys of a method, at the top of a file or within it."""
 _TWO_COLOURS = g.KeyValues(

@@ -27,7 +27,6 @@ NPRK = g.mapping(
     g.Key("embedded: [[1]]", _MATRIX, "Embedded weights, in the same way.", also=("bhat",)),
     form=_FORM,
 )
-"""A nonlinearly partitioned method."""
 
 
 class NprkText(d.OwnContent):

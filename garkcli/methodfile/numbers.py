@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
 
 UNKNOWN = "?"
-"""The sign of an unknown coefficient."""
 _OF_MATRICES = {
     "A": "a",
     "C": "C",

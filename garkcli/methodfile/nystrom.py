@@ -112,7 +112,6 @@ NYSTROM = g.mapping(
         ),
     ),
 )
-"""A Nyström method."""
 
 
 class NystromText(d.OwnContent):

@@ -61,7 +61,6 @@ def _range(at: Any, node: yaml_nodes.Node, where: str) -> Between:
 RANGE = ValueKind(
     lambda: {"type": "array", "items": NUMBER.schema(), "minItems": 2, "maxItems": 2}, _range
 )
-"""The range of a parameter."""
 
 
 _FREE_FORM = "write {free: true, range: [1/4, 1]}, or give it a value"
@@ -150,7 +149,6 @@ PARAMETERS = ValueKind(
     _read,
     _FREE.inside,
 )
-"""Names with values, or free ones."""
 
 
 def refuse_free(numbers: Numbers) -> None:

@@ -14,7 +14,6 @@ from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
-"""Coefficients as written, with their values."""
 Units: TypeAlias = Mapping[Number, fmpq]
 """The largest errors of values."""
 FEWEST_DIGITS = 6

@@ -70,7 +70,6 @@ SHU_OSHER = g.mapping(
     *_FURTHER,
     form=_FORM_OF_SHU_OSHER,
 )
-"""The form of Shu and Osher."""
 _A = g.ValueKind(lambda: {"anyOf": [ROW.schema(), MATRIX.schema()]})
 LOW_STORAGE = g.mapping(
     g.Key(
@@ -95,7 +94,6 @@ LOW_STORAGE = g.mapping(
     *_FURTHER,
     form=_FORM,
 )
-"""A low-storage scheme."""
 
 
 class RegistersText(OwnContent):

@@ -154,7 +154,6 @@ ROSENBROCK = g.mapping(
         ),
     ),
 )
-"""A Rosenbrock or W-method."""
 
 
 class RosenbrockText(description.OwnContent):

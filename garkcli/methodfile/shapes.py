@@ -422,7 +422,6 @@ SHAPES = {
         TableauShape("palindromic", "the same method backwards", _palindromic),
     )
 }
-"""All shapes by name, in the order of the documentation."""
 
 
 def layout_of(stages: int, names: Sequence[str]) -> UnknownLayout:

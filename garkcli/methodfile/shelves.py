@@ -33,9 +33,7 @@ PATH_VARIABLE = "GARK_PATH"
 GROUP = "gark.catalogue"
 """The group of entry points whose values are packages with method files."""
 INDEX = "catalogue/index.json"
-"""The index of the package, from its root."""
 DATA = "catalogue/data"
-"""The method files of the package, from its root."""
 _DASHES = dict.fromkeys([*range(0x2010, 0x2016), 0x2212], "-")
 _NO_LETTERS = r"[\W_]+"
 

@@ -18,7 +18,6 @@ from garkcli.methodfile.parameters import MATRIX, ROW
 
 Weights: TypeAlias = tuple[Row, ...]
 Names: TypeAlias = tuple[str, str, str]
-"""The names of A, b and c in messages."""
 MAX_DEGREE = 60
 """The largest degree of dense output; its order is no larger."""
 FORM_OF_DENSE = (
@@ -37,7 +36,6 @@ DENSE = g.mapping(
     ),
     form=FORM_OF_DENSE,
 )
-"""The keys under ``dense``."""
 MAX_POWERS = 10
 """Most matrices of a predictor, one for each power of r."""
 PREDICTOR = g.mapping(
@@ -55,7 +53,6 @@ PREDICTOR = g.mapping(
     form="write predictor: {old: [[], [-1/2, 3/2]]}, a row per stage",
     rules=(g.Ways("slopes are", ("old", "new"), "no weights", "give old or new", is_one=False),),
 )
-"""The keys under ``predictor``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "write A and b, and c if it is not the row sums: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
@@ -119,7 +116,6 @@ TABLEAU_KEYS = (
         also=("bi", "binterp", "b_theta"),
     ),
 )
-"""The keys of a Butcher tableau, wherever it is."""
 _PREDICTOR = g.defined("predictor")
 PREDICTOR_KEY = g.Key(
     "predictor: {old: [[], [-1/2, 3/2]]}",
@@ -151,7 +147,6 @@ TABLEAU = with_coefficients(
     replace(PREDICTOR_KEY, kind=_PREDICTOR, page=""),
     form=EXAMPLE,
 )
-"""The form ``tableau``."""
 BUTCHER_KEYS = (
     g.Key("name: my method", g.TEXT, "The name of this diagonal method."),
     g.Key(
@@ -178,7 +173,6 @@ BUTCHER_KEYS = (
 )
 _METHOD = with_coefficients(*BUTCHER_KEYS, form="give family and stages, or A and b")
 BUTCHER = with_coefficients(*BUTCHER_KEYS, form=EXAMPLE)
-"""A diagonal method, or a part of a pair."""
 
 
 def entries_of(number: int) -> str:

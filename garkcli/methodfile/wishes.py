@@ -100,7 +100,6 @@ DESIGN = mapping(
     more=_wanted,
     form=FORM,
 )
-"""The demands on the methods of a family, read once its unknowns are known."""
 NO_RANGES: Mapping[str, Free] = {}
 
 

@@ -11,7 +11,6 @@ from garkcli.ntrees.table import Column, Columns, Places, TreeTable, segments_of
 from garkcli.ntrees.tree import Tree
 
 BLOCK_SIZE = 1 << 18
-"""Default number of trees in a block."""
 
 MAX_USING = 62
 """Most colours that can be requested at once: one bit each."""

@@ -26,14 +26,12 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 MAX_CONDITIONS = 20_000
-"""Most conditions that are evaluated to find the block."""
 MAX_ENTRIES = 2_000
 FEW_CHECKED = 20
 """Failing conditions that are examined before the order is known."""
 NEAR = 10
 """Largest distance of a row sum from its node, in tolerances: the rounding of all entries."""
 FEW_ENTRIES = 400
-"""Most entries that are tried without a claim."""
 FEW_CONDITIONS_UNASKED = 2_000
 """Most conditions that are evaluated without a claim."""
 

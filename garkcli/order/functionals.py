@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from garkcli.order.rounded import Near
 
 MOST_TREES = 50_000
-"""Most trees of an order whose weights are enclosed one by one."""
 
 
 class Functional(Frozen):

@@ -27,7 +27,6 @@ from garkcli.tableau.enclosure import enclose_tableau
 from garkcli.tableau.tableau import Tableau
 
 MOST_TREES = 50_000
-"""Most trees of an order that are evaluated one by one."""
 MOST_ROWS = 60
 """Most rows that one order adds at a time."""
 COARSENING = 16.0

@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from garkcli.order.recovering import Recovery
 
 SPARE_DIGITS = 12
-"""Guard digits."""
 AT_AN_END = 1 - 1e-6
 """A shift that is held at an end is released if it would be below this."""
 MOST_STEPS = 60

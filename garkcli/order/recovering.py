@@ -34,9 +34,7 @@ from garkcli.tableau.embedded import NOTHING, Further
 COARSE = 1e-6
 """Slopes are renewed while radii and residuals are larger."""
 MOST_WEAK = 6
-"""Largest weak stage order that is sought."""
 MOST_RUNS = 40
-"""Most runs of Newton's method."""
 MAX_STEPS = 25
 MAX_SHIFT = 50.0
 LOWEST_FLOOR = 1e-16

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 MOST_NUMBERS = 300
-"""Most printed numbers of a method that is searched."""
 MOST_SUSPECTS = 8
 """Most candidates of first order that are tried."""
 LEAST = 1e-24

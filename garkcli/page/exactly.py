@@ -33,7 +33,6 @@ ROOT_OF: Schema = {
 }
 """An algebraic number without simple radicals: a polynomial in x and a decimal."""
 ALGEBRAIC: Schema = one_of(TEXT, ROOT_OF)
-"""The schema of ``root_data``."""
 DIGITS = 12
 """Digits of the decimal behind a letter."""
 

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
 
 SUFFIXES = (".png", ".svg", ".pdf")
-"""The suffixes of figures."""
 
 
 def check_suffix(path: Path) -> None:

@@ -28,7 +28,6 @@ _HEAD = 26.0
 """The space of a title above the frame."""
 _RADIUS = 3
 _MOST_ACROSS, _MOST_UP = 6, 7
-"""The largest numbers of marks on the axes."""
 
 
 def _variables(colours: Sequence[str]) -> str:

@@ -313,6 +313,4 @@ _ENTRIES = (
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
 GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
-"""Hamiltonian problems that see every tree of a structure."""
 GENERIC_RHS = "generic-rhs"
-"""The generic problem of right-hand sides."""

@@ -19,7 +19,6 @@ MAX_COUPLED = 5
 """Most velocities that a position-dependent mass matrix may couple."""
 WRITE_HAMILTONIAN = "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
 BITS = 300
-"""Precision of enclosures that distinguish solutions."""
 
 
 @cache

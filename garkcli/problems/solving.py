@@ -5,7 +5,6 @@ from __future__ import annotations
 from garkcli.problems.expr import Expr
 
 MAX_SIZE = 300
-"""Most operations of an equation that is solved."""
 
 
 def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:

@@ -20,7 +20,6 @@ from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, rational
 
 MAX_SIZE = 100_000
-"""Most operations of all expanded second derivatives of a problem together."""
 
 
 class Translator(Frozen):

@@ -21,7 +21,6 @@ from garkcli.problems.straightline import function
 Group: TypeAlias = Literal["q", "p", "y", "t"]
 """Positions, momenta, all unknowns of a problem that is not Hamiltonian, or time."""
 GROUPS: tuple[Group, Group] = ("q", "p")
-"""The groups of a Hamiltonian problem."""
 TIME: Final = "t"
 """The name of time in formulas, and of its group."""
 

@@ -286,7 +286,6 @@ _ORDERS = (
 
 
 ORDERS = {found.key: found for found in _ORDERS}
-"""The claims that are not properties, by key."""
 
 
 def _of_property(key: str) -> Definition:

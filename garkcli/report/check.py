@@ -832,7 +832,6 @@ OF_ALL_KINDS: Rows[AnyAnalysis] = (
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
     maybe("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA),
 )
-"""The first rows of every analysis."""
 COLOURS_OF: Row[AnyAnalysis] = Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA)
 COUNTED: Kind[int] = told(lambda x, _: str(x))
 ANALYSIS: Rows[Analysis] = [
@@ -955,7 +954,6 @@ CLAIMS_IN_WORDS: Row[Outcome] = Row(
     "claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None
 )
 FINDINGS: Row[Outcome] = Row("findings", parts(FINDING), findings.remarks, DATA)
-"""All remarks on a file."""
 ASIDES: Row[Outcome] = Row("asides", rows_of(remark_rows), lambda o: findings.asides(o) or None)
 CLAIMS: Rows[Outcome] = (
     IN_BRIEF,

@@ -20,7 +20,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 DIGITS = 7
-"""Digits of numbers in floats."""
 
 
 class CurveReport(NamedTuple):

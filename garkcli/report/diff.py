@@ -47,7 +47,6 @@ FORMS = {
     "mdrk": "a multiderivative method",
     "mri": "a multirate method with the exact fast part",
 }
-"""The forms of methods, as people call them."""
 RELATIONS = {
     "identical": "identical: every entry is the same",
     "same": "the same method",
@@ -56,7 +55,6 @@ RELATIONS = {
     "different": "different methods",
     "undecided": "not decided",
 }
-"""Relations between methods."""
 STEP_ALONE = "step-alone"
 """The word for different methods with one step, whose further weights differ."""
 

@@ -86,7 +86,6 @@ BY_KIND = {
     "mri": "multirate",
     "family": "with free parameters",
 }
-"""Kinds of methods, in words."""
 KEYS_OF_KINDS = {"rosenbrock": "row", "nystrom": "rkn", "derivatives": "mdrk", "multirate": "mri"}
 """Kinds by the keys of their files, where these differ."""
 _KIND = choice(*BY_KIND, None)
@@ -122,7 +121,6 @@ METHOD: facts.Rows[Entry] = [
     *PROPERTIES,
     _field("undecided", TEXTS, has_null=False),
 ]
-"""A method of the catalogue."""
 MARKS = {
     "A": ("a_stable", "A-stable"),
     "L": ("l_stable", "L-stable"),
@@ -198,7 +196,6 @@ LINE: facts.Section[Entry] = facts.Section(
     facts.itself("reference", told(_reference_words)),
     is_cut=True,
 )
-"""A method in a line."""
 
 
 def _title(entries: Sequence[Entry], d: Plain) -> str:

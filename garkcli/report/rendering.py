@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 Writer: TypeAlias = "Callable[[Sequence[Any], str, str], str]"
 """Writes values in a format; the text is the name of the method."""
 WIDTH = 80
-"""Columns of texts."""
 TOLD_BY = {
     "backward.BackwardAnalysis": "modified",
     "backward.ModifiedRun": "modified_energy",

@@ -26,7 +26,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 Names = tuple[str, ...]
-"""Names of parameters, or linear forms in their place."""
 
 
 class StableReport(NamedTuple):

@@ -85,11 +85,9 @@ def of_method(
 
 
 USUAL = 17
-"""Digits of a transformation if no number is given."""
 
 
 DIGITS = 12
-"""Digits of the decimals of a tableau."""
 
 
 def _float(cell: Cell | Parametric) -> float | None:
@@ -150,7 +148,6 @@ FORMULAS = {
     "conjugate": "Â_ij = b_j − b_j a_ji / b_i; conjugated again it is the method",
     "pair": "A for positions, Â_ij = b_j − b_j a_ji / b_i for momenta",
 }
-"""The formulas for conjugate and pair."""
 
 
 OF_ENTRIES: Rows[ShownTableau] = (

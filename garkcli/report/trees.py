@@ -119,7 +119,6 @@ TREES: Kind[Sequence[Tree | str]] = Kind(
     Json(array(TEXT), csv=lambda trees: " ".join(map(str, trees))),
     Words(lambda trees, d: "  ".join(map(d.tree, trees))),
 )
-"""Trees in brackets."""
 
 
 def counts(what: str) -> Kind[dict[str, int]]:

@@ -111,7 +111,6 @@ FINEST = 80
 FARTHEST = 20
 """Pieces reach to this power of 2; beyond it nothing is decided."""
 MOST_PIECES = 6000
-"""Most pieces that are tried."""
 MOST_TRIES = 60
 """Most points that are tried beyond the last piece, each twice as far from it."""
 

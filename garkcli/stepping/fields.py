@@ -62,7 +62,6 @@ def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
 
 
 Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
-"""The nonzero vector fields, by colour and driven group."""
 
 
 def driven(colour: Colour) -> tuple[Group, ...]:

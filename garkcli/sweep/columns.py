@@ -106,7 +106,6 @@ Value: TypeAlias = "bool | int | float | str | None"
 """The value of a column; ``infinity`` is the only text, None means no value."""
 INFINITY = "infinity"
 DIGITS = 12
-"""Digits of real numbers."""
 
 
 class Column(Frozen):

@@ -30,7 +30,6 @@ from garkcli.methodfile.transfers import ALL_RULES, OF_DEGREE
 from garkcli.transfer import RULES
 
 STARTS = 20
-"""The default number of starts for each seed."""
 
 
 class Template(Frozen):

@@ -14,7 +14,6 @@ from garkcli.exact.rewriting import roots_in
 from garkcli.tableau.tableau import Tableau
 
 Defined: TypeAlias = Mapping[AlgebraicRoot, str]
-"""Roots with their letters."""
 
 
 @contextmanager

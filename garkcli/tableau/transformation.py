@@ -21,7 +21,6 @@ from garkcli.tableau.pointwise import Cell, numeric_entries
 from garkcli.tableau.tableau import Tableau
 
 MOST_STAGES = 50
-"""Most stages; eigenvalues of more need many digits."""
 
 
 class Transformation(Frozen):

@@ -18,20 +18,8 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.safety import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
+from garkcli.tell import facts
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    FieldBeside,
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Words,
-    maybe,
-    optional,
-)
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -56,17 +44,17 @@ def record(**fields: Schema) -> Schema:
     }
 
 
-def constant(value: object) -> Kind[object]:
+def constant(value: object) -> facts.Kind[object]:
     """A field with the same value in every report; for programs."""
-    return Kind(Json({"const": value}))
+    return facts.Kind(facts.Json({"const": value}))
 
 
-def choice(*values: str | None) -> Kind[str]:
+def choice(*values: str | None) -> facts.Kind[str]:
     """One of a few words."""
-    return Kind(Json({"enum": [*values]}), TEXT.shown)
+    return facts.Kind(facts.Json({"enum": [*values]}), TEXT.shown)
 
 
-def _truth_phrase(label: str, value: bool, answer: Answer[bool], d: Plain) -> str:
+def _truth_phrase(label: str, value: bool, answer: facts.Answer[bool], d: Plain) -> str:
     text = d.known(label if value else f"not {label}", answer.status)
     return f"{text}: {d.reason(answer.reason)}" if answer.reason else text
 
@@ -76,41 +64,51 @@ def truth_words(value: bool, d: Plain) -> str:
     return d.good("yes") if value else d.bad("no")
 
 
-def counted(schema: Schema) -> Kind[int]:
+def counted(schema: Schema) -> facts.Kind[int]:
     """A number that is shown without change."""
-    return Kind(Json(schema), Words(lambda x, _: str(x)))
+    return facts.Kind(facts.Json(schema), facts.Words(lambda x, _: str(x)))
 
 
-TRUTH: Kind[bool] = Kind(Json(S.FLAG), Words(truth_words, phrase=_truth_phrase))
-TRUE: Kind[bool] = Kind(Json(S.TRUE))
+TRUTH: facts.Kind[bool] = facts.Kind(
+    facts.Json(S.FLAG), facts.Words(truth_words, phrase=_truth_phrase)
+)
+TRUE: facts.Kind[bool] = facts.Kind(facts.Json(S.TRUE))
 COUNT = counted(S.COUNT)
 INTEGER = counted(S.INTEGER)
 POSITION = counted(S.POSITION)
-INDEX: Kind[int] = Kind(Json(S.POSITION, lambda x, _: x + 1), Words(lambda x, _: str(x + 1)))
+INDEX: facts.Kind[int] = facts.Kind(
+    facts.Json(S.POSITION, lambda x, _: x + 1), facts.Words(lambda x, _: str(x + 1))
+)
 """Counted from 0 by the program, and from 1 by people."""
-TEXT: Kind[str] = Kind(Json(S.TEXT), Words(lambda x, d: d.prose(x)))
-TEXTS: Kind[Sequence[str]] = Kind(
-    Json(array(S.TEXT), lambda x, _: list(x), csv=lambda x: csv_cell("; ".join(x))),
-    Words(lambda x, d: ", ".join(map(d.prose, x))),
+TEXT: facts.Kind[str] = facts.Kind(facts.Json(S.TEXT), facts.Words(lambda x, d: d.prose(x)))
+TEXTS: facts.Kind[Sequence[str]] = facts.Kind(
+    facts.Json(array(S.TEXT), lambda x, _: list(x), csv=lambda x: csv_cell("; ".join(x))),
+    facts.Words(lambda x, d: ", ".join(map(d.prose, x))),
 )
-FLOAT: Kind[float] = Kind(Json(S.SIZE), Words(lambda x, _: f"{x:.6g}"))
-EXACT: Kind[Number] = Kind(Json(S.EXACT, lambda x, _: to_text(x)), Words(lambda x, d: d.number(x)))
-GAMMA: Kind[Number] = Kind(EXACT.what, Words(lambda x, d: d.diagonal(x)))
-EXACTS: Kind[Sequence[Number]] = Kind(
-    Json(array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
-    Words(lambda xs, d: ", ".join(map(d.short, xs))),
+FLOAT: facts.Kind[float] = facts.Kind(facts.Json(S.SIZE), facts.Words(lambda x, _: f"{x:.6g}"))
+EXACT: facts.Kind[Number] = facts.Kind(
+    facts.Json(S.EXACT, lambda x, _: to_text(x)), facts.Words(lambda x, d: d.number(x))
 )
-TOLERANCE: Kind[fmpq] = Kind(Json(S.TEXT, lambda x, _: decimal(x)), Words(lambda x, _: decimal(x)))
-TREE: Kind[Tree] = Kind(Json(S.TEXT, lambda x, _: format_tree(x)), Words(lambda x, d: d.tree(x)))
+GAMMA: facts.Kind[Number] = facts.Kind(EXACT.what, facts.Words(lambda x, d: d.diagonal(x)))
+EXACTS: facts.Kind[Sequence[Number]] = facts.Kind(
+    facts.Json(array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
+    facts.Words(lambda xs, d: ", ".join(map(d.short, xs))),
+)
+TOLERANCE: facts.Kind[fmpq] = facts.Kind(
+    facts.Json(S.TEXT, lambda x, _: decimal(x)), facts.Words(lambda x, _: decimal(x))
+)
+TREE: facts.Kind[Tree] = facts.Kind(
+    facts.Json(S.TEXT, lambda x, _: format_tree(x)), facts.Words(lambda x, d: d.tree(x))
+)
 
 
 def truth(
     value: bool | None, why: Reason | str = "", open_because: Reason | str = ""
-) -> Answer[bool]:
+) -> facts.Answer[bool]:
     """A truth with the reason against it, or, of None, the reason why it is open."""
     if value is None:
-        return Answer(None, Status(open=as_reason(open_because or "it is open")))
-    return Answer(value, reason=NO_REASON if value else as_reason(why))
+        return facts.Answer(None, Status(open=as_reason(open_because or "it is open")))
+    return facts.Answer(value, reason=NO_REASON if value else as_reason(why))
 
 
 def as_reason(text: Reason | str) -> Reason:
@@ -127,16 +125,15 @@ class OfFile(Protocol):
     def name(self) -> str: ...
 
 
-def _name(x: OfFile) -> Answer[str]:
+def _name(x: OfFile) -> facts.Answer[str]:
     """The name, which reports show if it is not that of the file."""
-    return Answer(x.name, level=Level.DETAIL if x.name != x.file else Level.DATA)
+    return facts.Answer(x.name, level=facts.Level.DETAIL if x.name != x.file else facts.Level.DATA)
 
 
-FILE_AND_NAME: Rows[OfFile] = (
-    Row("file", TEXT, lambda x: x.file, Level.DATA),
-    Row("name", TEXT, _name, Level.DETAIL),
+FILE_AND_NAME: facts.Rows[OfFile] = (
+    facts.Row("file", TEXT, lambda x: x.file, facts.Level.DATA),
+    facts.Row("name", TEXT, _name, facts.Level.DETAIL),
 )
-"""The file of a result, and the name of its method."""
 
 
 def numeral_text(x: Number, d: Plain) -> str:
@@ -149,7 +146,7 @@ def _numeral(x: Number, d: Plain) -> str:
     return d.number(x) if d.places is None else d.formula(decimal_latex(text), text)
 
 
-NUMERAL: Kind[Number] = Kind(Json(S.NUMERAL, numeral_text), Words(_numeral))
+NUMERAL: facts.Kind[Number] = facts.Kind(facts.Json(S.NUMERAL, numeral_text), facts.Words(_numeral))
 
 BLOCK: Schema = {**array(S.POSITION), "minItems": 1, "maxItems": 2}
 """The colours of a block of A, or of a row of weights."""
@@ -159,9 +156,9 @@ def numbers_from_one(places: Sequence[Sequence[int]]) -> list[list[int]]:
     return [[x + 1 for x in place] for place in places]
 
 
-BLOCKS: Kind[Sequence[Sequence[int]]] = Kind(
-    Json(array(BLOCK), lambda x, _: numbers_from_one(x)),
-    Words(lambda x, d: d.few([d.block("A", place) for place in x])),
+BLOCKS: facts.Kind[Sequence[Sequence[int]]] = facts.Kind(
+    facts.Json(array(BLOCK), lambda x, _: numbers_from_one(x)),
+    facts.Words(lambda x, d: d.few([d.block("A", place) for place in x])),
 )
 
 
@@ -172,39 +169,40 @@ class BlockTable(Frozen):
     limit: int
 
 
-ROW_OF_COUNTS: Kind[BlockTable] = Kind(
-    Json(array(S.COUNT), lambda x, _: list(x.rows[0])), Words(lambda x, d: d.table(x.rows, x.limit))
+ROW_OF_COUNTS: facts.Kind[BlockTable] = facts.Kind(
+    facts.Json(array(S.COUNT), lambda x, _: list(x.rows[0])),
+    facts.Words(lambda x, d: d.table(x.rows, x.limit)),
 )
-TABLE: Kind[BlockTable] = Kind(
-    Json(array(array(nullable(S.INTEGER))), lambda x, _: [list(row) for row in x.rows]),
+TABLE: facts.Kind[BlockTable] = facts.Kind(
+    facts.Json(array(array(nullable(S.INTEGER))), lambda x, _: [list(row) for row in x.rows]),
     ROW_OF_COUNTS.shown,
 )
 
 
-WITNESS: Section[Witness] = Section(
-    Row("order", POSITION, lambda x: x.tree.order),
-    Row("tree", TREE, lambda x: x.tree),
-    Row("value", EXACT, lambda x: x.value),
-    Row("required", EXACT, lambda x: x.required),
-    Row("residual", EXACT, lambda x: x.residual),
-    optional("joint", TRUTH, lambda x: x.is_joint or None, Level.DATA),
+WITNESS: facts.Section[Witness] = facts.Section(
+    facts.Row("order", POSITION, lambda x: x.tree.order),
+    facts.Row("tree", TREE, lambda x: x.tree),
+    facts.Row("value", EXACT, lambda x: x.value),
+    facts.Row("required", EXACT, lambda x: x.required),
+    facts.Row("residual", EXACT, lambda x: x.residual),
+    facts.optional("joint", TRUTH, lambda x: x.is_joint or None, facts.Level.DATA),
 )
 
 
-def order_answer(found: AnyOrder | None) -> Answer[AnyOrder]:
+def order_answer(found: AnyOrder | None) -> facts.Answer[AnyOrder]:
     """An order, exact or rounded, as a value with its status."""
     if found is None:
-        return Answer(None)
+        return facts.Answer(None)
     within = getattr(found, "tolerance", None)
     undecided = getattr(found, "undecided", "")
-    return Answer(found, Status(within, found.is_lower_bound, Reason(undecided)))
+    return facts.Answer(found, Status(within, found.is_lower_bound, Reason(undecided)))
 
 
 def _largest_residual(found: AnyOrder) -> arb | None:
     return getattr(found, "largest_residual", None)
 
 
-def _order_words(found: AnyOrder, answer: Answer[AnyOrder], d: Plain) -> str:
+def _order_words(found: AnyOrder, answer: facts.Answer[AnyOrder], d: Plain) -> str:
     """``4, proved; order 5 fails at [[[[[]]]]] by -1/120``."""
     d, status = d.naming(answer.names), answer.status
     text = d.known(str(found.order), status)
@@ -224,40 +222,42 @@ def order_cell(found: AnyOrder, d: Plain) -> str:
     return d.known(str(found.order), order_answer(found).status)
 
 
-def _witness(answer: Answer[AnyOrder], d: Plain) -> object:
+def _witness(answer: facts.Answer[AnyOrder], d: Plain) -> object:
     witness = None if answer.value is None else answer.value.witness
     return None if witness is None else WITNESS.data(witness, d)
 
 
-def _within(answer: Answer[AnyOrder], _: Plain) -> str | None:
+def _within(answer: facts.Answer[AnyOrder], _: Plain) -> str | None:
     return None if answer.status.within is None else decimal(answer.status.within)
 
 
-def _largest(answer: Answer[AnyOrder], _: Plain) -> float | None:
+def _largest(answer: facts.Answer[AnyOrder], _: Plain) -> float | None:
     largest = None if answer.value is None else _largest_residual(answer.value)
     return None if largest is None else float(largest.upper())
 
 
-ORDER: Kind[AnyOrder] = Kind(
-    Json(
+ORDER: facts.Kind[AnyOrder] = facts.Kind(
+    facts.Json(
         S.COUNT,
         lambda found, _: found.order,
         beside=(
-            FieldBeside("*witness", nullable(WITNESS.schema), _witness, is_optional=False),
-            FieldBeside("*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None),
-            FieldBeside("*order_largest_residual", S.SIZE, _largest),
-            FieldBeside("*order_tolerance", S.TEXT, _within),
-            FieldBeside("*order_undecided", S.TRUE, lambda a, _: bool(a.status.open) or None),
+            facts.FieldBeside("*witness", nullable(WITNESS.schema), _witness, is_optional=False),
+            facts.FieldBeside(
+                "*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None
+            ),
+            facts.FieldBeside("*order_largest_residual", S.SIZE, _largest),
+            facts.FieldBeside("*order_tolerance", S.TEXT, _within),
+            facts.FieldBeside("*order_undecided", S.TRUE, lambda a, _: bool(a.status.open) or None),
         ),
     ),
-    Words(lambda found, _: str(found.order), _order_words),
+    facts.Words(lambda found, _: str(found.order), _order_words),
 )
 
 
 Quotient: TypeAlias = "StabilityFunction | Ratio"
 
 
-def ratio(variable: str) -> Kind[Quotient]:
+def ratio(variable: str) -> facts.Kind[Quotient]:
     def data(found: Quotient, _: Plain) -> dict[str, str]:
         over, under = integral([found.numerator, found.denominator])
         return {
@@ -265,36 +265,39 @@ def ratio(variable: str) -> Kind[Quotient]:
             "denominator": polynomial_text(under, variable),
         }
 
-    return Kind(
-        Json(record(numerator=S.TEXT, denominator=S.TEXT), data),
-        Words(lambda x, d: d.quotient(x.numerator, x.denominator, variable)),
+    return facts.Kind(
+        facts.Json(record(numerator=S.TEXT, denominator=S.TEXT), data),
+        facts.Words(lambda x, d: d.quotient(x.numerator, x.denominator, variable)),
     )
 
 
-def term(variable: str, power: int) -> Kind[Number]:
+def term(variable: str, power: int) -> facts.Kind[Number]:
     def words(x: Number, d: Plain) -> str:
         return d.polynomial(Polynomial([fmpq(0)] * power + [x]), variable)
 
-    return Kind(None, Words(words))
+    return facts.Kind(None, facts.Words(words))
 
 
-def polynomial(variable: str) -> Kind[Polynomial]:
+def polynomial(variable: str) -> facts.Kind[Polynomial]:
     """With whole coefficients; in decimals if these are long."""
 
     def words(p: Polynomial, d: Plain) -> str:
         (whole,) = integral([p])
         return d.polynomial(p if d.is_brief and has_long_coefficients(whole) else whole, variable)
 
-    return Kind(
-        Json(S.TEXT, lambda p, _: polynomial_text(integral([p])[0], variable)), Words(words)
+    return facts.Kind(
+        facts.Json(S.TEXT, lambda p, _: polynomial_text(integral([p])[0], variable)),
+        facts.Words(words),
     )
 
 
-EXPRESSION: Kind[str] = Kind(Json(S.TEXT), Words(lambda x, d: d.expression(x)))
+EXPRESSION: facts.Kind[str] = facts.Kind(
+    facts.Json(S.TEXT), facts.Words(lambda x, d: d.expression(x))
+)
 """A polynomial in the unknowns of a file."""
-ROOTS: Kind[Sequence[RealRoot]] = Kind(
-    Json(array(ALGEBRAIC), lambda xs, d: [root_data(x, d.digits) for x in xs]),
-    Words(lambda xs, d: ", ".join(map(d.root, xs))),
+ROOTS: facts.Kind[Sequence[RealRoot]] = facts.Kind(
+    facts.Json(array(ALGEBRAIC), lambda xs, d: [root_data(x, d.digits) for x in xs]),
+    facts.Words(lambda xs, d: ", ".join(map(d.root, xs))),
 )
 
 
@@ -302,22 +305,22 @@ def radius_data(x: SspCoefficient, d: Plain) -> object:
     return "infinity" if x.value is None else root_data(x.value, d.digits)
 
 
-RADIUS: Kind[SspCoefficient] = Kind(
-    Json(one_of(S.TEXT, ROOT_OF), radius_data),
-    Words(lambda x, d: d.infinity if x.value is None else d.root(x.value)),
+RADIUS: facts.Kind[SspCoefficient] = facts.Kind(
+    facts.Json(one_of(S.TEXT, ROOT_OF), radius_data),
+    facts.Words(lambda x, d: d.infinity if x.value is None else d.root(x.value)),
 )
 """The reach of something, which may be without end."""
 
-END: Kind[RealRoot] = Kind(Json(ALGEBRAIC, lambda x, d: root_data(x, d.digits)))
-INTERVAL: Section[Interval] = Section(
-    maybe("from", END, lambda x: x.start),
-    maybe("to", END, lambda x: x.end),
-    Row("from_included", TRUTH, lambda x: x.has_start),
-    Row("to_included", TRUTH, lambda x: x.has_end),
+END: facts.Kind[RealRoot] = facts.Kind(facts.Json(ALGEBRAIC, lambda x, d: root_data(x, d.digits)))
+INTERVAL: facts.Section[Interval] = facts.Section(
+    facts.maybe("from", END, lambda x: x.start),
+    facts.maybe("to", END, lambda x: x.end),
+    facts.Row("from_included", TRUTH, lambda x: x.has_start),
+    facts.Row("to_included", TRUTH, lambda x: x.has_end),
 )
 _PLACES = fmpq(10) ** 20
-BOUNDS: Section[Bounds] = Section(
-    Row(
+BOUNDS: facts.Section[Bounds] = facts.Section(
+    facts.Row(
         "at_least",
         TEXT,
         lambda x: (
@@ -326,7 +329,7 @@ BOUNDS: Section[Bounds] = Section(
             else plain_decimal(fmpq((x.low * _PLACES).floor()) / _PLACES)
         ),
     ),
-    maybe(
+    facts.maybe(
         "at_most",
         TEXT,
         lambda x: (
@@ -337,7 +340,7 @@ BOUNDS: Section[Bounds] = Section(
     ),
 )
 """Rounded outwards."""
-DERIVATION: Kind[str] = Kind(Json(S.DERIVATION))
+DERIVATION: facts.Kind[str] = facts.Kind(facts.Json(S.DERIVATION))
 
 
 def claim_word(holds: bool | None, d: Plain) -> str:

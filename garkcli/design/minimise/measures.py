@@ -149,4 +149,3 @@ MEASURES = (
         lambda x: _infinity(x.embedded[0], "embedded-infinity"),
     ),
 )
-"""All measures, in the order of the documentation."""

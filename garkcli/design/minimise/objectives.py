@@ -295,4 +295,3 @@ OBJECTIVES: dict[str, aims.Objective | aims.LevelObjective | aims.SearchMeasure 
         *MEASURES,
     )
 }
-"""All objectives by their keys, in the order of the documentation."""

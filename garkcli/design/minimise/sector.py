@@ -15,7 +15,6 @@ from garkcli.stability.sector import largest_sector
 
 HALF_TURN = 180
 RIGHT = fmpq(90)
-"""A right angle, in degrees."""
 MOST_PARTS = 720
 """Bounds are multiples of π divided by at most so many parts, a quarter of a degree."""
 

@@ -18,7 +18,6 @@ from garkcli.exact.parametric import Parameters
 Wanted: TypeAlias = (
     aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.Either | aims.WeightedSum
 )
-"""Anything that can be minimised."""
 CURE = "write a name, or a sum such as '2*A + largest' or 'A - ssp/10'"
 _KEYS = {key.removeprefix("-"): key for key in OBJECTIVES}
 _HYPHENATED = re.compile("|".join(sorted((x for x in _KEYS if "-" in x), key=len, reverse=True)))

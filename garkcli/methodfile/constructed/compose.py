@@ -32,7 +32,6 @@ ADJOINT = g.ValueKind(g.defined("part").schema, _adjoint)
 _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
 _NAME_IT = "give of: METHOD, here or for all of them"
 MAX_SUBSTEPS = 400
-"""The largest number of substeps in a composition."""
 _Step: TypeAlias = tuple[PartText, Coefficient, bool]
 """The method of a substep, its fraction of the step, and whether the adjoint is taken."""
 

@@ -27,9 +27,7 @@ _HOW_FAR, _GIVE_ORDER = (
     "give order: 6, or sequence: [1, 2, 3]",
 )
 MAX_ORDER = 40
-"""The largest order of an extrapolation."""
 MAX_PARTS = 200
-"""The largest number of substeps in a row of the extrapolation table."""
 _MOST_ROWS = 20
 
 

@@ -67,7 +67,6 @@ _FORM_OF_MIS = (
 _FORM_OF_COUPLING = "write slowest-first, collocation, {gamma: [[…]]}, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
 MAX_STEPS = 400
-"""The largest number of small steps."""
 MAX_POWERS = 12
 """The largest number of matrices of a slow part, one for each power of τ."""
 SLOWEST_FIRST = "slowest-first"

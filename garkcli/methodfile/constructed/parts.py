@@ -24,7 +24,6 @@ _FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
 _NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"
 AT_POINTS = "its substeps cannot be spelled out"
 METHOD = defined("part", lambda at, node, where: at.method(node, where))
-"""A method within a construction."""
 
 
 class Opened(Frozen):

@@ -21,9 +21,7 @@ from garkcli.tableau.tableau import Tableau
 _FORM = "write for instance {a: [1/2, 1/2], b: [1]} or {scheme: strang}"
 _FORM_OF_FLOWS = "write for instance [{1: 1/2}, {2: 1}, {1: 1/2}]"
 MAX_TERMS = 20
-"""The largest number of parts."""
 MAX_FLOWS = 400
-"""The largest number of flows."""
 _Flow: TypeAlias = tuple[int, Coefficient]
 """A part of the problem, from 0, and the fraction of the step for which it flows."""
 

@@ -18,7 +18,6 @@ from garkcli.grammar.nodes import Node
 from garkcli.problems.vectorfield import TIME
 
 DEFAULT_T_END = fmpq(2)
-"""The default final time of a convergence test."""
 STIFFNESS = "stiffness"
 """The parameter that ``--stiffness`` sets."""
 Side: TypeAlias = tuple[tuple[str, Node, str], ...]
@@ -143,7 +142,6 @@ KEYS = {
         ),
     )
 }
-"""The keys of a problem file by name, in the order of the documentation."""
 FORM = g.Ways(
     "the problem is",
     FORMS,

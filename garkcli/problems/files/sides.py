@@ -20,7 +20,6 @@ _TRIES = fmpq(1, 3), fmpq(2, 3), fmpq(1)
 ByName: TypeAlias = dict[str, FormulaTerm]
 """Formulas by the variables whose derivatives they are."""
 Start: TypeAlias = dict[str, fmpq]
-"""Initial values by variables."""
 
 
 class SidesMaker(Maker):
