@@ -94,7 +94,7 @@ def _spelt(sign: str) -> str:
 
 
 PREAMBLE = (
-    r"\usepackage{amsmath,longtable,tikz}",
+    r"\usepackage{amsmath,array,longtable,tikz}",
     r"\providecommand{\mathbbm}[1]{\mathbf{#1}} "
     r"% or \usepackage{bbm} for the paper's vector of ones",
 )

@@ -179,7 +179,8 @@ def short_reference(entry: Entry) -> str:
 
 
 def _reference_words(entry: Entry, d: Plain) -> str:
-    return d.prose(short_reference(entry) if d.is_brief else entry["reference"])
+    is_short = d.is_brief or d.breadth == "page"
+    return d.prose(short_reference(entry) if is_short else entry["reference"])
 
 
 def _type(entry: Entry) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain, islice
 from typing import TYPE_CHECKING
 
 from garkcli.errors import ExpressionError, printable
@@ -48,6 +49,11 @@ _ABOVE = {
     "\N{COMBINING DIAERESIS}": "ddot",
     "\N{COMBINING MACRON}": "bar",
 }
+_COMMAND, _UNSEEN = re.compile(r"\\([A-Za-z]+|.)"), str.maketrans("", "", "{}$^_")
+PAGE, GAP, PICTURE = 96, 2.5, 8
+"""The width of a page, of the gap between columns and of a drawn tree, in letters."""
+ON_A_PAGE, MEASURED = 30, 1000
+"""Rows of a table that a page has room for, some of them folded; those that say its widths."""
 _SIGN = re.compile(rf"\|[^|]+\||[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
 
 
@@ -80,6 +86,21 @@ def place_latex(place: Place, name: Callable[[str], str] = str) -> str:
     if place.indices:
         base += f"_{{{','.join(str(i + 1) for i in place.indices)}}}"
     return base
+
+
+def _width(cell: str) -> int:
+    """The letters of a cell, about: a command is one, a picture some."""
+    return PICTURE if "tikzpicture" in cell else len(_COMMAND.sub("x", cell).translate(_UNSEEN))
+
+
+def _most(widths: Sequence[int], room: int) -> int:
+    """The width to which wider columns are folded, so that all have room."""
+    for k, width in enumerate(sorted(widths)):
+        share = room // (len(widths) - k)
+        if width > share:
+            return share
+        room -= width
+    return max(widths)
 
 
 class Latex(Plain):
@@ -158,24 +179,36 @@ class Latex(Plain):
         return [f"% {text}" if self.is_inserted else rf"\subsection*{{{text}}}"]
 
     def title(self, text: str, depth: int) -> list[str]:
-        return [rf"\paragraph{{{text}}}"]
+        return [rf"\subsubsection*{{{text}}}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
         return [f"% {text}"] if self.is_inserted else [f"{text.removesuffix('.')}.", ""]
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         body = [rf"{label} & {text} \\" for label, text in rows]
-        return [
-            r"\begin{tabular}{lp{.7\linewidth}}", r"\hline", *body, r"\hline", r"\end{tabular}", "",
-        ]  # fmt: skip
+        begin, end = r"\noindent\begin{tabular}{lp{.7\linewidth}}", r"\end{tabular}"
+        return [begin, r"\hline", *body, r"\hline", end, ""]
 
     def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
-        kind = "longtable" if how.is_stream else "tabular"
-        yield rf"\begin{{{kind}}}{{{'l' * len(head)}}}"
+        """A table. If it is wider than a page, long columns are folded; a long one goes on over
+        pages, below its head.
+        """
+        left = iter(rows)
+        first = [*islice(left, MEASURED)]
+        widths = [max(map(_width, column)) for column in zip(head, *first, strict=True)]
+        most = _most(widths, int(PAGE - GAP * len(head)))
+        folded = rf">{{\raggedright\arraybackslash}}p{{{most / PAGE:.2f}\linewidth}}"
+        columns = "".join("l" if x <= most else folded for x in widths)
+        is_long = how.is_stream or len(first) > ON_A_PAGE
+        kind = "longtable" if is_long else "tabular"
+        if not how.is_stream and (is_long or "p" in columns):
+            yield r"% \usepackage{array,longtable}"
+        begin = rf"\begin{{{kind}}}{{{columns}}}"
+        yield begin if is_long else rf"\noindent{begin}"
         yield r"\hline"
         yield rf"{' & '.join(head)} \\"
-        yield r"\hline"
-        for row in rows:
+        yield r"\hline\endhead" if is_long else r"\hline"
+        for row in chain(first, left):
             yield rf"{' & '.join(row)} \\"
         yield r"\hline"
         yield rf"\end{{{kind}}}"

@@ -151,3 +151,28 @@ def test_the_latex_of_every_sum_is_balanced(one: str, other: str) -> None:
     text = to_latex(Domain([expression]).evaluate(expression))
     assert list(unbalanced(text)) == []
     assert not re.search(r"\+-|--|\+\+|-\+|^\+", text)
+
+
+FOLDED = re.compile(r"p\{([0-9.]+)\\linewidth\}")
+
+
+@given(st.lists(st.lists(st.integers(1, 200), min_size=4, max_size=4), min_size=1, max_size=50))
+def test_tables_are_as_wide_as_a_page(rows: list[list[int]]) -> None:
+    """Columns that are not folded take about a hundredth of a line a letter; a table that has room
+    has none that is.
+    """
+    lines = [*Latex().grid("abcd", [["x" * n for n in row] for row in rows])]
+    begin = next(x for x in lines if "\\begin" in x)
+    widest = [max(column) for column in zip(*rows, strict=True)]
+    shares = [float(x) for x in FOLDED.findall(begin)]
+    kept = sorted(widest)[: 4 - len(shares)]
+    assert sum(kept) / 100 + sum(shares) < 1
+    assert bool(shares) is (sum(widest) + 10 > 96)
+    assert any("endhead" in x for x in lines) is (len(rows) > 30)
+
+
+def test_a_list_of_methods_goes_on_over_pages_with_short_references() -> None:
+    text = latex("list", "methods", "--kind", "rk")
+    assert text.count(r"\begin{longtable}") == text.count(r"\endhead") == 1
+    assert FOLDED.search(text)
+    assert "& Kutta 1901 " in text
