@@ -277,15 +277,20 @@ _PLACE = opt.option(
 )
 
 
-@declared("report", Page, ["html"], output={**opt.WRITTEN, "output": _PLACE})
+_DETAILS = opt.flag(
+    "-v --verbose", "Everything: reasons of properties, B, C and D, more results and conditions."
+)
+
+
+@declared("report", Page, ["html"], output={**opt.REPORTED, "output": _PLACE, "verbose": _DETAILS})
 def report(given: Page, output: Output) -> int:
-    """All about methods as one HTML page, to look at, print and pass on.
+    """Methods as one HTML page, to look at, print and pass on.
 
     gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to standard output. The page
-    needs no network: tableau, conjugate and pair typeset, orders with their witness trees, B, C and
-    D, order conditions with filters, pictures, properties, claims, references; a table compares
-    several methods. Claims of a file are about its method: with --pair or --conjugate the page has
-    none.
+    needs no network: tableau, stability picture, claims, orders with their witness trees,
+    stability, properties, errors, reference, order conditions with filters; a table compares
+    several methods. -v adds the reasons of all properties, B, C and D and more results. Claims of a
+    file are about its method: with --pair or --conjugate the page has none.
 
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method, 3 a claim
     is undecided; the page is written in each case, and says so.
@@ -306,7 +311,7 @@ def report(given: Page, output: Output) -> int:
     asked = given.order, given.pictures is not False, given.settings
     found = (reported(_meant(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
-    output.write(render(methods))
+    output.write(render(methods, output.verbosity > 0))
     if given.open and output.path is not None:
         output.show(output.path)
     for method in methods:

@@ -243,11 +243,10 @@ class Report(Frozen, Generic[Whole]):
             return "".join(d.page(chain(*lines)))
 
     def labelled(
-        self, whole: Whole, signs: type[Plain], without: Collection[str] = ()
+        self, whole: Whole, d: Plain, level: Level, without: Collection[str] = ()
     ) -> list[Labelled]:
         """Titles of parts, each with labels and words, for pages with their own look."""
-        d = signs(**self.signs(whole))
-        return list(labelled(self.form(whole), whole, d, Level.DETAIL, without))
+        return list(labelled(self.form(whole), whole, d, level, without))
 
     def data(self, whole: Whole) -> dict[str, Any]:
         return self.form(whole).data(whole, Plain(**self.signs(whole)))

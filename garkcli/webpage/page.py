@@ -26,7 +26,7 @@ from garkcli.tell.dialect import Plain
 from garkcli.tell.outputs import cell, phrase, words
 from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.pictures import dots
-from garkcli.webpage.reported import MOST_CONDITIONS, Content, Reported, reported
+from garkcli.webpage.reported import MOST_CONDITIONS, USUAL_CONDITIONS, Content, Reported, reported
 from garkcli.webpage.sections.pictures import of_several
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
@@ -141,14 +141,18 @@ passed to the template of the same name.
 """
 
 
-def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool = True) -> str:
-    """All results about methods as one self-contained HTML page: ``gark report``.
+def report_page(
+    *methods: AnyMethod, order: Whole | None = None, pictures: bool = True, details: bool = False
+) -> str:
+    """Results about methods as one self-contained HTML page: ``gark report``.
 
     Args:
         methods: names, paths, or methods; several are compared in a table. The faults of a file
             that cannot be read are part of the page.
         order: the largest order of the conditions that are listed; by default the first that fails.
         pictures: whether stability, errors and energy are drawn.
+        details: whether the page has everything: reasons of all properties, simplifying
+            assumptions, all results about stability, more conditions.
 
     Raises:
         MethodError: no method is given, or something else.
@@ -159,14 +163,18 @@ def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool 
     if not methods:
         raise MethodError("a page of no method", "give at least one", code="arrays")
     listed = None if order is None else whole(order, "order", 1)
-    return render([reported(x, listed, has_pictures=pictures) for x in methods])
+    return render([reported(x, listed, has_pictures=pictures) for x in methods], details)
 
 
-def render(methods: Sequence[Reported]) -> str:
+def render(methods: Sequence[Reported], has_details: bool) -> str:
     """Returns the page of one or several methods, the latter with a comparison."""
     has_several = len(methods) > 1
     room = min(MOST_CONDITIONS, MOST_ROWS // max(len(methods), 1))
-    methods = [replace(x, most_conditions=room) for x in methods]
+    few = room if has_details else min(room, USUAL_CONDITIONS)
+    methods = [
+        replace(x, has_details=has_details, most_conditions=room if x.wanted_order else few)
+        for x in methods
+    ]
     shown = [
         {"place": f"m{number}", "heading": heading(x), "sections": list(_sections(x))}
         for number, x in enumerate(methods, 1)
@@ -183,6 +191,7 @@ def render(methods: Sequence[Reported]) -> str:
         compared=compared,
         pictures=of_several(methods),
         columns=list(COLUMNS),
+        has_details=has_details,
         dots=dots(sizes),
         style=Markup(_static("colours.css") + _static("page.css") + STYLE),
         script=Markup(script),

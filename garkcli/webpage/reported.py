@@ -29,6 +29,8 @@ Content: TypeAlias = Mapping[str, Any]
 """The variables of a template."""
 MOST_CONDITIONS = 500
 """The largest number of conditions of one method on a page; with many methods it is less."""
+USUAL_CONDITIONS = 40
+"""The largest number of conditions of one method on a page without details."""
 MOST_STAGES = 12
 """The largest number of stages of methods with irrational or rounded coefficients: with 16, the
 intervals of stability take up to ten seconds.
@@ -40,7 +42,7 @@ class Reported(Frozen):
 
     ``method`` is None for a file with free parameters and for one that cannot be read.
     ``wanted_order`` is the last order whose conditions are listed, None for the first that fails;
-    at most ``most_conditions`` are listed.
+    at most ``most_conditions`` are listed. With ``has_details`` the page has everything.
     """
 
     outcome: Outcome
@@ -50,6 +52,7 @@ class Reported(Frozen):
     description: str = ""
     wanted_order: int | None = None
     has_pictures: bool = True
+    has_details: bool = False
     most_conditions: int = MOST_CONDITIONS
 
     @property

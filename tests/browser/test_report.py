@@ -17,15 +17,16 @@ HERE = Path(__file__).parent
 HOSTILE = HERE / "hostile.gark.yaml"
 FREE = HERE / "free.gark.yaml"
 PAGES = {
-    "rk4": ["rk4"],
-    "pair": ["methods/collocation.gark.yaml", "--order", "3"],
+    "rk4": ["rk4", "-v"],
+    "usual": ["dormand-prince-5"],
+    "pair": ["methods/collocation.gark.yaml", "--order", "3", "-v"],
     "several": ["rk4", "ark-ars222", "gauss-2", "methods/rectangular.gark.yaml", "--order", "3"],
     "free": [str(FREE)],
     "hostile": [str(HOSTILE)],
     "big": ["methods/gauss6-lobatto7.gark.yaml"],
     "long-numbers": ["methods/found/imex4-order3.gark.yaml"],
 }
-READ = ["rk4", "pair", "several", "free", "hostile"]
+READ = ["rk4", "usual", "pair", "several", "free", "hostile"]
 """Those that axe looks at, for which a big page takes it minutes."""
 WITH_FILTERS = ["rk4", "pair", "several"]
 SIZES = {"phone": 360, "desktop": 1280}

@@ -314,7 +314,7 @@ def test_latex_and_the_page_have_every_finding(example: Example) -> None:
     label, _ = LABELS.get(example.finding.rule, (example.remark.code, ""))
     assert label in example.text("latex")
     assert f"({example.remark.code})" in example.text("latex") or example.finding.rule in SIGNS
-    page = render([reported(example.outcome.file, None, has_pictures=False)])
+    page = render([reported(example.outcome.file, None, has_pictures=False)], has_details=True)
     assert SIGNS.get(example.finding.rule, f">{example.remark.code}</span>") in page
 
 

@@ -64,8 +64,8 @@ HOSTILE = """<script>alert(1)</script>"><img src=x onerror=alert(2)></style></ti
 
 @cache
 def text(*methods: str) -> str:
-    """The page of some methods, with few conditions and no picture."""
-    return report_page(*methods, order=2, pictures=False)
+    """The whole page of some methods, with few conditions and no picture."""
+    return report_page(*methods, order=2, pictures=False, details=True)
 
 
 @cache
@@ -151,7 +151,7 @@ def test_nothing_is_fetched(method: str) -> None:
 
 def test_the_same_method_has_the_same_page() -> None:
     """To the letter, and nothing in it has to be written out for a terminal."""
-    again = report_page(DENSE, order=2, pictures=False)
+    again = report_page(DENSE, order=2, pictures=False, details=True)
     assert again == text(DENSE)
     assert written_out(again, "html") == again
 
@@ -481,7 +481,8 @@ def test_several_methods_are_compared() -> None:
     links = [x.get("href") for x in elements(table, "a")]
     assert links == ["#m1", "#m2", "#m3"]
     alone = text_of(section(RECTANGULAR, "orders"))
-    assert text_of(by_id(root, "m2-orders")) == alone
+    together = text_of(by_id(root, "m2-orders"))
+    assert together == alone.replace("Orders", "Orders the rectangular method", 1)
 
 
 HOSTILE_FILE = f"""
@@ -544,7 +545,7 @@ class Tags(HTMLParser):
         """Of the page of a method that is called so."""
         known = found_once()
         outcome = replace(known.outcome, name=name)
-        self.feed(render([replace(known, outcome=outcome)]))
+        self.feed(render([replace(known, outcome=outcome)], has_details=True))
         return self
 
 
@@ -669,7 +670,7 @@ def test_what_takes_long_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     stability; rational ones are decided.
     """
     monkeypatch.setattr(reported_module, "MOST_STAGES", 1)
-    slow = reported(ROUNDED)
+    slow = replace(reported(ROUNDED), has_details=True)
     assert slow.is_slow
     assert not reported("rk4").is_slow
     content = stability.content(slow)
@@ -754,7 +755,7 @@ def test_what_one_looks_for_is_first(tmp_path: Path) -> None:
     assert heads[:3] == ["m1-tableau", "m1-picture", "m1-claims"]
     assert "m1-picture-region" in [x.get("id") for x in elements(by_id(root, "m1-picture"))]
     further = [x.get("id") for x in elements(by_id(root, "m1-pictures"), "figure")]
-    assert further == ["m1-pictures-convergence", "m1-pictures-energy"]
+    assert further == ["m1-pictures-convergence"]
     plain = "A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\n"
     file = tmp_path / "heun.yaml"
     for claims, is_told in (("", False), ("expect: {pair-order: 2}\n", True)):
@@ -763,6 +764,36 @@ def test_what_one_looks_for_is_first(tmp_path: Path) -> None:
         for name in ("tableau", "orders"):
             assert ("symplectic pair" in text_of(by_id(page_of, f"m1-{name}"))) is is_told
     assert "symplectic pair" in text_of(by_id(read(text(PAIRED)), "m1-tableau"))
+
+
+def test_a_page_has_the_rest_with_details() -> None:
+    """Without them a page has the usual facts of the commands, few conditions, and energies if the
+    method is made for them; it says what has more.
+    """
+    usual, whole = (read(report_page("dormand-prince-5", details=x)) for x in (False, True))
+    names = [[x.get("id") for x in elements(root, "section")] for root in (usual, whole)]
+    assert {*names[1]} - {*names[0]} == {"m1-simplifying"}
+    assert "gark report -v" in text_of(next(elements(usual, "footer")))
+    assert "gark report -v" not in text_of(next(elements(whole, "footer")))
+    printed = [gark("stability", "dormand-prince-5", *more).out for more in ([], ["-v"])]
+    for root, out in zip((usual, whole), printed, strict=True):
+        labels = [text_of(x) for x in elements(by_id(root, "m1-stability"), "dt")]
+        assert ("conserved form" in labels) is ("conserved form" in out)
+        assert len(labels) > 7
+        ids = [x.get("id") for x in elements(by_id(root, "m1-pictures"), "figure")]
+        assert ("m1-pictures-energy" in ids) is (root is whole)
+    properties = [by_id(root, "m1-properties") for root in (usual, whole)]
+    assert [len([*elements(x, "table")]) for x in properties] == [0, 1]
+    said = text_of(properties[0])
+    assert "it is explicit, stiffly-accurate, fsal" in said
+    assert "it is not symmetric, reducible" in said
+    assert "stage-order 1" in said
+    assert "real-stability" not in said
+    conditions = read(report_page("feagin-10", pictures=False))
+    (table,) = elements(by_id(conditions, "m1-conditions"), "table")
+    assert len(rows_of(table)) == 37
+    verlet = read(report_page(VERLET, order=1))
+    assert "m1-pictures-energy" in [x.get("id") for x in elements(verlet, "figure")]
 
 
 def test_long_coefficients_are_decimals_and_labels_are_not_repeated() -> None:

@@ -294,7 +294,7 @@ def test_what_is_not_drawn_has_a_reason() -> None:
 @in_whole
 def test_names_from_files_are_text() -> None:
     """A name of a colour is no markup, and a long one is cut."""
-    method = loads(EULERS)
+    method = loads("ark: {A: [[[1/2]], [[1]]], b: [[1], [1]]}")
     first, second = method.tableau.colours
     colours = (replace(first, name=HOSTILE), second)
     tableau = replace(method.tableau, colours=colours)

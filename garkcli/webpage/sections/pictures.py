@@ -15,7 +15,14 @@ def content(method: Reported) -> Content | None:
     """Returns the variables of the template; None without pictures."""
     if method.has_pictures and method.free is not None:
         return {"free": method.free, "file": method.outcome.file}
-    return drawn(method, OF_STEPS)
+    return drawn(method, OF_STEPS if _has_energy(method) else OF_STEPS[:1])
+
+
+def _has_energy(method: Reported) -> bool:
+    """Returns whether one looks at energies: the method is made for them, or with details."""
+    outcome = method.outcome
+    is_made = outcome.analysis is not None and outcome.analysis.symplectic
+    return method.has_details or method.tells_pair or is_made
 
 
 def drawn(method: Reported, names: Sequence[str]) -> Content | None:

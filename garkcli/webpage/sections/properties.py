@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 from markupsafe import Markup
 
 from garkcli.check.every_facts import fact_reason
 from garkcli.check.outcome import Outcome
 from garkcli.properties.registry import KEYS
-from garkcli.properties.subject import every_property
+from garkcli.properties.subject import every_property, find
 from garkcli.properties.verdict import Verdict
 from garkcli.report.check import CHECKED, verdict_words, within
 from garkcli.report.checked import REPORT
+from garkcli.report.methods import TYPES
 from garkcli.tell.dialect import Status
 from garkcli.tell.outputs import label, words
 from garkcli.webpage.mathml import Typeset
@@ -29,9 +32,12 @@ def content(method: Reported) -> Content | None:
     slow: list[str] = []
     if method.is_slow and outcome.every is None:
         slow = [one.key for one in every_property() if not one.is_cheap]
+    verdicts = [_verdict(outcome, key) for key in keys if key not in slow]
+    lines = _lines(outcome) if outcome.analysis is not None else []
+    is_brief = not (method.has_details or outcome.every)
     return {
-        "lines": _lines(outcome) if outcome.analysis is not None else [],
-        "verdicts": [_verdict(outcome, key) for key in keys if key not in slow],
+        "lines": [*lines, *_brief(verdicts)] if is_brief else lines,
+        "verdicts": [] if is_brief else verdicts,
         "left_out": slow,
         "file": outcome.file,
     }
@@ -43,6 +49,21 @@ def _lines(outcome: Outcome) -> list[tuple[Markup, Markup]]:
     facts = CHECKED.named(outcome, ("symplectic", "consistent", "method", "by_colour"))
     found = [x for x in facts.values() if x.is_something]
     return [(Markup(label(x, d)), Markup(words(x, d))) for x in found]
+
+
+def _brief(verdicts: Sequence[Content]) -> Iterator[tuple[str, str]]:
+    """Yields lists of the properties that a method has and lacks, without kinds of stages, and the
+    numbers that are not in the section on stability.
+    """
+    for said, mark in {"it is": "yes", "it is not": "no", "not decided": "open"}.items():
+        named = [x["key"] for x in verdicts if x["mark"] == mark]
+        if mark == "no":
+            named = [key for key in named if key.replace("-", "_") not in TYPES]
+        if named:
+            yield said, ", ".join(named)
+    for verdict in verdicts:
+        if verdict["mark"] == "value" and find(verdict["key"]).is_cheap:
+            yield verdict["key"], verdict["text"]
 
 
 def _verdict(outcome: Outcome, key: str) -> Content:

@@ -19,9 +19,9 @@ _LEVELS = 6
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without results."""
+    """Returns the variables of the template; None without results, or without details."""
     whole: Any = method.outcome.analysis or method.outcome.every
-    if whole is None:
+    if whole is None or not method.has_details:
         return None
     found, told = whole.simplifying, whole  # the bounds as far as the order bears them out
     if isinstance(found, FamilyFact):

@@ -13,6 +13,7 @@ from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.exact.display import decimal
 from garkcli.report.stability import REPORT, StabilityReport, formulas
 from garkcli.tableau.tableau import Tableau
+from garkcli.tell.facts import Level
 from garkcli.webpage.mathml import Typeset, typeset
 from garkcli.webpage.reported import Content, Reported
 
@@ -45,15 +46,15 @@ def content(method: Reported) -> Content | None:
         return None
     if method.is_slow:
         return {"file": file, "near": ""}
-    found = find_stability(method.method)
+    shown = StabilityReport("", "", find_stability(method.method))
+    level = Level.DETAIL if method.has_details else Level.USUAL
+    named = [*formulas(shown.found)]
+    if not method.has_details:  # the oscillator is drawn, or R(z) tells more
+        named = [x for x in named if "M(x)" not in x[0]]
+    told = REPORT.labelled(shown, Typeset(**REPORT.signs(shown)), level, _TYPESET)
     return {
-        "formulas": [typeset(f"{x} {y}") for x, y in formulas(found) if len(y) <= _LONGEST],
-        "parts": [
-            (Markup(title), _together(facts))
-            for title, facts in REPORT.labelled(
-                StabilityReport("", "", found), Typeset, without=_TYPESET
-            )
-        ],
+        "formulas": [typeset(f"{x} {y}") for x, y in named if len(y) <= _LONGEST],
+        "parts": [(Markup(title), _together(facts)) for title, facts in told],
         "near": method.tolerance and decimal(method.tolerance),
         "file": file,
     }
