@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
+from math import isqrt
 from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -18,10 +20,14 @@ Units: TypeAlias = Mapping[Number, fmpq]
 """The largest errors of values."""
 FEWEST_DIGITS = 6
 """A number with fewer digits is taken as exact."""
-FEW_PLACES = range(4, 6)
+FEW_PLACES = range(3, 6)
 """Decimals of so many places look rounded if none is longer, as on a sheet of exercises."""
-SEVERAL = 3
-"""Fewest such decimals."""
+SEVERAL, SEVERAL_PLACES = 3, 4
+"""Fewest such decimals, and fewest places: three places are often exact."""
+RARE = 15
+"""About 3 n²/10 fractions below 1 have denominators up to n. One number in fifty is as close to one
+of them as a decimal with this times n² units.
+"""
 SHORTENED = 4
 """In lowest terms, the denominator of a decimal has at most so many digits less."""
 MANY_DIGITS = 14
@@ -76,11 +82,24 @@ def left_open(printed: Printed) -> list[fmpq]:
 
 
 def is_short(printed: Printed) -> bool:
-    """Whether several decimals have few places, so that they look rounded and are exact."""
-    literals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
-    places = [_decimals(x) for x in literals]
-    is_one = sum(n in FEW_PLACES for n in places) < SEVERAL
-    return not is_one and max(places) in FEW_PLACES
+    """Returns whether decimals with few places look rounded, though ``left_open`` finds them exact:
+    none has more, and there are several, or a few that all are simple fractions.
+    """
+    decimals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
+    few = [x for x in decimals if _decimals(x) in FEW_PLACES]
+    if not few or max(map(_decimals, decimals)) not in FEW_PLACES:
+        return False
+    has_several = sum(_decimals(x) >= SEVERAL_PLACES for x in few) >= SEVERAL
+    return has_several or (len(few) > 1 and all(map(_is_simple, few)))
+
+
+def _is_simple(literal: Literal) -> bool:
+    """Returns whether a decimal is rounded from a fraction of small denominator, which is rare by
+    chance.
+    """
+    unit, value = _unit(literal), Fraction(int(literal.value.p), int(literal.value.q))
+    most = isqrt(int((1 / unit).floor()) // RARE)
+    return 0 < abs(value.limit_denominator(most) - value) <= Fraction(int(unit.p), 2 * int(unit.q))
 
 
 def as_typed(printed: Printed) -> list[fmpq]:
