@@ -22,7 +22,7 @@ from garkcli.bridges.subject import HIGH, TableSubject, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, Remark, Severity, counted
 from garkcli.exact.field import ZERO
-from garkcli.exact.matrix import dot
+from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.folders import no_one
@@ -403,14 +403,20 @@ def _culprit(subject: TableSubject, declared: int) -> str:
     return "; ".join(filter(None, [row, _entry(subject, declared)]))
 
 
-def _entry(subject: TableSubject, declared: int | None) -> str:
-    """The only entry that restores an order; empty if there is none."""
-    tableau = subject.tableau
-    repairs, order, _ = repairs_of(subject, tableau, subject.order, declared)
+def _entry(
+    subject: TableSubject, declared: int | None, embedded: tuple[Vector, ...] | None = None
+) -> str:
+    """The only entry that restores an order, or that of embedded weights; empty if none does."""
+    tableau, what = subject.tableau, "order"
+    found: Judged | None = subject.order
+    if embedded is not None:
+        tableau, what = with_weights(tableau, embedded), "embedded order"
+        found = subject.embedded_order
+    repairs, order, _ = repairs_of(subject, tableau, found, declared, embedded is not None)
     if len(repairs) != 1:
         return ""
     repair = repair_text(repairs[0], [colour.name for colour in tableau.colours])
-    return f"order {order} would hold with {repair}"
+    return f"{what} {order} would hold with {repair}"
 
 
 def repairs_of(
@@ -461,7 +467,8 @@ def _embedded(subject: TableSubject) -> Iterator[Remark]:
         total = " and ".join(str(total_text(sum(b, ZERO))) for b in embedded)
         claims = {"embedded-order": ONE if declared is None else str(declared)}
         message = f"the embedded weights have the sum {total}"
-        yield Remark(message, code="embedded-weights", claims=claims)
+        entry = _entry(subject, declared, embedded)
+        yield Remark(message, entry, code="embedded-weights", claims=claims)
     elif not is_known:
         tableau = with_weights(subject.tableau, embedded)
         finding = _held(found, declared, "embedded order", tableau)

@@ -434,6 +434,21 @@ def test_text_names_the_place_and_the_culprit(wrong: Path) -> None:
     assert all(len(line) <= 80 for line in run.out.splitlines())
 
 
+def test_the_embedded_weight_that_is_wrong_is_named(tmp_path: Path) -> None:
+    """Without a declared order too, if one entry alone mends the sum and an order above."""
+    source = "A = [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 3/4, 0, 0], [2/9, 1/3, 4/9, 0]]\n"
+    source += "b = [2/9, 1/3, 4/9, 0]\nbhat = [7/24, 1/4, 1/3, 1/6]\nc = [0, 1/2, 3/4, 1]\n"
+    (tmp_path / "solver.py").write_text(source)
+    (found,) = audited([str(tmp_path / "solver.py")])
+    (finding,) = found.findings
+    assert finding.code == "embedded-weights"
+    entry = "embedded b[4] = 1/8 instead of 1/6"
+    assert finding.help == f"embedded order 2 would hold with {entry}"
+    (tmp_path / "solver.py").write_text(source.replace("1/6", "1/8"))
+    (mended,) = audited([str(tmp_path / "solver.py")])
+    assert (mended.findings, mended.embedded_order.order) == ((), 2)
+
+
 @in_whole
 def test_formats_for_machines(wrong: Path) -> None:
     """Annotations of GitHub, SARIF with a rule for each code, a table in Markdown."""
