@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from garkcli import numpy_on_use as np
+from garkcli.exact.display import to_float
 from garkcli.ntrees.kind import ONE_BRANCH
 from garkcli.ntrees.tree import Tree
 from garkcli.order.bounded import compromise, scaled
@@ -16,7 +17,7 @@ from garkcli.tableau.tableau import Edge, Tableau
 NATURAL = 1e-3
 """Conditions that rounding can change by more are ignored: many hold by chance."""
 NOISE = 1e-3
-"""Slopes of so many radii are rounding errors of zeros."""
+"""Slopes of at most so many radii of their numbers are rounding errors of zeros."""
 WEIGHTS = {"B": 100.0, "stiff": 10.0}
 """Weights in a compromise: orders need B, and a last row equal to b is seldom chance."""
 SYMMETRIC = ("symmetric", "palindrome")
@@ -32,6 +33,7 @@ def candidates(origin: BoxPlace) -> Chosen:
     if not made.has_fields_alone:  # on linear problems they are Runge–Kutta methods
         edges = [(l, l) for l, colour in enumerate(made.colours) if colour.kind == ONE_BRANCH]
     chosen: Chosen = {}
+    noise = NOISE * np.array([to_float(t) for t in origin.search.box.radii])
 
     def take(label: Label, alive: set[int]) -> set[int]:
         """The places that still hold; those that are significant are chosen."""
@@ -46,7 +48,7 @@ def candidates(origin: BoxPlace) -> Chosen:
         telling = [
             i
             for i in says
-            if NOISE * origin.search.radius < forms.reach[i] and np.isfinite(forms.remainders[i])
+            if (abs(forms.slopes[i]) > noise).any() and np.isfinite(forms.remainders[i])
         ]
         if telling:
             chosen[label] = telling
