@@ -329,10 +329,14 @@ class TableFinder(Harvester):
             self._refilled |= both
 
     def _declared_by_class(self, scope: ir.Scope, space: Space) -> None:
-        """The order of a class is for the table that it uses; a table with a private name gets the
-        name of its only user.
+        """The order of a class is for the table that it uses, or the only one that its constructor
+        makes; a table with a private name gets the name of its only user.
         """
-        order = space.get("order", space.get("ORDER"))
+        order = space.get("order", space.get("ORDER", space.get("Order")))
+        around = " ".join(x.title for x in self._scopes)
+        made = [x for x in self._meant if f"{x.table.around} ".startswith(f"{around} ")]
+        if len(made) == 1 and made[0].maker != A_STEP and isinstance(order, Number):
+            made[0].roles.setdefault("order", order)
         for record in space.values():
             if isinstance(record, SourceRecord):
                 users = self._users.setdefault((record.kind, record.line), {})

@@ -347,10 +347,15 @@ class Lowering(ABC):
 
 @lru_cache
 def _language(grammar: str) -> Language:
-    """The language of a grammar module, imported on use since it may not be installed."""
+    """The language of a grammar, imported on use since it may not be installed.
+
+    Args:
+        grammar: its module, with the name of its function unless that is ``language``.
+    """
     from tree_sitter import Language
 
-    return Language(import_module(grammar).language())
+    module, _, function = grammar.partition(".")
+    return Language(getattr(import_module(module), function or "language")())
 
 
 def kinds(**nodes: str) -> Mapping[str, str]:
@@ -476,4 +481,4 @@ def reader(
 
         return tables_in(text, source, name, lowered, base, is_growing, has_whole_quotients)
 
-    return Reader(name, summary, suffixes, find, (lowering.grammar,))
+    return Reader(name, summary, suffixes, find, (lowering.grammar.partition(".")[0],))

@@ -43,8 +43,11 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "title": ("name", "title"),
     "fsal": ("fsal", "FSAL", "is_fsal"),
 }
-ROLES = {word: role for role, words in _WORDS.items() for word in words}
-"""The role of each name; if several names have a role, the first one counts."""
+_ROLES = {word: role for role, words in _WORDS.items() for word in words}
+ROLES = {x[0].upper() + x[1:]: role for x, role in _ROLES.items() if len(x) > 1} | _ROLES
+"""The role of each name, also with a capital as in Go and C#; if several names have a role, the
+first one counts.
+"""
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEedw]|err|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _ESTIMATES = "|".join([*_WORDS["embedded"], *_WORDS["error"]])
 _SUFFIX = re.compile(

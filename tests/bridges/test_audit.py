@@ -142,6 +142,12 @@ PLANTED = {
     "rust, an entry": ("methods.rs", "a[2][1] = 2.0", "a[2][1] = 1.0", "order"),
     "rust, the order": ("methods.rs", "ORDER: u8 = 2", "ORDER: u8 = 3", "order"),
     "java, a weight": ("Ralston.java", ".multiply(3)", ".multiply(2)", "order"),
+    "typescript, an entry": ("kutta.ts", "[-1, 2]", "[1, 2]", "order"),
+    "typescript, the order": ("kutta.ts", "return 2;", "return 3;", "order"),
+    "go, a whole quotient": ("kutta.go", "{1.0 / 2}", "{1 / 2}", "order"),
+    "go, the order": ("kutta.go", "Order: 3", "Order: 4", "order"),
+    "c#, a whole quotient": ("Kutta.cs", "2 / 3.0", "2 / 3", "order"),
+    "c#, the order": ("Kutta.cs", "Order = 2", "Order = 3", "order"),
     "notebook, a node": (
         "methods.ipynb",
         "c = np.array([0, 1/2])",
@@ -184,7 +190,7 @@ def test_none_is_invented() -> None:
     """The sources as they are have no finding of any level, and all their tables are seen."""
     report = audit(SOURCES)
     assert findings(report) == []
-    summary = {"tables": 35, "wrong": 0, "unread": 0}
+    summary = {"tables": 41, "wrong": 0, "unread": 0}
     assert report["summary"] == summary
 
 

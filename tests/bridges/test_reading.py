@@ -20,8 +20,14 @@ FOUND = {
     ("kutta.csv", 1): ("kutta", 1, 3, None),
     ("kutta.f90", 8): ("ralston", 1, 2, None),
     ("kutta.f90", 15): ("kutta_step", 1, 3, None),
+    ("Kutta.cs", 6): ("Kutta", 1, 3, None),
+    ("Kutta.cs", 18): ("Ralston", 1, 2, None),
+    ("kutta.go", 11): ("Kutta", 1, 3, None),
+    ("kutta.go", 19): ("ralston", 1, 2, None),
     ("kutta.m", 3): ("kutta", 1, 3, None),
     ("kutta.m", 11): ("imex", 2, 2, None),
+    ("kutta.ts", 4): ("kutta", 1, 3, None),
+    ("kutta.ts", 14): ("Ralston", 1, 2, None),
     ("lists.wl", 2): ("Ralston", 1, 2, 1),
     ("lists.wl", 3): ("Midpoint", 1, 2, None),
     ("lists.wl", 4): ("gauss", 1, 4, None),
@@ -90,7 +96,9 @@ def test_every_reader_has_a_source() -> None:
     assert used == set(all_readers())
 
 
-@pytest.mark.parametrize("ending", ["c", "cuh", "for", "inc", "ipynb", "java", "pyx", "rs"])
+@pytest.mark.parametrize(
+    "ending", ["c", "cs", "cuh", "for", "go", "inc", "ipynb", "java", "mjs", "pyx", "rs", "ts"]
+)
 def test_endings_choose_a_language(ending: str) -> None:
     """In a folder such files are read, each by the readers of its language alone."""
     assert f".{ending}" in suffixes()
@@ -130,6 +138,12 @@ SAME = {
     ("ralston.c", 14): KUTTA,
     ("register.cpp", 12): KUTTA,
     ("kutta.m", 3): KUTTA,
+    ("kutta.ts", 4): KUTTA,
+    ("kutta.ts", 14): RALSTON,
+    ("kutta.go", 11): KUTTA,
+    ("kutta.go", 19): RALSTON,
+    ("Kutta.cs", 6): KUTTA,
+    ("Kutta.cs", 18): RALSTON,
     ("kutta.csv", 1): KUTTA,
     ("solvers.py", 31): KUTTA,
     ("heun_euler.def", 12): SDIRK,

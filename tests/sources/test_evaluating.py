@@ -10,16 +10,31 @@ from garkcli.bridges.audit import audit
 from garkcli.bridges.claiming import imported
 from garkcli.exact.display import to_text
 from garkcli.sources.found import FoundTable
-from garkcli.sources.languages import c, fortran, java, julia, matlab, notebook, python, rust
+from garkcli.sources.languages import (
+    c,
+    csharp,
+    fortran,
+    go,
+    java,
+    julia,
+    matlab,
+    notebook,
+    python,
+    rust,
+    typescript,
+)
 
 FIND = {
     **dict.fromkeys(("c", "cpp", "cuh"), c.find),
     "c.inc": c.find,
+    "cs": csharp.find,
+    "go": go.find,
     "ipynb": notebook.find,
     "java": java.find,
     "jl": julia.find,
     "m": matlab.find,
     "rs": rust.find,
+    **dict.fromkeys(("js", "ts"), typescript.find),
     **dict.fromkeys(("py", "pyx"), python.find),
     **dict.fromkeys(("f90", "f", "for", "inc"), fortran.find),
 }
@@ -185,6 +200,55 @@ SAME = {
         "enum Method {\n  RALSTON(new double[][] {{0, 0}, {2 / 3d, 0}}, new double[] {.25, .75});\n"
         "  Method(double[][] a, double[] b) { this.a = a; this.b = b; }\n}\n"
     ),
+    "ts, an object with types": (
+        "export const ralston = { A: [[0, 0], [2 / 3, 0]] as number[][], 'b': [0.25, 3 / 4]!,\n"
+        "  step(h: number) { return h; } } satisfies Tableau;"
+    ),
+    "ts, entries of typed arrays": (
+        "const t = new Tableau(2);\nt.A = [Float64Array.of(0, 0), new Float64Array(2)];\n"
+        "t.A[1][0] = Math.sqrt(4) / 3;\nt.b = Float64Array.from([0.25, 0.75]);"
+    ),
+    "js, a function of a module": (
+        "module.exports.ralston = function () {\n  const [x, y] = [1 / 4, 3 / 4];\n"
+        "  for (let i = 0; i < 1; i++) { z = i; }\n"
+        "  return { name: 'Ralston', A: Object.freeze([[0, 0], [2 / 3, 0]]), b: [x, y] };\n};"
+    ),
+    "js, a class with its fields": (
+        "class Ralston extends Explicit {\n  static #k = 3;\n  static A = [[0, 0], [2 / 3, 0]];\n"
+        "  get b() { return [1 / 4, 3 / 4]; }\n}"
+    ),
+    "go, entries of arrays": (
+        "package p\nfunc f() {\n\tvar A [2][2]float64\n\tvar b [2]float64\n\tA[1][0] = 2.0 / 3\n"
+        "\tfor i := range b {\n\t\tb[i] = (2*float64(i) + 1) / 4\n\t}\n}"
+    ),
+    "go, a matrix of gonum": (
+        "package p\nvar A, b = mat.NewDense(2, 2, []float64{0, 0, 2.0 / 3, 0}),"
+        " mat.NewVecDense(2, []float64{0.25, 0.75})"
+    ),
+    "go, a record in the order of its fields": (
+        "package p\ntype rk struct {\n\ta [][]float64\n\tb []float64\n}\n"
+        "func ralston() *rk { return &rk{[][]float64{{}, {2.0 / 3}}, []float64{.25, 0.75}} }"
+    ),
+    "go, one of several": (
+        "package p\nvar methods = map[string]rk{\n"
+        '\t"ralston": {A: [][]float64{{0, 0}, {2.0 / 3, 0}}, B: []float64{0.25, 0.75}},\n}'
+    ),
+    "cs, properties": (
+        "class Ralston : Rk { double[,] A => new double[,] { { 0, 0 }, { 2.0 / 3, 0 } };\n"
+        "  double[] b { get { return new[] { .25, 0.75 }; } } }"
+    ),
+    "cs, entries and rows": (
+        "class X { void F() { var A = new double[2][]; A[0] = new double[2]; A[1] = [2d / 3, 0];\n"
+        "  var b = new double[2]; for (int i = 0; i < 2; i++) { b[i] = (2 * i + 1) / 4.0; } } }"
+    ),
+    "cs, fields of an object": (
+        "namespace N { static class T { public static readonly Tab R = new() { A = new double[,]\n"
+        "  { { 0, 0 }, { 2 / 3.0, 0 } }, b = new List<double> { 0.25, 0.75 } }; } }"
+    ),
+    "cs, a record that is declared behind": (
+        "class X { static Rk R = new Rk(A: new double[][] { new double[0], new[] { 2.0 / 3 } },\n"
+        "  b: new[] { .25, .75 }); }\nrecord Rk(double[][] A, double[] b);"
+    ),
     "py, slices": (
         "import numpy as np\nc = np.array([0, 2/3])\nA = np.zeros((2, 2))\n"
         "A[1, :1] = c[1:]\nb = [1/4, 1 - 1/4]\n"
@@ -236,6 +300,28 @@ def test_the_same_table(name: str) -> None:
     assert table.b == (("1/4", "3/4"),)
 
 
+BELOW = {
+    "cs": "class Kutta : Rk { public Kutta() : base(ROWS) { } }",
+    "java": "class Kutta extends Rk { Kutta() { super(ROWS); } }",
+    "js": "class Kutta extends Rk { constructor() { super(ROWS); } }",
+}
+ROWS = {
+    "cs": "new double[,] { MATRIX }, new[] { WEIGHTS }, new double[] { NODES }",
+    "java": "new double[][] { MATRIX }, new double[] { WEIGHTS }, new double[] { NODES }",
+    "js": "[MATRIX], [WEIGHTS], [NODES]",
+}
+MATRIX = "{0, 0, 0}, {0.5, 0, 0}, {-1, 2, 0}"
+
+
+@pytest.mark.parametrize("language", BELOW)
+def test_arguments_of_the_class_below(language: str) -> None:
+    """A constructor passes arrays without names to the one of its base class."""
+    matrix = MATRIX.replace("{", "[").replace("}", "]") if language == "js" else MATRIX
+    rows = ROWS[language].replace("MATRIX", matrix).replace("WEIGHTS", "1 / 6.0, 2 / 3.0, 1 / 6.0")
+    text = BELOW[language].replace("ROWS", rows.replace("NODES", "0, 0.5, 1"))
+    assert one(language, text).b == (("1/6", "2/3", "1/6"),)
+
+
 def one(name: str, text: str) -> FoundTable:
     """The only table of a source in the language that a name begins with."""
     suffix = name.partition(",")[0]
@@ -248,6 +334,18 @@ UNKNOWN = {
     "java, a whole quotient": (
         "class X { double[][] A = {{0, 0}, {1 / 2, 0}}; double[] b = {0, 1}; }",
         None,
+    ),
+    "go, a whole quotient": (
+        "package p\nvar A, b = [][]float64{{0, 0}, {1 / 2, 0}}, []float64{0, 1}",
+        None,
+    ),
+    "cs, a whole quotient": (
+        "class X { double[,] A = { { 0, 0 }, { 1 / 2, 0 } }; double[] b = { 0, 1 }; }",
+        None,
+    ),
+    "ts, a function that is not known": (
+        "const A = [[0, 0], [1 / 2, 0]];\nconst b = [g(), 1];",
+        "the call g, line 2, is not known",
     ),
     "rs, a loop": (
         "fn f(k: i32) { let a = [[0.0, 0.0], [0.5, 0.0]]; let mut b = [0.25, 0.75];\n"

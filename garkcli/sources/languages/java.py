@@ -87,6 +87,10 @@ class JavaLowering(Lowering):
                 yield from self.block(inside)
             case "method_invocation" | "object_creation_expression":
                 yield ir.Do(self._invoked(node, is_statement=True), line)
+            case "explicit_constructor_invocation":
+                # super(a, b, c)
+                args = self.exprs(self.children(part(node, "arguments")))
+                yield ir.Do(ir.Call(ir.Name("super"), args), line)
 
     def _owner(self, node: Node) -> str:
         """The class of a constant of an enumeration."""
