@@ -21,6 +21,7 @@ from garkcli.bridges.readers.registry import demand_grammars
 from garkcli.bridges.subject import HIGH, TableSubject, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, Remark, Severity, counted
+from garkcli.exact.display import decimal
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen, replace
@@ -531,6 +532,16 @@ def _flags(subject: TableSubject) -> Iterator[Remark]:
         yield Remark(message, code="fsal", claims={"fsal": "true"})
 
 
+def _rounded(subject: TableSubject) -> Iterator[Remark]:
+    """Within which rounding the order holds, if a table has short decimals alone."""
+    found, tolerance = subject.order, subject.order.tolerance
+    if subject.digits.short and tolerance:
+        places = len(str(max(x.q for x in subject.digits.short.values()))) - 1
+        message = f"the coefficients look rounded to {places} decimal places: "
+        message += f"order {found.order} holds within {decimal(tolerance)}"
+        yield Remark(message, code="rounded", level="note")
+
+
 def _stored(subject: TableSubject) -> Iterator[Remark]:
     """The storage of the numbers, if it was recognised from them."""
     if subject.table.how:
@@ -548,6 +559,6 @@ def _unread(subject: TableSubject) -> Iterator[Remark]:
 
 _Check: TypeAlias = Callable[[TableSubject], Iterator[Remark]]
 CHECKS: tuple[_Check, ...] = (
-    *(_order, _said, _weights, _nodes, _embedded, _sign, _flags, _stored, _unread),
+    *(_order, _said, _weights, _nodes, _embedded, _rounded, _sign, _flags, _stored, _unread),
 )
 """The checks, in the order of reports."""

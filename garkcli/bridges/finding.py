@@ -13,6 +13,7 @@ CODES = (
     "order-higher",
     "embedded-order-higher",
     "open",
+    "rounded",
     "sign",
     "stored",
     "idle",

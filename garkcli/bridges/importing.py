@@ -44,11 +44,11 @@ def place_of(table: FoundTable) -> str:
 
 def fmpq_of(text: str) -> fmpq:
     """A rational number; 0 for any other text."""
-    value = _value(text)
+    value = parsed(text)
     return value if isinstance(value, fmpq) else fmpq(0)
 
 
-def _value(text: str) -> Number | None:
+def parsed(text: str) -> Number | None:
     """The number in a text; None if it is no number."""
     try:
         expression = parse(text)
@@ -213,5 +213,5 @@ def fraction_of(text: str) -> str:
     """
     if _LONG.search(_TAIL.sub("", text)) and {*text} & {*".eq"}:
         return ""
-    value = _value(text)
+    value = parsed(text)
     return str(value) if isinstance(value, fmpq) else ""

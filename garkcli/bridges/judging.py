@@ -7,11 +7,11 @@ from functools import cached_property
 from flint import fmpq
 
 from garkcli.check.remark import enough
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.printed import SLACK, Printed, Units, approximant_units, careless_units
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, Witness, find_order
 from garkcli.order.rounded import RoundedOrder, RoundedTableau, find_order_within
-from garkcli.order.tolerance import unnatural
+from garkcli.order.tolerance import small, unnatural
 from garkcli.tableau.tableau import Tableau
 
 
@@ -61,22 +61,25 @@ class Digits(Frozen):
     Attributes:
         printed: the coefficients as printed.
         units: the units of the last place for numbers computed from printed ones.
+        short: the units of decimals of four or five places, if no coefficient has more.
     """
 
     printed: Printed
     units: Units
+    short: Units = field(default_factory=dict)
 
     def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:
         """A tableau with the freedom of its digits: ``slack`` units in the last place of each
-        decimal, by default ten.
+        decimal, by default ten, and one of a short decimal.
         """
         units = approximant_units(self.printed, self.units)
         wide = {value: slack * unit for value, unit in units.items()}
-        return RoundedTableau.printed(tableau, wide)
+        return RoundedTableau.printed(tableau, wide | dict(self.short))
 
     def careless(self, tableau: Tableau) -> RoundedTableau:
         """A tableau with the freedom of careless rounding."""
-        return RoundedTableau.printed(tableau, careless_units(self.printed, self.units))
+        units = careless_units(self.printed, self.units)
+        return RoundedTableau.printed(tableau, units | dict(self.short))
 
 
 def judged(
@@ -91,7 +94,8 @@ def judged(
 
     Decimals with many digits count as rounded, each by at most ten units in its last place, and
     conditions hold if this explains their residuals. A residual that a good exact method might have
-    is not explained so: then the order is undecided.
+    is not explained so: then the order is undecided. Short decimals count so if the first residual
+    is small, as for the hint of a method file.
 
     Args:
         digits: the precision of its numbers.
@@ -115,6 +119,9 @@ def judged(
     if within_rounding.order == reach and within_rounding.sizes[-1] <= unnatural(reach):
         return replace(_judged(within_rounding, exact), is_open=False, is_limited=True)
     order = exact.order
+    if order < within_rounding.order and digits.short:
+        is_explained = within_rounding.sizes[order] <= small(order + 1)
+        order = within_rounding.order if is_explained else order
     while order < within_rounding.order and within_rounding.sizes[order] <= unnatural(order + 1):
         order += 1
     if order < within_rounding.order:

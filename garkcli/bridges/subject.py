@@ -9,7 +9,7 @@ from functools import cached_property
 
 from flint import fmpq
 
-from garkcli.bridges.importing import fmpq_of, fraction_of, numbers_of, place_of, written
+from garkcli.bridges.importing import fmpq_of, fraction_of, numbers_of, parsed, place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.check.findings import NEAR, sum_text
 from garkcli.errors import Remark
@@ -20,7 +20,7 @@ from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.printed import FEWEST_DIGITS
+from garkcli.methodfile.printed import FEW_PLACES, FEWEST_DIGITS, SEVERAL
 from garkcli.order.certificate import StageSpans
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.sums import wrong_rows
@@ -178,4 +178,25 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
     texts = {x for x in numbers_of(table) if len(x) > FEWEST_DIGITS and "." in x}
     short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if fraction_of(x)]
     units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
-    return Digits((*method.printed, *short), units)
+    return Digits((*method.printed, *short), units, {} if units else _short_units(table))
+
+
+def _short_units(table: FoundTable) -> Mapping[Number, fmpq]:
+    """One unit of the last place of each decimal of four or five places, if there are several and
+    all coefficients are decimals of at most as many places.
+    """
+    values = [x for text in numbers_of(table) for x in [parsed(text)] if x]
+    places = [_places(x) for x in values]
+    few = [x for x in places if x in FEW_PLACES]
+    if not values or max(places) not in FEW_PLACES or len(few) < SEVERAL:
+        return {}
+    pairs = zip(values, places, strict=True)
+    return {x: fmpq(1, 10**n) if n in FEW_PLACES else fmpq(0) for x, n in pairs}
+
+
+def _places(value: Number) -> int:
+    """The places behind the point of a decimal; more than a few for other numbers."""
+    most = FEW_PLACES.stop
+    if not isinstance(value, fmpq):
+        return most
+    return next((n for n in range(most) if not 10**n % int(value.q)), most)

@@ -6,7 +6,9 @@ import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
+from garkcli.sources.found import FoundTable
 from garkcli.sources.lowering import (
     Lowering,
     counted,
@@ -30,6 +32,7 @@ _REAL = frozenset("fFdDmM")
 _REAL_TYPES = frozenset({"double", "float", "decimal"})
 _MAKERS = frozenset({"parameter_list", "constructor_declaration"})
 """Nodes with the parameters of a constructor."""
+_TYPES = re.compile(r"\b(?:class|struct|record|namespace|using)\s+\w")
 _MATRIX = re.compile(r"\b(?:OfArray|DenseOfArray|Dense|OfRowArrays|DenseOfRowArrays)\b")
 """Functions of Math.NET that return the matrix or vector of their array."""
 
@@ -270,7 +273,7 @@ class CSharpLowering(Lowering):
         return operation or ir.Call(ir.Field(value, name), args, named)
 
 
-READER = reader(
+_READER = reader(
     CSharpLowering,
     NAME,
     "C#: fields, properties, arrays, classes, methods",
@@ -278,4 +281,11 @@ READER = reader(
     base=0,
     has_whole_quotients=True,
 )
-find = READER.find
+
+
+def find(text: str, source: str) -> list[FoundTable]:
+    """The tables of a C# source, which declares types; other texts may parse as C#."""
+    return _READER.find(text, source) if _TYPES.search(text) else []
+
+
+READER = replace(_READER, find=find)

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
+from garkcli.sources.found import FoundTable
 from garkcli.sources.lowering import Lowering, counted, kinds, line_of, part, reader, unmeant
 
 if TYPE_CHECKING:
     from tree_sitter import Node
 
 NAME = "go"
+_PACKAGE = re.compile(r"^package[ \t]+\w", re.MULTILINE)
 _NUMBERS = frozenset({"float32", "float64"})
 
 
@@ -194,7 +198,7 @@ class GoLowering(Lowering):
         return ir.Call(ir.Field(self.expr(of), name), self.exprs(given))
 
 
-READER = reader(
+_READER = reader(
     GoLowering,
     NAME,
     "Go: constants, composite literals, slices, gonum's matrices",
@@ -202,4 +206,11 @@ READER = reader(
     base=0,
     has_whole_quotients=True,
 )
-find = READER.find
+
+
+def find(text: str, source: str) -> list[FoundTable]:
+    """The tables of a Go source, which names its package; other texts may parse as Go."""
+    return _READER.find(text, source) if _PACKAGE.search(text) else []
+
+
+READER = replace(_READER, find=find)
