@@ -17,7 +17,7 @@ from garkcli.bridges.subject import TableSubject, read
 from garkcli.check.culprit import misprints
 from garkcli.check.findings import misprint_text, witness_text
 from garkcli.constructions.rosenbrock import seen
-from garkcli.errors import Remark
+from garkcli.errors import Remark, Severity
 from garkcli.exact.display import decimal, to_ball, to_float
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
@@ -206,6 +206,8 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
     if declared is not None and not order.is_limited and order.order != declared:
         finding = _differing("order", order, declared)
         yield replace(finding, help=_mended(subject)) if finding.code == "order" else finding
+    elif declared is None:
+        yield from _slip(subject)
     timed = subject.timed
     if timed is not None and not timed.is_open and timed.order < order.order:
         by = "by c and d" if table.gamma is not None else "by its nodes"
@@ -221,6 +223,21 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
     elif embedded is not None and not embedded.order and not embedded.is_open:
         message = f"the embedded weights have order 0{_why(embedded)}"
         yield Remark(message, code="embedded-weights", claims={"embedded-order": '">= 1"'})
+
+
+def _slip(subject: RowSubject) -> Iterator[Remark]:
+    """The number that costs a method without a declared order several orders, or weights that are
+    no method.
+    """
+    order = subject.order
+    found = misprints(subject.method, order) if not order.is_open else ()
+    message = f"order {order.order}{_why(order)}"
+    if found:
+        level: Severity = "error" if len(found) == 1 else "warning"
+        claims, cure = {"order": str(found[0].order)}, str(misprint_text(found))
+        yield Remark(message, code="order", level=level, claims=claims, help=cure)
+    elif not (order.order or order.is_open or order.is_limited):
+        yield Remark(message, code="weights", claims={"order": "1"})
 
 
 def _mended(subject: RowSubject) -> str:

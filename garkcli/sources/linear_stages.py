@@ -8,6 +8,7 @@ from itertools import permutations
 
 from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Misshapen, Row, Rows, Unreadable
+from garkcli.sources.naming import role_of
 from garkcli.sources.shaping import ZERO, Texts, is_zero, weights
 from garkcli.sources.values import (
     FILL,
@@ -147,10 +148,13 @@ def roles_by_names(
     b = next((vectors[x] for x in ("b", "m", "w") if x in vectors), None)
     order = {x: numbers[x] for x in ("order",) if x in numbers}
     is_told &= bool(order)
-    G = matrices.get("gamma", matrices.get("γ"))
+    G = next((matrices[x] for x in _GAMMAS if x in matrices), None)
     if isinstance(A, Array) and isinstance(G, Array) and isinstance(b, Array):
+        # no other method has a γ beside two triangles without diagonals
+        is_told |= isinstance(gamma, Number) and all(map(_is_strict, (A, G)))
         roles = _as_printed(A, G, b, gamma, is_told)
-        return ({**roles, **order}, "rosenbrock") if roles else ({}, "")
+        beside = _beside(vectors, roles) if roles else {}
+        return ({**roles, **beside, **order}, "rosenbrock") if roles else ({}, "")
     C = matrices.get("c")
     if isinstance(A, Array) and isinstance(C, Array) and isinstance(gamma, Number):
         named = {**vectors, **({} if b is None else {"b": b})}
@@ -187,6 +191,24 @@ def _as_printed(
     for i, row in enumerate(rows_G):
         row.items[i] = own[i]
     return {"A": Array([*rows_A]), "gamma": Array([*rows_G]), "b": b}
+
+
+def _beside(vectors: Mapping[str, Value], roles: Mapping[str, Value]) -> Mapping[str, Value]:
+    """Nodes and embedded weights beside a printed method."""
+    A, b = roles["A"], roles["b"]
+    assert isinstance(A, Array)
+    sums = [sum(map(near, items_of(row))) for row in A.items]
+    found = {"c": _completed(vectors.get("c"), sums)}
+    for name, row in vectors.items():
+        role = (role_of(name) or ("", ""))[1]
+        if role == "embedded" and row is not b and len(items_of(row)) == len(sums):
+            found.setdefault(role, row if isinstance(row, Array) and is_written(row) else None)
+    return {role: row for role, row in found.items() if row is not None}
+
+
+def _is_strict(matrix: Array) -> bool:
+    """Whether a matrix is a triangle below its diagonal, with an entry that is not 0."""
+    return any(map(near, _triangle(matrix, len(matrix.items))))
 
 
 def _rows(packed: Sequence[Value], stages: int) -> list[Array]:

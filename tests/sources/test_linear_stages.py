@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from garkcli.bridges.audit import audit
-from garkcli.sources.languages import fortran, python
+from garkcli.sources.languages import c, fortran, python
 
 ROS3P = """
 def lang_verwer():
@@ -89,3 +89,65 @@ def test_reshape_with_unknown_sizes_twice_is_square() -> None:
         assert found.order.order == 3, shape
     others = fortran.find(text.format("(/ this%m, this%n /)"), "x.f90")
     assert not any(x.is_read for x in others)
+
+
+PRINTED = """
+template <class T> struct Ros3p {
+  static constexpr T gamma = 0.7886751345948129;
+  static constexpr arr c = {0, 1, 1}, b = {2/3., 0, 1/3.}, bstar = {1/3., 1/3., 1/3.};
+  static constexpr arr2 a = {arr{0, 0, 0}, arr{1, 0, 0}, arr{1, 0, 0}};
+  static constexpr arr2 g = {arr{0, 0, 0}, arr{-1, 0, 0},
+                             arr{-0.7886751345948129, -1.0773502691896258, 0}};
+};
+"""
+
+
+def test_a_gamma_beside_two_triangles() -> None:
+    """Rosenbrock's, with nodes and embedded weights, although α and b have order 1 alone."""
+    (table,) = c.find(PRINTED, "x.hpp")
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert found.embedded_order is not None
+    assert (found.order.order, found.embedded_order.order, found.findings) == (3, 2, ())
+    assert table.c == (("0", "1", "1"),)
+
+
+@pytest.mark.parametrize(
+    ("declared", "level"), [("", "warning"), ("  static constexpr int order = 3;\n", "error")]
+)
+def test_one_digit_of_a_method_with_or_without_its_order(declared: str, level: str) -> None:
+    """The number is named, also if only its repair says which order is meant; two numbers that
+    mend it are a doubt.
+    """
+    head, brace, rest = PRINTED.partition("{\n")
+    text = (head + brace + declared + rest).replace("1.0773502691896258", "1.0873502691896258")
+    (table,) = c.find(text, "x.hpp")
+    found = audit(table)
+    assert found is not None
+    (remark,) = found.findings
+    assert (remark.code, remark.level) == ("order", level)
+    assert "order 3 would hold with" in remark.help
+    assert "instead of -1.08735" in remark.help
+
+
+@pytest.mark.parametrize(
+    ("weight", "code", "cure"),
+    [("0.6766666666666666", "order", "instead of 0.6766666666666666"), ("1/2.", "weights", "")],
+)
+def test_a_weight_of_a_method_without_its_order(weight: str, code: str, cure: str) -> None:
+    """The cure is sought among decimals."""
+    (table,) = c.find(PRINTED.replace("b = {2/3.", f"b = {{{weight}"), "x.hpp")
+    found = audit(table)
+    assert found is not None
+    (remark,) = found.findings
+    assert (remark.code, remark.level) == (code, "error")
+    assert cure in remark.help
+
+
+def test_names_that_others_have_too() -> None:
+    """Without γ, or with a full second matrix, it is a Runge–Kutta method and something else."""
+    (table,) = c.find(PRINTED.replace("gamma", "other"), "x.hpp")
+    assert table.gamma is None
+    (table,) = c.find(PRINTED.replace("arr{0, 0, 0}, arr{-1", "arr{0, 0, 1}, arr{-1"), "x.hpp")
+    assert table.gamma is None
