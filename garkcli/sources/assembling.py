@@ -345,7 +345,7 @@ def not_read(roles: Roles) -> tuple[str, ...]:
 
 def _without_later_stages(roles: Roles) -> Roles:
     """Leaves out the stages of dense output, which those of the step do not use: the first of them
-    begins where the step ends, so its row has the weights.
+    begins where the step ends, so its row has the weights, or the others are a method.
     """
     rows, b, c = ([*items_of(roles.get(x))] for x in ("A", "b", "c"))
     low = max(len(items_of(roles.get(x))) for x in ("embedded", "error"))
@@ -354,10 +354,13 @@ def _without_later_stages(roles: Roles) -> Roles:
     end = [*items_of(rows[len(b)])][: len(b)]
     if not all(isinstance(x, Number) for x in (*b, *end)):
         return roles
-    differences = [abs(near(x) - near(y)) for x, y in zip(b, end, strict=False)]
-    if len(end) < len(b) or max(differences) > NEAR_ENTRIES:
-        return roles
     own = [[*items_of(row)] for row in rows[: len(b)]]
+    differences = [abs(near(x) - near(y)) for x, y in zip(b, end, strict=False)]
+    begins_at_end = len(end) == len(b) and max(differences) <= NEAR_ENTRIES
+    sums = [*(sum(map(near, row)) - near(x) for row, x in zip(own, c, strict=False))]
+    is_method = max(map(abs, [*sums, sum(map(near, b)) - 1])) <= NEAR_ENTRIES
+    if not (begins_at_end or is_method):
+        return roles
     if not all(isinstance(x, Null) or is_nought(x) for row in own for x in row[len(b) :]):
         return roles
     leading = [Array(row[: len(b)]) for row in own]

@@ -396,7 +396,10 @@ class Evaluator:
         items: Sequence[Value] = [value] * len(places)
         match target:
             case ir.Index(at=at) if isinstance(value, Array) and any(map(_is_range, at)):
-                items = value.items if len(value.items) == len(places) else list(value.flat())
+                is_whole = len(value.items) == len(places)
+                # a column in a row of MATLAB has its entries
+                is_column = len(at) > 1 and all(len(items_of(x)) == 1 for x in value.items)
+                items = value.items if is_whole and not is_column else list(value.flat())
             case ir.Field(of=of, name=key) | ir.Index(of=of, at=(ir.Text(text=key),)):
                 if isinstance(target, ir.Index):
                     space.lines[key] = line

@@ -49,6 +49,7 @@ from garkcli.sources.signatures import (
 from garkcli.sources.stages import NoStep
 from garkcli.sources.steps import splitting_of, steps_of
 from garkcli.sources.values import (
+    FILL,
     NULL,
     Array,
     Null,
@@ -618,7 +619,8 @@ def _fits(role: str, value: Value) -> bool:
         return isinstance(value, Number)
     if role in {"title", "fsal"}:
         return isinstance(value, Word)
-    return isinstance(value, Array) and bool(value.items)
+    # Euler's method has no rows behind the first one
+    return isinstance(value, Array) and (bool(value.items) or role in {"A", "c"})
 
 
 def _with_grid(numbered: Roles) -> Roles:
@@ -639,7 +641,10 @@ def _with_grid(numbered: Roles) -> Roles:
             roles[role] = Array([of.get((role, l), NULL) for l in numbers])
     elif {at for at in of if at[0] == "b"} == {("b", "1"), ("b", "2")}:
         roles = {"b": of["b", "1"], "embedded": of["b", "2"], **roles}
-    return roles
+    empty = {x for x in ("A", "c") if isinstance(roles.get(x), Array) and not items_of(roles[x])}
+    if "A" in empty and len(items_of(roles.get("b"))) == 1:
+        roles["A"] = Array([Array([FILL])])
+    return {x: y for x, y in roles.items() if x not in empty or items_of(y)}
 
 
 def _halves_of(values: Sequence[Value]) -> Sequence[SourceRecord]:

@@ -150,8 +150,9 @@ def roles_by_names(
     is_told &= bool(order)
     G = next((matrices[x] for x in _GAMMAS if x in matrices), None)
     if isinstance(A, Array) and isinstance(G, Array) and isinstance(b, Array):
-        # no other method has a γ beside two triangles without diagonals
-        is_told |= isinstance(gamma, Number) and all(map(_is_strict, (A, G)))
+        # no other method has a γ beside two triangles without diagonals, of several entries
+        are_triangles = all(len(x.items) > 2 and _is_strict(x) for x in (A, G))
+        is_told |= isinstance(gamma, Number) and are_triangles
         roles = _as_printed(A, G, b, gamma, is_told)
         beside = _beside(vectors, roles) if roles else {}
         return ({**roles, **beside, **order}, "rosenbrock") if roles else ({}, "")

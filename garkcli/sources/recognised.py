@@ -342,6 +342,9 @@ def _explains(reading: Reading, numbers: frozenset[int], told: _NumbersByRole) -
         common = len(own & numbers)
         if role.startswith("A") and common < MOST_OF * len(own):
             return False
+        if role == "b" and reading.form == "nystrom":
+            # rows with the sums c²/2 are its own; weights of a pair may have the name b
+            continue
         if role in _BESIDE:
             is_low = role.startswith("e")
             is_had = common > 0 or reading.form != "rk" if is_low else common == len(own)

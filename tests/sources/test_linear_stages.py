@@ -149,5 +149,7 @@ def test_names_that_others_have_too() -> None:
     """Without γ, or with a full second matrix, it is a Runge–Kutta method and something else."""
     (table,) = c.find(PRINTED.replace("gamma", "other"), "x.hpp")
     assert table.gamma is None
-    (table,) = c.find(PRINTED.replace("arr{0, 0, 0}, arr{-1", "arr{0, 0, 1}, arr{-1"), "x.hpp")
-    assert table.gamma is None
+    for entries in ("arr{0, 0, 1}, arr{-1, 0, 0}", "arr{0, 0, 0}, arr{-1, 2, 0}"):
+        text = PRINTED.replace("arr{0, 0, 0}, arr{-1, 0, 0}", entries)
+        (table,) = c.find(text.replace("2/3., 0, 1/3.}, b", "1/2., 1/4., 1/4.}, b"), "x.hpp")
+        assert table.gamma is None

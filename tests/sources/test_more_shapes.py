@@ -10,7 +10,7 @@ import pytest
 
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import Find, TooLarge
-from garkcli.sources.languages import c, fortran, julia, matlab, python, rust
+from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust
 
 SHU_OSHER = """
 function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
@@ -792,8 +792,74 @@ def test_stages_of_dense_output_are_left_out() -> None:
     assert found is not None
     assert found.order is not None
     assert (found.order.order, found.table.stages, found.has_errors) == (4, 4, False)
-    for old, new in (
-        ("b = A[4, :4]", "b = [1/6, 1/3, 1/3, 1/3]"),
-        ("A[5, 0] = 1/4", "A[5, 0] = A[1, 5] = 1/4"),
-    ):
-        assert any(x.trouble for x in python.find(LATER.replace(old, new), "x.py"))
+    old, new = "A[5, 0] = 1/4", "A[5, 0] = A[1, 5] = 1/4"
+    assert any(x.trouble for x in python.find(LATER.replace(old, new), "x.py"))
+    (found,) = (audit(x) for x in python.find(LATER.replace("A[3, 2] = 1", "A[3, 2] = 2"), "x.py"))
+    assert found is not None
+    assert [x.code for x in found.findings if x.level == "error"] == ["nodes"]
+    wrong = LATER.replace("b = A[4, :4]", "b = [1/6, 1/3, 1/3, 1/3]")
+    assert any(x.trouble for x in python.find(wrong, "x.py"))
+
+
+NYSTROM_COLUMNS = """
+function [c, A, B, Bp, Bhat, Bphat] = coefficients()
+  % of Nyström, order 4, with weights of lower order beside them
+  c = [0
+       1/2
+       1];
+  A = zeros(3);
+  A(2,1:1) = 1/8;
+  A(3,1:2) = [0
+              1/2];
+  A = A.';
+  Bhat = [1/6
+          1/3
+          0];
+  Bphat = [1/6
+           2/3
+           1/6];
+  B = [1/6
+       0
+       1/3];
+end
+"""
+
+
+def test_columns_of_matlab_are_rows_of_a_nystrom_method() -> None:
+    """A column in a slice of a row has its entries; weights called B are those of lower order."""
+    found = [x for x in map(audit, matlab.find(NYSTROM_COLUMNS, "x.m")) if x and x.order]
+    assert [(x.order.order, x.table.structure) for x in found if x.order] == [(4, "nystrom")]
+    assert not any(x.has_errors for x in found)
+
+
+def test_columns_of_matlab_have_their_names() -> None:
+    text = "A = zeros(3);\nA(2,1) = 0.5;\nA(3,1:2) = [-1\n 2];\nb = [1/6; 2/3; 1/6];\nc = [0; 0.5; 1];\n"
+    (table,) = matlab.find(text, "kutta.m")
+    assert (table.b, table.c) == ((("1/6", "2/3", "1/6"),), (("0", "1/2", "1"),))
+    assert (table.A[0][0], table.how) == (
+        (("0", "0", "0"), ("1/2", "0", "0"), ("-1", "2", "0")),
+        "",
+    )
+
+
+BEHIND = """
+c = [0, 1/2, 1/2, 1, 1/4]
+a = [[0, 0, 0, 0, 0], [1/2, 0, 0, 0, 0], [0, 1/2, 0, 0, 0], [0, 0, 1, 0, 0], [1/8, 1/16, 1/16, 0, 0]]
+b = [1/6, 1/3, 1/3, 1/6]
+"""
+
+
+def test_stages_behind_those_of_a_method() -> None:
+    """They are left out if the others are a method; a wrong row of these is told."""
+    (table,) = python.find(BEHIND, "x.py")
+    assert (table.b, table.c) == ((("1/6", "1/3", "1/3", "1/6"),), (("0", "1/2", "1/2", "1"),))
+    (found,) = map(audit, python.find(BEHIND.replace("[0, 0, 1, 0, 0]", "[0, 0, 2, 0, 0]"), "x.py"))
+    assert found is not None
+    assert [x.code for x in found.findings] == ["nodes", "stored"]
+
+
+def test_eulers_method_has_no_rows() -> None:
+    text = "class Euler extends Rk {{ double[] getC() {{ return new double[0]; }}\n  double[][] getA() {{ return new double[0][]; }}\n  double[] getB() {{ return new double[] {{ {} }}; }} }}"
+    (table,) = java.find(text.format("1"), "Euler.java")
+    assert (table.A[0][0], table.b[0]) == ((("0",),), ("1",))
+    assert not any(x.b for x in java.find(text.format("0.5, 0.5"), "Euler.java"))
