@@ -359,6 +359,17 @@ def _mended(
     return -1e9 if best is None else best - math.log2(count) - ONE_WRONG
 
 
+def _are_longer_nodes(x: Given, matrix: Given, sums: Floats) -> bool:
+    """Whether an array of a record has the name of nodes, more entries than the matrix has rows,
+    and does not begin with its row sums.
+    """
+    row, count = x.numbers.reshape(-1, x.numbers.shape[-1]), len(sums)
+    if x.owner != matrix.owner or x.is_matrix or len(row) <= count + 1:
+        return False
+    is_other = np.abs(row[:count, VALUE] - sums).max() > CLOSE
+    return bool(is_other and NODES.search(x.name))
+
+
 def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
     """A reading with embedded weights, and with the arrays that have names of its parts and no role
     in it.
@@ -400,6 +411,8 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
         elif c is None and not each.of.is_made and NODES.search(name):
             wide = 30 * (each.numbers[:, UNIT] + A[..., UNIT].sum(1)) + 1e-12
             idle += [each.of] if (np.abs(v - sums) > wide).any() else []
+    if c is None and reading.used[0].owner:
+        idle += [x for x in group if _are_longer_nodes(x, reading.used[0], sums)]
     return replace(reading, rows=rows, used=used, idle=tuple(dict.fromkeys(idle)))
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from garkcli.bridges.audit import Audited, audit, audited
 from garkcli.bridges.collecting import collected
-from garkcli.sources.languages import julia
+from garkcli.sources.languages import c, julia
 
 WITHOUT_NAMES = """
 x1 = [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]]
@@ -286,3 +286,26 @@ def test_embedded_weights_of_another_method(tmp_path: Path) -> None:
         assert [x.order.order for x in found if x.order] == [2, 3, 2]
         (embedded,) = (x.embedded_order for x in found if x.order and x.order.order == 3)
         assert (embedded and embedded.order) == wanted
+
+
+LONGER = """
+struct Tableau {{ arma::mat A, B; arma::colvec c; }};
+const Tableau DP = {{
+  arma::mat({{{{0, 0, 0, 0}}, {{0.5, 0, 0, 0}}, {{0, 0.5, 0, 0}}, {{0, 0, 1, 0}}}}),
+  arma::mat({{{{1/6.0, 1/3.0, 1/3.0, 1/6.0}}}}),
+  arma::colvec({{{}}})
+}};
+"""
+
+
+@pytest.mark.parametrize(
+    ("nodes", "codes"),
+    [
+        ("0.0, 0.2, 0.3, 0.8, 8/9.0, 1, 1", ["stored", "idle"]),
+        ("0.0, 0.5, 0.5, 1.0, 0.25, 0.75", ["stored"]),
+    ],
+)
+def test_nodes_of_another_method(nodes: str, codes: list[str]) -> None:
+    """More nodes than stages are told unless they begin with those of the method."""
+    (found,) = filter(None, map(audit, c.find(LONGER.format(nodes), "x.hpp")))
+    assert [x.code for x in found.findings] == codes

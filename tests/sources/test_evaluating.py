@@ -44,6 +44,10 @@ SAME = {
         "#define T (RCONST(2.0)/RCONST(3.0))\n#define R PetscRealConstant\n"
         "double A[2][2] = {{0}, {T}}, b[2] = {R(0.25), 1 - R(0.25)};"
     ),
+    "c, macros as text": (
+        "#define HALF 1.0-0.5 /* no brackets */\n#define MORE HALF+HALF\n#define T (1.0/3.0)\n"
+        "double A[2][2] = {{0}, {2*T}}, b[2] = {HALF-0.25, 2*MORE-1.25};"
+    ),
     "c, loops": (
         "void f(void) { double A[2][2] = {{0}}, b[2]; A[1][0] = 2./3;\n"
         "  for (int i = 0; i < 2; i++) b[i] = (2*i + 1)/4.; }"
@@ -66,6 +70,9 @@ SAME = {
     "cpp, literals and matrices of the program": (
         "void f() { Dense<real> A(2, 2), b(2); A(0,0) = A(0,1) = A(1,1) = 0; A(1,0) = 2_r/3_r;\n"
         "  b(0) = 1_r/4; b(1) = 3_r/4; }"
+    ),
+    "cpp, matrices that are made of lists": (
+        "const Tab R = { .A = arma::mat({{0, 0}, {2.0/3, 0}}), .b = Vec({0.25, 0.75}) };"
     ),
     "c, signs before numbers": "double A[2][2] = {{0}, {+2.0/3}}, b[2] = {+0.25, +.75};",
     "cpp, entries by at": (
@@ -249,6 +256,10 @@ SAME = {
         "class X { static Rk R = new Rk(A: new double[][] { new double[0], new[] { 2.0 / 3 } },\n"
         "  b: new[] { .25, .75 }); }\nrecord Rk(double[][] A, double[] b);"
     ),
+    "py, triplets": (
+        "A, b = zeros((2, 2)), zeros(2)\nfor i, j, x in [(1, 0, 2/3)]:\n    A[i, j] = x\n"
+        "for i, x in ((0, 1/4), (1, 3/4)):\n    b[i] = x\n"
+    ),
     "py, slices": (
         "import numpy as np\nc = np.array([0, 2/3])\nA = np.zeros((2, 2))\n"
         "A[1, :1] = c[1:]\nb = [1/4, 1 - 1/4]\n"
@@ -382,6 +393,10 @@ UNKNOWN = {
         "void f(double A[], double b[]) { A[0] = 0; A[1] = 0; A[3] = 0; b[0] = 0.25;\n"
         "  b[1] = 0.75; }",
         "the argument A, line 1, is not known",
+    ),
+    "py, a loop over pairs that are not known": (
+        "A = [[0, 0], [0.5, 0]]\nb = [0, 1]\nfor i, x in pairs():\n    b[i] = x\n",
+        "arrays called A and b do not fit together: assigned in a loop, line 4, is not known",
     ),
     "py, a call": (
         "A = [[0, 0], [alpha(1), 0.5]]\nb = [0, 1]\n",

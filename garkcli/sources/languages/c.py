@@ -50,6 +50,17 @@ _ASIDE = re.compile(
 """Comments and texts, one after the other."""
 
 
+MOST_MACROS, MOST_SPELLED = 5, 10_000
+"""Macros within macros; characters of an expression with all of them put in."""
+_IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+
+
+def _is_made_of(args: list[Node], name: str) -> bool:
+    """Whether a type of a library is made of a list: ``arma::mat({{0, 0}, {1, 0}})``."""
+    is_type = "::" in name or name[:1].isupper()
+    return is_type and [x.type for x in args] == ["initializer_list"]
+
+
 class CLowering(Lowering):
     """Declarations, assignments, calls, branches and loops of C and C++."""
 
@@ -84,6 +95,7 @@ class CLowering(Lowering):
         self._reals: set[str] = set()  # parameters that are real numbers
         self._gives: Node | None = None  # the return type of the function around
         self._code = b""  # without comments and texts, made on use
+        self._loose: dict[str, str] = {}  # the texts of macros of several terms or factors
 
     def statement(self, node: Node) -> Iterator[ir.Statement]:
         """A statement; braces behind a macro, ``DEFINE(3, 2) {…}``, are a separate scope."""
@@ -187,17 +199,35 @@ class CLowering(Lowering):
             yield ir.Branch((first, second), line_of(node), is_total=True)
 
     def _definition(self, node: Node) -> Iterator[ir.Statement]:
-        value = self._fragment(self.text(part(node, "value")))
+        value = self._fragment(self._plain(node))
         if value is not None:
             if given := part(node, "parameters"):
                 value = ir.Lambda(tuple(map(self.text, self.children(given))), value)
+            elif isinstance(value, ir.Binary):
+                self._loose[self.text(part(node, "name"))] = self._plain(node)
             yield ir.Assign(ir.Name(self.text(part(node, "name"))), value, line_of(node))
 
-    def _fragment(self, text: str) -> ir.Expr | None:
-        """The expression of a macro; None if it has none."""
+    def _plain(self, node: Node) -> str:
+        """The text of a macro without comments."""
+        text = self.text(part(node, "value"))
         plain = text.split("//")[0].split("/*")[0].replace("\\\n", " ").strip()
         # x##L in GARK_REAL_C(x) appends the suffix of a number
-        plain = re.sub(r"\s*##\s*\w+", "", plain)
+        return re.sub(r"\s*##\s*\w+", "", plain)
+
+    def _spelled(self, node: Node) -> ir.Expr | None:
+        """An expression with its macros put in as text, as the preprocessor does: 2*X is 2*1-y if
+        X is 1-y; None without such macros.
+        """
+        text = before = self.text(node)
+        for _ in range(MOST_MACROS):
+            spelled = _IDENTIFIER.sub(lambda x: self._loose.get(x[0], x[0]), text)
+            if spelled == text or len(spelled) > MOST_SPELLED:
+                break
+            text = spelled
+        return None if text == before else self._fragment(text)
+
+    def _fragment(self, plain: str) -> ir.Expr | None:
+        """The expression of a macro; None if it has none."""
         inner = CLowering(f"double x = {plain};", self._grammar)
         tree = inner.parse(inner._data)
         if plain and not tree.has_error:
@@ -406,6 +436,8 @@ class CLowering(Lowering):
                 match callee:
                     case ir.Name(name) if name in self._types_given and len(args) == 1:
                         return self._cast(inside[0], args[0])
+                    case ir.Name(name) if _is_made_of(inside[-1].named_children, name):
+                        return args[0]
                     case ir.Field(name="finished") if not args:
                         return self._finished(self.children(inside[0])[0])
                     case ir.Field(array, "at") if len(args) == 1:
@@ -417,6 +449,9 @@ class CLowering(Lowering):
         return unmeant(node)
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
+        is_operation = self.is_a("binary", node) or self.is_a("unary", node)
+        if is_operation and self._loose and (spelled := self._spelled(node)) is not None:
+            return spelled
         match lowered := super().expression(node, inside):
             case ir.Binary("+" | "-" as sign, _, right) if self._is_type(inside[0]):
                 # (real)-0.5

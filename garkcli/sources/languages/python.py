@@ -61,7 +61,12 @@ class PythonLowering(Lowering):
                 yield ir.Scope("class", name, self.block([body]), line, bases=bases)
             case "for_statement":
                 target, over = part(node, "left"), self.expr(part(node, "right"))
-                yield self.loop(node, self.text(target) if self.is_a("name", target) else "", over)
+                made = self.loop(node, self.text(target), over)
+                if target is not None and self.is_a("list", target):
+                    # for i, j, value in entries
+                    first = ir.Assign(self.target(target), ir.Name(made.name), line)
+                    made = replace(made, body=(first, *made.body))
+                yield made if target is not None else replace(made, name="")
             case "import_statement" | "import_from_statement":
                 for each in inside:
                     # from fractions import Fraction as F
