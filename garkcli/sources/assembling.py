@@ -533,7 +533,9 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     if meant.maker:
         row += (ZERO,) * (len(b) - len(row))
     total = near(roles[role])
-    is_error = _is_difference(roles[role]) or (role == "error" and meant.table.is_assembled)
+    # numbers e1, e2, … with the sum 1 are weights
+    is_of_numbers = role == "error" and meant.table.is_assembled and abs(total - 1) > SMALL
+    is_error = _is_difference(roles[role]) or is_of_numbers
     off = total if role == "error" else total - 1
     if not (meant.table.is_sure or meant.table.is_assembled or is_error) and abs(off) > FAR:
         # another array with that name

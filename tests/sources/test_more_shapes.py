@@ -10,7 +10,7 @@ import pytest
 
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import Find, TooLarge
-from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust
+from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust, typescript
 
 SHU_OSHER = """
 function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
@@ -863,3 +863,25 @@ def test_eulers_method_has_no_rows() -> None:
     (table,) = java.find(text.format("1"), "Euler.java")
     assert (table.A[0][0], table.b[0]) == ((("0",),), ("1",))
     assert not any(x.b for x in java.find(text.format("0.5, 0.5"), "Euler.java"))
+
+
+SINGLE = """
+const bs = {
+  c2: 1 / 2, c3: 3 / 4, a21: 1 / 2, a32: 3 / 4, a41: 2 / 9, a42: 1 / 3, a43: 4 / 9,
+  b1: 2 / 9, b2: 1 / 3, b3: 4 / 9, e1: E1, e2: E2, e3: E3, e4: E4,
+};
+"""
+
+
+@pytest.mark.parametrize(
+    "numbers", [("7/24", "1/4", "1/3", "1/8"), ("-5/72", "1/12", "1/9", "-1/8")]
+)
+def test_numbers_called_e_are_weights_or_their_differences(numbers: tuple[str, ...]) -> None:
+    """Their sum says which."""
+    text = SINGLE
+    for i, x in enumerate(numbers):
+        text = text.replace(f"E{i + 1}", x)
+    (found,) = filter(None, map(audit, typescript.find(text, "x.js")))
+    assert found.embedded_order is not None
+    assert found.embedded_order.order == 2
+    assert not any(x.level == "warning" for x in found.findings)
