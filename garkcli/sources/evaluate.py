@@ -21,6 +21,7 @@ from garkcli.sources.signatures import SIGNATURES, other_kind
 from garkcli.sources.values import (
     FILL,
     NULL,
+    ZERO,
     Array,
     Function,
     Null,
@@ -243,8 +244,31 @@ class Evaluator:
                 space[loop.name] = item
                 self._run(loop.body, space)
             return
+        if loop.name and self._is_filled(loop, space):
+            return
         for target, line in _targets(loop.body):
             self.spoil(target, space, "assigned in a loop", line)
+
+    def _is_filled(self, loop: ir.Loop, space: Space) -> bool:
+        """Whether a loop of unknown length sets all entries of arrays to zero, and does nothing
+        else; an array without entries so far has zeros then.
+        """
+        filled: dict[str, Array] = {}
+        for statement, counters in _within(loop, frozenset()):
+            if not isinstance(statement, ir.Assign) or statement.sign or statement.value is None:
+                return False
+            name, at = _entry_of(statement.target)
+            value = self.value(statement.value, space)
+            is_zero = isinstance(value, Number) and value.is_zero
+            if not (name and at and at <= counters and is_zero):
+                return False
+            old = space.find(name)
+            made = Array([], is_growing=True, fill=value)
+            filled[name] = old.map(lambda _: ZERO) if isinstance(old, Array) and old.items else made
+        for name, array in filled.items():
+            space[name] = array
+            space.lines.setdefault(name, loop.line)
+        return bool(filled)
 
     def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
         """Makes all entries of an array, or a name, unknown."""
@@ -419,7 +443,12 @@ class Evaluator:
         for i in self._numbers(at[0], array, space) if at else ():
             if array.is_growing and len(array.items) <= i < MAX_STAGES:
                 self.allowance.spend(i)
-                array.items += [array.fill or FILL] * (i + 1 - len(array.items))
+                more = range(len(array.items), i + 1)
+                is_row = len(at) > 1 and isinstance(array.fill, Number)
+                array.items += (
+                    Array([], is_growing=True, fill=array.fill) if is_row else array.fill or FILL
+                    for _ in more
+                )
             if not 0 <= i < len(array.items):
                 return []
             if len(at) == 1:
@@ -887,6 +916,29 @@ def _is_numeric(expr: object) -> bool:
 def _is_plain(body: ir.Body) -> bool:
     """Whether a body has no branches."""
     return not any(isinstance(x, ir.Branch | ir.Scope | ir.Return) for x in body)
+
+
+def _within(
+    loop: ir.Loop, counters: frozenset[str]
+) -> Iterator[tuple[ir.Statement, frozenset[str]]]:
+    """The statements of a loop and of those in it, with the counters around each."""
+    counters |= {loop.name}
+    for statement in loop.body:
+        if isinstance(statement, ir.Loop):
+            yield from _within(statement, counters)
+        else:
+            yield statement, counters
+
+
+def _entry_of(target: ir.Expr) -> tuple[str, frozenset[str]]:
+    """The array of an entry, with the names that are its indices; empty for other targets."""
+    at: list[ir.Expr] = []
+    while isinstance(target, ir.Index):
+        at += target.at
+        target = target.of
+    names = frozenset(x.name for x in at if isinstance(x, ir.Name))
+    is_entry = isinstance(target, ir.Name) and len(names) == len(at)
+    return (target.name, names) if isinstance(target, ir.Name) and is_entry else ("", frozenset())
 
 
 def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:

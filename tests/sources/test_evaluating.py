@@ -56,6 +56,11 @@ SAME = {
         "void f(int *s, double A[], double b[]) { *s = 2; A[0] = 0; A[1] = 0; A[2] = 2./3;\n"
         "  A[3] = 0; b[0] = 0.25; b[1] = 1 - b[0]; }"
     ),
+    "c, a macro for entries, after loops of unknown length": (
+        "void f(int k, int *s, double *A, double *b) { for (i = 0; i < MAX; i++) { b[i] = ZERO;\n"
+        "  for (j = 0; j < MAX; j++) ENTRY(A, i, j) = 0.0; }\n"
+        "  switch (k) { case(1): *s = 2; ENTRY(A,1,0) = 2.0/3; b[0] = 0.25; b[1] = .75; break; } }"
+    ),
     "cpp, lists of Boost": (
         "Ralston::Ralston() { a += 0., 0.,\n 2./3., 0.; b += 1./4., 3./4.; c += 0., 2./3.; }"
     ),
@@ -375,6 +380,16 @@ UNKNOWN = {
     "jl, a function that changes an array": (
         "A = [0 0; 1//2 0]\nb = [0, 1]\nscale!(A)\n",
         "changed by scale!, line 3, is not known",
+    ),
+    "c, a loop that sets not only zeros": (
+        "void f(int n) { double A[2][2] = {{0}, {0.5}}, b[2] = {0.25, 0.75};\n"
+        "  for (int i = 0; i < n; i++) { b[i] = 1; } }",
+        "arrays called A and b do not fit together: assigned in a loop, line 2, is not known",
+    ),
+    "c, a loop that sets one entry to zero": (
+        "void f(int n, int k) { double A[2][2] = {{0}, {0.5}}, b[2] = {0, 1.0};\n"
+        "  for (int i = 0; i < n; i++) { A[k][i] = 0; } }",
+        "assigned in a loop, line 2, is not known",
     ),
     "c, a number in brackets": (
         "void f(void) { /* h is, */ double A[2][2] = {{0}, {0.5}}, b[2] = {0.25, 0.75};\n"

@@ -551,6 +551,9 @@ def _target(expr: ir.Expr) -> ir.Expr:
             return ir.Index(of, (i, ir.Range()))
         case ir.Call(ir.Field(of=of, name="col"), (i,)):
             return ir.Index(of, (ir.Range(), i))
+        case ir.Call(ir.Name(name), (ir.Name() as of, _, *_) as args) if name.isupper():
+            # ENTRY(A, 1, 0): a macro for an entry
+            return ir.Index(of, args[1:])
         case ir.Call(ir.Field(of=of, name="coeffRef"), (_, *_) as args) | ir.Call(
             of, (_, *_) as args
         ):
