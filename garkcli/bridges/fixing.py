@@ -19,6 +19,7 @@ from garkcli.bridges.misprints import Wanted, mistyped, places, written
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import TableSubject, read
+from garkcli.check.culprit import misprints
 from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
@@ -35,6 +36,8 @@ REACH = 400
 """Lines around the first line of a table that may hold its numbers."""
 SLOPE = 1000
 """Conditions of a rounded table determine a number up to so many times the rounding."""
+ROUGHLY = fmpq(1, 10**6)
+"""Relative error of a new number of a Rosenbrock method."""
 SURE_ORDER = 3
 """From this order on a new value of an entry is certain: lower ones have few conditions."""
 LEAST_ORDER = 2
@@ -139,14 +142,10 @@ def _better(
     tables_in: Callable[[str], list[FoundTable]],
 ) -> str:
     """The text with the repair of table k; empty if none is certain."""
-    if (
-        found.method is None
-        or found.order is None
-        or found.table.gamma is not None
-        or found.table.form
-    ):
+    is_other = found.table.is_multirate or found.table.form
+    if found.method is None or found.order is None or is_other:
         return ""
-    wanted, before = list(_wanted(subject_of(tables[k], read(tables[k])))), _orders(found)
+    wanted, before = list(_wanted_in(tables[k])), _orders(found)
     for is_whole in (False, True):
         edits = dict.fromkeys(_edits(text, tables[k].line, wanted, is_whole))
         fitting = _fitting(edits, text, tables, k, tables_in)
@@ -212,6 +211,19 @@ def _orders(found: Audited) -> tuple[int, int]:
     """The orders of a table and of its embedded weights."""
     assert found.order is not None
     return found.order.order, 0 if found.embedded_order is None else found.embedded_order.order
+
+
+def _wanted_in(table: FoundTable) -> Iterator[Wanted]:
+    """The numbers of a table that may be wrong, with the values that would mend it."""
+    if table.gamma is None:
+        yield from _wanted(subject_of(table, read(table)))
+        return
+    from garkcli.bridges.rosenbrock import with_row_orders  # few sources have them
+
+    subject = with_row_orders(table)
+    for x in misprints(subject.method, subject.order, table.order):
+        # the table is read again, and has no error then
+        yield Wanted(x.old, x.new, abs(x.new) * ROUGHLY, False, None)
 
 
 def _wanted(subject: TableSubject) -> Iterator[Wanted]:

@@ -269,3 +269,32 @@ def test_the_weight_of_a_wrong_sum(tmp_path: Path) -> None:
     path.write_text(DORMAND_PRINCE.replace("2187.0/6784", "2187.0/6748"), encoding="utf-8")
     said = " ".join(gark("audit", path.name, cwd=tmp_path).out.split())
     assert "order 5 would hold with b[5] = -2187/6784 instead of -2187/6748" in said
+
+
+ROS3P = """
+struct Ros3p {
+  static const int order = 3;
+  const double gamma = 0.7886751345948129;
+  const double b[3] = {0.6666666666666666, 0, 0.3333333333333333}, c[3] = {0, 1, 1};
+  const double a[3][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}};
+  const double g[3][3] = {{0, 0, 0}, {-1, 0, 0}, {-0.7886751345948129, -1.0773502691896258, 0}};
+};
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "is_sure"),
+    [
+        ("0.3333333333333333", "0.3333333333833333", True),
+        ("{0.6666666666666666", "{-0.6666666666666666", True),
+        ("-1.0773502691896258", "-1.0873502691896258", False),
+    ],
+)
+def test_a_digit_of_a_rosenbrock_method(old: str, new: str, is_sure: bool, tmp_path: Path) -> None:
+    """Another digit of its neighbour would mend γ₃₂ as well, as b₃ alone sees both."""
+    path = tmp_path / "ros3p.hpp"
+    path.write_text(ROS3P.replace(old, new))
+    run = gark("audit", path.name, "--fix", cwd=tmp_path)
+    assert run.code == 1
+    applied(run.out, tmp_path)
+    assert (path.read_text() == ROS3P) is is_sure
