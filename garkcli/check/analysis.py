@@ -345,11 +345,13 @@ def analyse(
     return replace(analysis, embedded=embedded, dense=dense, predictor=predictor, further=further)
 
 
-def looks_rounded(method: MethodFile) -> RoundingHint | None:
-    """Returns the remark on a missing tolerance; None if no tolerance is missing."""
+def looks_rounded(method: MethodFile, order: AnyOrder | None = None) -> RoundingHint | None:
+    """Returns the remark on the missing tolerance of a file; None if it has one, is exact or has a
+    misprint. ``order`` is that of the method if it is known.
+    """
     if method.tolerance is not None:
         return None
-    order = order_of(method.tableau)
+    order = order or order_of(method.tableau)
     if not is_doubtful(order, None):
         return None
     from garkcli.check.remark import remark_on  # balls, which exact methods do without

@@ -5,7 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from garkcli import errors
-from garkcli.check.analysis import Analysis, AnyAnalysis, analyse, analyse_any, remark_of
+from garkcli.check.analysis import (
+    Analysis,
+    AnyAnalysis,
+    analyse,
+    analyse_any,
+    looks_rounded,
+    remark_of,
+)
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit, misprints
 from garkcli.check.outcome import Outcome
@@ -132,12 +139,14 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
     analysis = analyse_any(method, limit)
     assert not isinstance(analysis, Analysis)
     own: dict[str, Any] = {analysis.form: analysis}
+    remark = looks_rounded(method, analysis.order)
     return Outcome(
         file=method.source,
         name=method.name,
         claims=verify(method.claims, analysis),
         text=method.text,
-        misprints=misprints(method, analysis.order),
+        misprints=misprints(method, analysis.order, remark=remark),
+        remark=remark,
         constants=_constants(analysis) if want_constants else None,
         left_behind=method.left_behind,
         **own,

@@ -177,13 +177,19 @@ class FoundOrder(Protocol):
 
 
 def misprints(
-    method: MethodFile, order: FoundOrder, declared: int | None = None
+    method: MethodFile,
+    order: FoundOrder,
+    declared: int | None = None,
+    remark: RoundingHint | None = None,
 ) -> tuple[SuspectedNumber, ...]:
     """Returns the numbers of which one seems wrong: another value gives the claimed or declared
-    order or, without one, two orders more. Only those that give the highest order are returned.
+    order or, without one, two orders more. Only those that give the highest order are returned;
+    none if the tolerance of the remark yields that order.
     """
     claimed = declared or highest_order(method.claims, ["order"])
     goal = claimed or order.order + GAIN
+    if _is_explained(remark, goal):
+        return ()
     is_searched = order.witness is not None and order.order < goal
     if not is_searched or not (claimed or order.order <= HIGHEST_LOW):
         return ()

@@ -391,14 +391,15 @@ def hints(outcome: Outcome) -> Iterator[Aside]:
     """Yields what sums, digits and failing conditions tell about wrong numbers."""
     if outcome.misprints:
         yield _aside("misprint", "hint", misprint_text(outcome.misprints))
-    analysis = outcome.analysis
+    analysis, rounding, blame = outcome.analysis, outcome.remark, outcome.blame
     if analysis is None:
+        if rounding is not None:
+            yield _aside("looks-rounded", "hint", rounding_text(rounding, (), None))
         return
     names = [colour.name for colour in analysis.tableau.colours]
     for wrong in analysis.wrong_weights:
         row = below(composed(outcome.text), "embedded" if wrong.is_embedded else "b")
         yield _aside("weights", "hint", sum_text(wrong, names), row)
-    rounding, blame = outcome.remark, outcome.blame
     if rounding is not None and rounding.repairs:
         entry = entry_node(outcome.text, rounding.repairs[0])
         yield _aside("misprint", "hint", rounding_text(rounding, names, analysis.tolerance), entry)

@@ -57,6 +57,27 @@ def test_an_entry_of_gamma_is_named(claim: str) -> None:
     assert "order 3 would hold with -2/3 instead of -2/5, or 7/30 instead of 1/2" in told
 
 
+def test_decimals_of_every_kind_look_rounded() -> None:
+    """ROS3 without a tolerance: the line is named, in all formats, and with it the order is there;
+    then no number seems wrong. With a wrong digit the number is named instead.
+    """
+    outcome = checked(ROS3)
+    assert outcome.remark is not None
+    assert (outcome.remark.order, outcome.remark.repairs, outcome.misprints) == (3, (), ())
+    line = outcome.remark.line
+    text = " ".join(REPORT.render([outcome], width=400).split())
+    assert f"with the line {line} order 3 holds" in text
+    [finding] = REPORT.document([outcome])["files"][0]["findings"]
+    assert finding["code"] == "looks-rounded"
+    analysis = checked(f"{ROS3}{line}\n").rosenbrock
+    assert analysis is not None
+    assert analysis.order.order == 3
+    wrong = checked(ROS3.replace("0.1929465", "0.1924965"))
+    assert wrong.misprints
+    assert wrong.remark is None or wrong.remark.order < 3
+    assert checked(RODAS3).remark is None
+
+
 @pytest.mark.parametrize("tolerance", ["", "tolerance: 1e-14\n"])
 def test_a_digit_of_decimals_is_mended(tolerance: str) -> None:
     """Two digits of γ_21 of ROS3 are exchanged; the value comes back to the digits of the others,
