@@ -152,8 +152,9 @@ def test_a_rounded_stability_function_says_what_it_is_of() -> None:
 
 
 def latex_faults(text: str) -> Iterator[str]:
-    """What keeps LaTeX from setting a fragment, or lets it show another sign."""
-    bare = re.sub(r"\\[\\{}$%&#_]", "", text)
+    """What keeps LaTeX from setting a fragment, or lets it show another sign; comments do not."""
+    bare = re.sub(r"(?m)^%.*$|\\[\\{}$%&#_]", "", text)
+    has_table = re.search(r"lll|raggedright", text) is not None
     depth = 0
     for line in bare.splitlines():
         if line.count("$") % 2:
@@ -165,7 +166,7 @@ def latex_faults(text: str) -> Iterator[str]:
         if depth:
             yield f"braces: {line}"
         words = re.sub(r"\$[^$]*\$", "", line)
-        if re.search(r"[#%^_~]", words) or (words.count("&") > 1 and "lll" not in text):
+        if re.search(r"[#%^_~]", words) or (words.count("&") > 1 and not has_table):
             yield f"signs: {line}"
     for sign in {x for x in text if ord(x) > 127}:
         if not unicodedata.name(sign).startswith("LATIN SMALL"):
