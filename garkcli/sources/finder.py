@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from garkcli.frozen import Mutable, field, replace
@@ -272,10 +272,16 @@ class TableFinder(Harvester):
         """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method, perhaps
         with a misprint: one in printed form only if ``is_told`` says what it is.
         """
+        # c2, … and c21, … are a list and a matrix of one name
+        made = [(x.name, self.harvest.value(x)) for x in self.made]
+        return self._of_letters(scope.title, scope.line, (*space.items(), *made), is_told)
+
+    def _of_letters(
+        self, title: str, line: int, named: Iterable[tuple[str, Value]], is_told: bool = False
+    ) -> bool:
+        """Whether arrays and numbers with the letters of papers are a Rosenbrock method."""
         kinds: tuple[dict[str, Value], ...] = ({}, {}, {})
-        lists = {x.name: self.harvest.value(x) for x in self.made if not x.is_matrix}
-        blocks = {x.name: self.harvest.value(x) for x in self.made if x.is_matrix}
-        for name, value in (*space.items(), *lists.items(), *blocks.items()):
+        for name, value in named:
             plain = name.rpartition("::")[2].rpartition(".")[2].strip("_")
             if is_matrix(value) and all(len(items_of(x)) == 1 for x in value.items):
                 value = Array([items_of(x)[0] for x in value.items])
@@ -284,14 +290,14 @@ class TableFinder(Harvester):
             kinds[kind].setdefault(plain.lower(), value)
         matrices, vectors, numbers = kinds
         roles, form = roles_by_names(matrices, vectors, numbers)
-        is_sure = bool(form) or kind_of(scope.title) == "Rosenbrock"
+        is_sure = bool(form) or kind_of(title) == "Rosenbrock"
         if not form:
             roles, form = roles_by_names(matrices, vectors, numbers, is_told=True)
             if form == "rosenbrock" and not is_told:
                 # its α and b may be a Runge–Kutta method
                 return False
         if form:
-            place = self._place(scope.title, scope.line, is_sure=is_sure)
+            place = self._place(title, line, is_sure=is_sure)
             self._meant.append(Meant(place, dict(roles), Signature([], form), "Rosenbrock"))
         return bool(form)
 
@@ -348,6 +354,9 @@ class TableFinder(Harvester):
     def _of_record(self, record: SourceRecord, scope: ir.Scope) -> None:
         if len({x in self._refilled for x in _matrix_and_weights(record)}) > 1:
             self._unread(self._name(record, scope), self.line, ANEW)
+            return
+        named = record.fields.items()
+        if not record.kind and self._of_letters(self._name(record, scope), record.line, named):
             return
         signature = SIGNATURES.get(record.kind, NAMED)
         if signature is PARTS and record.args and len(record.args) != len(PARTS.roles):

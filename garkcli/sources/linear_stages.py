@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import permutations
@@ -130,6 +131,7 @@ CLOSE = 1e-6
 _ERRORS = ("e", "err", "error")
 FAR = 1
 """Largest sum of the differences of weights, misprints included."""
+_GAMMA = re.compile(r"(?:gamma|γ|gam(?![a-z]))", re.IGNORECASE)
 _GAMMAS = ("gamma", "gam", "γ", "Gamma", "GAMMA", "GAM", "g")
 
 
@@ -148,7 +150,7 @@ def roles_by_names(
     b = next((vectors[x] for x in ("b", "m", "w") if x in vectors), None)
     order = {x: numbers[x] for x in ("order",) if x in numbers}
     is_told &= bool(order)
-    G = next((matrices[x] for x in _GAMMAS if x in matrices), None)
+    G = next((x for name, x in matrices.items() if _GAMMA.match(name)), matrices.get("g"))
     if isinstance(A, Array) and isinstance(G, Array) and isinstance(b, Array):
         # no other method has a γ beside two triangles without diagonals, of several entries
         are_triangles = all(len(x.items) > 2 and _is_strict(x) for x in (A, G))

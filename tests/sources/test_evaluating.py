@@ -56,6 +56,11 @@ SAME = {
         "void f(int *s, double A[], double b[]) { *s = 2; A[0] = 0; A[1] = 0; A[2] = 2./3;\n"
         "  A[3] = 0; b[0] = 0.25; b[1] = 1 - b[0]; }"
     ),
+    "c, the number of stages is that of the case": (
+        "void f(double *A, double *b, int s) { switch (s) { case 2:\n"
+        "  A[0*s + 0] = 0; A[0*s + 1] = 0; A[1*s + 0] = 2.0/3; A[1*s + 1] = 0;\n"
+        "  b[0] = 0.25; b[s - 1] = 0.75; break; } }"
+    ),
     "c, a macro for entries, after loops of unknown length": (
         "void f(int k, int *s, double *A, double *b) { for (i = 0; i < MAX; i++) { b[i] = ZERO;\n"
         "  for (j = 0; j < MAX; j++) ENTRY(A, i, j) = 0.0; }\n"

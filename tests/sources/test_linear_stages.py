@@ -153,3 +153,24 @@ def test_names_that_others_have_too() -> None:
         text = PRINTED.replace("arr{0, 0, 0}, arr{-1, 0, 0}", entries)
         (table,) = c.find(text.replace("2/3., 0, 1/3.}, b", "1/2., 1/4., 1/4.}, b"), "x.hpp")
         assert table.gamma is None
+
+
+RECORDS = """
+METHODS = {{
+    "ros3p": dict(gamma=0.7886751345948129, alpha=[[], [1], [1, 0]], b=[2/3, 0, 1/3], b_hat=[1/3, 1/3, 1/3],
+        gamma_ij=[[], [-1], [-0.7886751345948129, {}]]),
+    "kutta": dict(A=[[0, 0, 0], [1/2, 0, 0], [-1, 2, 0]], b=[1/6, 2/3, 1/6], c=[0, 1/2, 1]),
+}}
+"""
+
+
+def test_records_of_letters() -> None:
+    """Each is a method of its own kind; a Rosenbrock method without order 2 is none."""
+    found = [audit(x) for x in python.find(RECORDS.format(-1.0773502691896258), "x.py")]
+    assert [(x.table.name, x.order.order) for x in found if x and x.order] == [
+        ("ros3p", 3),
+        ("kutta", 3),
+    ]
+    assert [x.table.gamma is None for x in found if x] == [False, True]
+    found = [audit(x) for x in python.find(RECORDS.format(-1.2773502691896258), "x.py")]
+    assert [x.order.order for x in found if x and x.order and x.table.gamma] == [1]

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.lowering import (
@@ -355,6 +356,17 @@ class CLowering(Lowering):
             of = next(iter(self.children(part(node, "arguments"))), None)
             name = f"{self.name(of)}::{self.name(part(node, 'name'))}"
         return name, tuple(extents)
+
+    def case(self, node: Node) -> tuple[ir.Scope]:
+        """One case of a switch; in ``case 2`` of ``switch (s)`` s is 2."""
+        (made,) = super().case(node)
+        around = node.parent.parent if node.parent is not None else None
+        condition = part(around, "condition")
+        of = self.expr(part(condition, "value") or condition)
+        value = self.expr(part(node, "value"))
+        if isinstance(of, ir.Name) and isinstance(value, ir.Literal):
+            made = replace(made, body=(ir.Assign(of, value, made.line), *made.body))
+        return (made,)
 
     def target(self, node: Node) -> ir.Expr:
         """The target of an assignment: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
