@@ -180,14 +180,6 @@ def test_the_help_lists_every_form() -> None:
     assert [x for x in forms() if x not in "".join(told) and f"{x}." not in told] == []
 
 
-def test_no_slope_that_a_stage_sees() -> None:
-    """A colour that does not see itself has a matrix of zeros."""
-    method = loads("tableau: {A: [[null]], b: [[1/3, 2/3]]}")
-    assert (0, 0) not in method.tableau.blocks
-    made = convert(method, "2N").method
-    assert made.tableau.colours[0].b == method.tableau.colours[0].b
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [

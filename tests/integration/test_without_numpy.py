@@ -65,7 +65,7 @@ def test_commands_answer_alike() -> None:
 
 def test_reports_lack_runs_in_floats_alone() -> None:
     """A sentence is in the place of the pictures of runs; the rest is the same to the letter."""
-    commands = tuple(("report", name, "-o", "-") for name in PAGES)
+    commands = tuple(("report", name, "-v", "-o", "-") for name in PAGES)
     found = zip(answers(commands, True), answers(commands, False), strict=True)
     for name, ((code, here), (_, there)) in zip(PAGES, found, strict=True):
         assert code == 0, here
