@@ -20,6 +20,7 @@ from garkcli.sources.lowering import (
     part,
     unmeant,
 )
+from garkcli.sources.naming import ROLES
 from garkcli.sources.reading import tables_in
 
 if TYPE_CHECKING:
@@ -51,8 +52,10 @@ _ASIDE = re.compile(
 """Comments and texts, one after the other."""
 
 
-MOST_MACROS, MOST_SPELLED = 5, 10_000
-"""Macros within macros; characters of an expression with all of them put in."""
+MOST_MACROS = 5
+"""Deepest macros within macros that are put in."""
+MOST_SPELLED = 10_000
+"""Longest expression with its macros put in, in characters."""
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -230,6 +233,7 @@ class CLowering(Lowering):
     def _fragment(self, plain: str) -> ir.Expr | None:
         """The expression of a macro; None if it has none."""
         inner = CLowering(f"double x = {plain};", self._grammar)
+        inner._types_given, inner._reals = self._types_given, self._reals
         tree = inner.parse(inner._data)
         if plain and not tree.has_error:
             match inner.block(tree.named_children):
@@ -358,14 +362,14 @@ class CLowering(Lowering):
         return name, tuple(extents)
 
     def case(self, node: Node) -> tuple[ir.Scope]:
-        """One case of a switch; in ``case 2`` of ``switch (s)`` s is 2."""
+        """One case of a switch; s is 2 in ``case 2`` of ``switch (s)``, unless it is an order."""
         (made,) = super().case(node)
         around = node.parent.parent if node.parent is not None else None
         condition = part(around, "condition")
-        of = self.expr(part(condition, "value") or condition)
-        value = self.expr(part(node, "value"))
-        if isinstance(of, ir.Name) and isinstance(value, ir.Literal):
-            made = replace(made, body=(ir.Assign(of, value, made.line), *made.body))
+        both = self.expr(part(condition, "value") or condition), self.expr(part(node, "value"))
+        match both:
+            case ir.Name(name) as of, ir.Literal() as value if "order" not in ROLES.get(name, ""):
+                made = replace(made, body=(ir.Assign(of, value, made.line), *made.body))
         return (made,)
 
     def target(self, node: Node) -> ir.Expr:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
-from garkcli.sources.found import FoundTable
+from garkcli.sources.found import MAX_STAGES, FoundTable
 from garkcli.sources.lowering import Lowering, counted, kinds, line_of, part, reader, unmeant
 
 if TYPE_CHECKING:
@@ -171,8 +171,10 @@ class GoLowering(Lowering):
         pairs = [(part(x, "key"), part(x, "value")) for x in keyed]
         if all(self.text(x).isdigit() for x, _ in pairs) and len(keyed) == len(inside):
             at = {int(self.text(x)): self.expr(y) for x, y in pairs}
-            rows = range(max(at) + 1 if max(at) < len(at) + 8 else 0)
-            return ir.Items(tuple(at.get(x, ir.Literal("0", is_whole=True)) for x in rows))
+            if max(at) > MAX_STAGES:
+                return ir.Opaque("a long list with gaps")
+            zero = ir.Literal("0", is_whole=True)
+            return ir.Items(tuple(at.get(x, zero) for x in range(max(at) + 1)))
         fields = tuple((self.text(x).strip('"'), self.expr(y)) for x, y in pairs)
         if record:
             return ir.Call(ir.Name(record), (), fields)
