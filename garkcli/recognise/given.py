@@ -159,5 +159,6 @@ def bits_of(value: fmpq) -> float:
             rest //= prime
     if rest == 1 and q > 1:
         places = next(k for k in range(1, q.bit_length() + 1) if not 10**k % q)
-        long = min(long, PER_DIGIT * len(str(p * 10**places // q)))
+        digits = p * 10**places // q
+        long = min(long, PER_DIGIT * math.ceil(math.log10(digits + 1)))
     return min(long, MOST_BITS)

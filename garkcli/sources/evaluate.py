@@ -15,6 +15,7 @@ from typing import Any, TypeAlias, TypeGuard, TypeVar
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
+from garkcli.sources.elementwise import ITEM
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONSTANTS, CONVERSIONS, KnownCall, conversion, in_words, result
 from garkcli.sources.signatures import SIGNATURES, other_kind
@@ -52,6 +53,8 @@ MAX_STEPS = 60_000
 """Most steps for one function."""
 MAX_TURNS = 4_000
 """Most iterations of a loop."""
+FEW_TURNS = 100
+"""Loops with so many turns are followed, if their steps are not too many."""
 MAX_DEPTH = 80
 """Deepest nesting of expressions."""
 PER_NAME = 10
@@ -239,10 +242,18 @@ class Evaluator:
 
     def _loop(self, loop: ir.Loop, space: Space) -> None:
         over = self.value(loop.over, space) if loop.name else self.unknown("a loop")
-        if isinstance(over, Array) and len(over.items) <= MAX_TURNS and _is_plain(loop.body):
+        if self.has_whole_quotients and ir.Name(loop.name) in [x for x, _ in _targets(loop.body)]:
+            # for (auto &x : v) x = 0;
+            self.spoil(loop.over, space, "changed in a loop", loop.line)
+            over = self.unknown("a loop")
+        turns = len(items_of(over))
+        is_short = turns < FEW_TURNS or turns * _size_of(loop.body) < MAX_STEPS
+        if isinstance(over, Array) and turns <= MAX_TURNS and is_short and _is_plain(loop.body):
             for item in over.items:
                 space[loop.name] = item
                 self._run(loop.body, space)
+            if over.items and loop.name == ITEM:
+                space.pop(ITEM, None)
             return
         if loop.name and self._is_filled(loop, space):
             return
@@ -911,6 +922,11 @@ def _is_numeric(expr: object) -> bool:
         case ir.Rows() | ir.Binary(sign="/", left=ir.Literal()):
             return True
     return False
+
+
+def _size_of(body: ir.Body) -> int:
+    """The number of expressions in statements."""
+    return sum(1 for _ in ir.parts_of(body))
 
 
 def _is_plain(body: ir.Body) -> bool:

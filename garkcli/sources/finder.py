@@ -235,7 +235,10 @@ class TableFinder(Harvester):
         known = {shown(x) for meant in self._meant[first:] for x in meant.roles.values()}
         if self._count() == count or known:
             self._of_names(values, lines, scope, known)
-        looks_like_a_step = self._count() == count and self._of_step(scope, space)
+        has_none = self._count() == count or self._has_no_table(first, count)
+        before = self._count()
+        looks_like_a_step = has_none and self._of_step(scope, space)
+        count = before if has_none and self._count() == before else count
         if self._count() == count and self.made:
             # c10 is an entry of c
             by_kind = sorted(self.made, key=lambda x: not x.is_matrix)
@@ -300,6 +303,18 @@ class TableFinder(Harvester):
             place = self._place(title, line, is_sure=is_sure)
             self._meant.append(Meant(place, dict(roles), Signature([], form), "Rosenbrock"))
         return bool(form)
+
+    def _has_no_table(self, first: int, count: int) -> bool:
+        """Whether what was found since is no table: arrays with the names of one."""
+        if self._count() - count > len(self._meant) - first:
+            return False
+        for meant in self._meant[first:]:
+            try:
+                table_of(meant)
+            except NoTable:
+                continue
+            return False
+        return True
 
     def _count(self) -> int:
         return len(self._meant) + len(self._other)

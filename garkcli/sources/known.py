@@ -142,6 +142,8 @@ def in_words(name: str) -> Value | None:
     return real(exact(fmpq(count, _DIVISORS.get((match["part"] or "").lower(), 1))))
 
 
+MOST_IN_RANGE = 40
+"""Most numbers of a range that is followed."""
 MOST_PARTS, CLOSE = 120, 1e-14
 """The largest denominator of a part of a turn with a known cosine; the error of a float."""
 CALLS: dict[str, Known] = {}
@@ -538,6 +540,30 @@ def _zipped(call: KnownCall, *lists: Value) -> Value | None:
         return call.unknown()
     call.evaluator.allowance.spend(sum(map(size, lists)))
     return call.array(call.array(x) for x in zip(*map(items_of, lists), strict=False))
+
+
+@_known("range")
+def _range(call: KnownCall, first: Value, last: Value = NULL, step: Value = ONE) -> Value | None:
+    """``range(n)`` of Python, short ones only."""
+    ends = (ZERO, first, step) if last is NULL else (first, last, step)
+    a, b, by = map(whole, ends)
+    if call.evaluator.base or a is None or b is None or not by or abs(b - a) > MOST_IN_RANGE:
+        return call.unknown()
+    call.evaluator.allowance.spend(abs(b - a))
+    return call.array(map(integer, range(a, b, by)))
+
+
+@_known("enumerate")
+def _numbered(call: KnownCall, values: Value, first: Value = ZERO) -> Value | None:
+    """Entries with their numbers, from 0 in Python and from 1 in Julia."""
+    start = whole(call.named.get("start", first))
+    if not isinstance(values, Array) or start is None:
+        return call.unknown()
+    call.evaluator.allowance.spend(size(values))
+    numbers = range(start + call.evaluator.base, start + call.evaluator.base + len(values.items))
+    return call.array(
+        call.array((integer(i), x)) for i, x in zip(numbers, values.items, strict=True)
+    )
 
 
 @_known("power pow Power SUNRpowerR")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from importlib import import_module
@@ -25,8 +26,17 @@ INCLUDED = ".inc"
 """The ending of include files in several languages."""
 FEWEST_NUMBERS = 5
 SHORT = 300
-A_PART = 150
+A_PART = 400
 """Length below which a function may be part of a step, whatever is in it."""
+MOST_OF_A_STEP = 4_000
+"""Length above which a function without numbers like those of a table is no step."""
+_CALL = re.compile(r"(?P<name>[^\W\d]\w{0,40})\(")
+_WITH_SUM = re.compile(_CALL.pattern + r"[^()]{0,200}[-+*]")
+"""A call, and one with an operation in its arguments."""
+_MULTIPLE_ADDED = re.compile(
+    r"[\w\])]\s{0,3}\+\s{0,3}[a-zA-Z][\w.>\[\]-]{0,40}\s{0,3}\*\s{0,3}[a-zA-Z]"
+)
+"""The sum of a value and a product of names."""
 HEAD = 100
 """Characters at the beginning of a function that may name it."""
 _WORDS = re.compile(
@@ -234,7 +244,7 @@ class Lowering(ABC):
         numbers = _NUMBER.finditer(text)
         fewest = 1 if is_likely else FEWEST_NUMBERS
         has_numbers = next(islice(numbers, fewest - 1, None), None) is not None
-        return has_numbers and (is_likely or bool(_WORDS.search(text)))
+        return (has_numbers and (is_likely or bool(_WORDS.search(text)))) or _calls_again(text)
 
     def expr(self, node: Node | None) -> ir.Expr:
         """The lowered form of an expression; Opaque if it is nested too deep."""
@@ -345,6 +355,18 @@ class Lowering(ABC):
         return tuple(args), tuple(named)
 
 
+def _calls_again(text: str) -> bool:
+    """Whether a short function may add multiples of the values of a function: it has such a sum,
+    or calls a function several times, with sums or products.
+    """
+    if len(text) > MOST_OF_A_STEP:
+        return False
+    if _MULTIPLE_ADDED.search(text):
+        return True
+    counts = Counter(match["name"] for match in _CALL.finditer(text))
+    return any(counts[name] > 1 for name in {x["name"] for x in _WITH_SUM.finditer(text)})
+
+
 @lru_cache
 def _language(grammar: str) -> Language:
     """The language of a grammar, imported on use since it may not be installed.
@@ -398,10 +420,10 @@ def counted(
 ) -> tuple[str, ir.Expr]:
     """The counter of ``for (i = a; i < b; i++)`` and its range; an empty name for other loops."""
     sign = lowering.text(part(condition, "operator"))
-    if not (first and sign in {"<", "<="} and "++" in update):
+    if not (first and sign in {"<", "<=", "!="} and ("++" in update or "+= 1" in update)):
         return "", ir.Opaque("a loop")
     last = lowering.expr(part(condition, "right"))
-    return name, ir.Range(lowering.expr(first), less_one(last) if sign == "<" else last)
+    return name, ir.Range(lowering.expr(first), last if sign == "<=" else less_one(last))
 
 
 _OPERATIONS = (

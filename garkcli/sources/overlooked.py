@@ -7,7 +7,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 from garkcli.sources import ir
 from garkcli.sources.evaluate import names_of
@@ -39,7 +39,7 @@ def overlooked(
     source: str,
     told: Iterable[int],
     used: Collection[str],
-    lost: Collection[tuple[str, int]],
+    lost: Mapping[tuple[str, int], str],
 ) -> Iterator[ir.Scope]:
     """The scopes with several fractions: with names of coefficients and words for methods, or with
     the name of a method or a step.
@@ -50,7 +50,8 @@ def overlooked(
         source: its name.
         told: the lines of its tables.
         used: the sizes of the numbers of its tables.
-        lost: the kinds and lines of scopes that take too much work or look like steps.
+        lost: why scopes are not read, by their kinds and lines: they take too much work or look
+            like steps.
     """
     module = ir.Scope("module", re.split(r"[/\\]", source)[-1], body, 1)
     placed = sorted(_placed(body, (module,)), key=lambda x: x[0].line)
@@ -69,7 +70,7 @@ def overlooked(
         # names of a function are not visible elsewhere
         elsewhere = () if scope.kind == "function" else used
         is_lost = (scope.kind, scope.line) in lost
-        is_other = key in known or OTHERS.search(scope.name)
+        is_other = key in known or (not is_lost and OTHERS.search(scope.name))
         if not is_other and _is_method(scope, own, words, elsewhere, is_lost):
             yield scope
 

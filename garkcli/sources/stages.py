@@ -10,12 +10,25 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence, Set
 
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
-from garkcli.sources.values import ZERO, Array, Form, Number, Terms, Value, computed, is_zero, near
+from garkcli.sources.positions import is_of_velocities, position_of
+from garkcli.sources.values import (
+    ZERO,
+    Array,
+    Form,
+    Number,
+    Terms,
+    Value,
+    computed,
+    integer,
+    is_zero,
+    near,
+)
 
 NEAR = 1e-3
 """Sums that differ by less are equal."""
+MINUS = integer(-1)
 CLOSE = 1e-9
 """Coefficients that differ by less are equal."""
 Roles = dict[str, Value]
@@ -27,11 +40,13 @@ class NoStep(Exception):
     Args:
         looks_like: whether it looks like one: f is evaluated at ``x + h*k`` with another value k of
             f.
+        is_idle: whether nothing but stages is computed: the step may be rejected.
     """
 
-    def __init__(self, looks_like: bool = False) -> None:
+    def __init__(self, looks_like: bool = False, is_idle: bool = False) -> None:
         super().__init__()
         self.looks_like = looks_like
+        self.is_idle = is_idle
 
 
 class StageSlope(Frozen):
@@ -83,22 +98,33 @@ def step_in(
     values: Mapping[str, Value],
     returned: Sequence[str],
     counters: Sequence[str],
+    others: Sequence[Terms] = (),
 ) -> Roles:
     """A, b, c, the error and the embedded weights of a step.
 
     Args:
         slopes: all evaluations of functions, in order.
         values: at the end, in the order of their last assignments.
+        others: what other functions are given, such as an error to a norm.
         returned: the names of the returned values.
         counters: the names that count steps.
 
     Raises:
         NoStep: there is none.
     """
-    return _FollowedStep(slopes, values, returned, counters).roles()
+    step = FollowedStep(slopes, values, returned, counters, others)
+    try:
+        return step.roles()
+    except NoStep:
+        if not step.is_backward:
+            raise
+    backward = [replace(x, args=tuple(map(step.turned, x.args))) for x in slopes]
+    turned = {x: step.turned(terms_of(y)) for x, y in values.items()}
+    ends = {x: y if (form := turned[x]) is None else Form(form) for x, y in values.items()}
+    return FollowedStep(backward, ends, returned, counters).roles()
 
 
-class _FollowedStep:
+class FollowedStep:
     """The parts of a step."""
 
     def __init__(
@@ -107,6 +133,7 @@ class _FollowedStep:
         values: Mapping[str, Value],
         returned: Sequence[str],
         counters: Sequence[str],
+        others: Sequence[Terms] = (),
     ) -> None:
         self._slopes = slopes
         self._counters = counters
@@ -114,13 +141,22 @@ class _FollowedStep:
         self._values = values
         self._forms = {x: form for x, value in values.items() if (form := terms_of(value))}
         self._returned = returned
-        self._h = self._step()
+        self.h = self._step()
         args = {x.name: [self._sum(form) for form in x.args] for x in slopes}
-        stages = {x.callee for x in slopes if any(y and y.row for y in args[x.name])}
-        # others, such as the size of a vector, are no slopes
+        used = self._used()
+        with_slopes = (
+            x
+            for x in slopes
+            if any(y and y.row for y in args[x.name]) or any(map(self._has_slopes, x.args))
+        )
+        stages = {_whole_of(x.callee) for x in with_slopes} & used
+        # others, such as the size of a vector or the control of the step, are no slopes
         self._args = {
-            x.name: args[x.name] if not stages or x.callee in stages else [] for x in slopes
+            x.name: args[x.name] if not stages or _whole_of(x.callee) in stages else []
+            for x in slopes
         }
+        given = (y for x in slopes if not self._args[x.name] for y in x.args if y)
+        self._others = [*others, *given]
         self._places = {x.name: i for i, x in enumerate(slopes)}
         self._given = ""
 
@@ -142,14 +178,70 @@ class _FollowedStep:
         rows = {**every[0], "c": nodes}
         error = rows.get("error", [])
         main = next(iter(components.values()))
+        self._check_positions(components, A, rows["b"])
         is_clear = not error or self._is_returned(main) or not self._is_kept(main, A[-1])
         if not is_clear and _are_apart(rows["b"], A[-1], error):
-            # either value may be the step
-            raise NoStep
+            if self._error({*main.slopes}, has_second=True):
+                # either value may be the step
+                raise NoStep
+            # only its size is computed
+            del rows["error"]
         roles: Roles = {"A": Array([Array(row) for row in A])}
         return roles | {role: Array([*row]) for role, row in rows.items() if row}
 
+    @property
+    def is_backward(self) -> bool:
+        """Whether some value is a step with -h."""
+        sums = (self._sum(form) for form in self._forms.values())
+        return any(x is not None and abs(near(*x.row.values()) + 1) < NEAR for x in sums if x)
+
+    def turned(self, form: Terms | None) -> Terms | None:
+        """A polynomial with the step in the other direction."""
+        if form is None:
+            return None
+        return {
+            at: computed("*", x, MINUS, 0) if at.count(self.h) % 2 else x for at, x in form.items()
+        }
+
+    def _check_positions(
+        self, components: Mapping[str, _Component], A: Sequence[Sequence[Value]], b: Sequence[Value]
+    ) -> None:
+        """Checks that positions have the velocities of the stages.
+
+        Raises:
+            NoStep: they have others.
+        """
+        rows = {
+            base: {
+                name: dict(zip(x.slopes, row, strict=True))
+                for name, row in zip(x.slopes, A, strict=True)
+            }
+            for base, x in components.items()
+        }
+        for x in components.values():
+            for name, row in zip(x.slopes, A, strict=True):
+                forms = self._slopes[self._places[name]].args if name in self._places else ()
+                weights = dict(zip(x.slopes, row, strict=True))
+                if not all(is_of_velocities(y, self.h, rows, weights) for y in forms):
+                    raise NoStep
+            weights = dict(zip(x.slopes, b, strict=True))
+            ends = (form for name, form in self._forms.items() if (name,) in form)
+            if not all(is_of_velocities(y, self.h, rows, weights) for y in ends):
+                raise NoStep
+
     # the sums
+
+    def _has_slopes(self, form: Terms | None) -> bool:
+        """Whether an argument is a value with multiples of slopes."""
+        terms = form or {}
+        has_base = any(len(at) == 1 and at[0] not in self._names for at in terms)
+        return has_base and any(len(at) > 1 and self._names.intersection(at) for at in terms)
+
+    def _used(self) -> set[ir.Expr]:
+        """The functions whose slopes are in some value, or in an argument."""
+        forms = (*self._forms.values(), *(y for x in self._slopes for y in x.args if y))
+        names = {name for form in forms for at in form if len(at) == 2 for name in at}
+        return {_whole_of(x.callee) for x in self._slopes if x.name in names}
 
     def _step(self) -> str:
         """The name of the step: the factor of the slopes.
@@ -176,8 +268,8 @@ class _FollowedStep:
             others = list(at)
             if is_zero(x):
                 continue
-            if self._h in others:
-                others.remove(self._h)
+            if self.h in others:
+                others.remove(self.h)
                 if len(others) > 1:
                     return None
                 if others and others[0] in self._counters:
@@ -206,19 +298,23 @@ class _FollowedStep:
             NoStep: there is none.
         """
         sums = {name: x for name, form in self._forms.items() if (x := self._sum(form)) and x.row}
-        bases = dict.fromkeys(x.base for x in sums.values() if _is_whole(x.row))
+        bases = dict.fromkeys(x.base for x in sums.values() if is_whole(x.row))
         if not bases:
             sums |= self._increments()
-            bases = dict.fromkeys(x.base for x in sums.values() if _is_whole(x.row))
+            bases = dict.fromkeys(x.base for x in sums.values() if is_whole(x.row))
         components: dict[str, _Component] = {}
         for base in bases:
             own = [x for of in self._args.values() for x in of if x and x.base == base]
             if not own:
                 # no argument of f
                 continue
+            end = self._forms.get(base.partition("[")[0] + "[the end]")
+            if end is not None and ((x := self._sum(end)) is None or x.base != base):
+                # what is put behind the end of its list is another value
+                raise NoStep
             result, second = self._result(base, sums, own)
             names = {name for x in (result, second, *(x.row for x in own)) for name in x}
-            error = self._error(names)
+            error = self._error(names, bool(second))
             names |= set(error)
             others = names - self._names
             if len(others) == 1 and all(x.row for x in own) and [*bases] == [base] != [*others]:
@@ -233,7 +329,7 @@ class _FollowedStep:
             ordered = sorted(names, key=lambda x: self._places.get(x, -1))
             components[base] = _Component(tuple(ordered), result, second, error)
         if not components:
-            raise NoStep
+            raise NoStep(is_idle=not bases)
         return components
 
     def _increments(self) -> Mapping[str, _Sum]:
@@ -247,8 +343,8 @@ class _FollowedStep:
         for name, form in self._forms.items() if len(bases) == 1 else ():
             rows = {x: form[at] for at in form for x in at if x in slopes}
             others = {tuple(x for x in at if x not in slopes) for at in form}
-            is_sum = others in ({(self._h,)}, {()}) and len(rows) == len(form)
-            if is_sum and _is_whole(rows) and (len(rows) > 1 or name in self._returned):
+            is_sum = others in ({(self.h,)}, {()}) and len(rows) == len(form)
+            if is_sum and is_whole(rows) and (len(rows) > 1 or name in self._returned):
                 found[name] = _Sum(min(bases), ZERO, rows)
         return found
 
@@ -267,10 +363,14 @@ class _FollowedStep:
         others: list[Mapping[str, Value]] = []
         for name in names:
             row = of_base[name]
-            if _is_whole(row) and not any(_are_equal(row, x) for x in (*stages, *others)):
+            if is_whole(row) and not any(_are_equal(row, x) for x in (*stages, *others)):
                 others.append(row)
         is_returned = names[0] in self._returned
-        if len(others) > 2:
+        ends = (self._forms.get(x, {}) for x in self._returned)
+        if len(others) > 2 or (
+            # the returned value is another one
+            not is_returned and any((base,) in x and len(x) > 1 for x in ends)
+        ):
             raise NoStep
         if len(others) == 2:
             # returned values keep their order, a copied value is the result
@@ -279,9 +379,9 @@ class _FollowedStep:
             return first, second
         is_lost = base in self._values and (base,) not in self._forms.get(base, ())
         is_lost &= names[0] not in self._returned
-        if not _is_whole(of_base[names[0]]) or is_lost or not self._is_end(base, names[0], of_base):
+        if not is_whole(of_base[names[0]]) or is_lost or not self._is_end(base, names[0], of_base):
             # its last value is another one
-            raise NoStep
+            raise NoStep(is_idle=not is_lost and not others)
         return of_base[names[0]], {}
 
     def _is_end(self, base: str, name: str, of_base: Mapping[str, Mapping[str, Value]]) -> bool:
@@ -304,11 +404,12 @@ class _FollowedStep:
         sums = map(self._sum, self._forms.values())
         return any(x is not None and _are_equal(x.row, of) for x in sums)
 
-    def _error(self, names: Set[str]) -> Mapping[str, Value]:
+    def _error(self, names: Set[str], has_second: bool = False) -> Mapping[str, Value]:
         """The last value that is the step times slopes, some of the given ones, with the sum 0."""
-        for form in reversed(self._forms.values()):
-            rows = [at for at in form if len(at) == 2 and self._h in at]
-            of = {x: form[at] for at in rows for x in at if x != self._h}
+        others = () if has_second else self._others
+        for form in (*reversed(self._forms.values()), *others):
+            rows = [at for at in form if len(at) == 2 and self.h in at]
+            of = {x: form[at] for at in rows for x in at if x != self.h}
             is_sum = len(rows) == len(form) > 1 and of.keys() <= self._names | names
             if is_sum and abs(near(*of.values())) < NEAR and of.keys() & names:
                 return of
@@ -333,7 +434,8 @@ class _FollowedStep:
                     if not x.row.keys() <= {*slopes}:
                         raise NoStep
                     rows.append([x.row.get(y, ZERO) for y in slopes])
-                elif x.row:
+                elif not x.row.keys() <= components.keys():
+                    # no position, either
                     raise NoStep
         if not rows or is_doubtful or not all(_agree(rows[0], x) for x in rows[1:]):
             raise NoStep
@@ -347,9 +449,9 @@ class _FollowedStep:
         """
         if form is None:
             return True
-        bases = [at[0] for at in form if len(at) == 1 and at[0] != self._h]
+        bases = [at[0] for at in form if len(at) == 1 and at[0] != self.h]
         if any(self._names.intersection(at) for at in form):
-            others = [at for at in form if self._h not in at]
+            others = [at for at in form if self.h not in at]
             return len(bases) != 1 or len(others) != 1 or bases[0] in components
         same = [x.args for x in self._slopes if x.callee == slope.callee]
         return not all(any(_are_terms(form, y) for y in args) for args in same)
@@ -363,6 +465,12 @@ class _FollowedStep:
             NoStep: an argument is a component in some slopes.
         """
         nodes: dict[int, Value] = {}
+        positions = {
+            (x.callee, j)
+            for x in self._slopes
+            for j, form in enumerate(x.args)
+            if (of := position_of(form, self.h)) is not None and of.velocity in components
+        }
         times: dict[tuple[ir.Expr, int], set[str]] = {}
         for component in components.values():
             for i, name in enumerate(component.slopes):
@@ -371,7 +479,8 @@ class _FollowedStep:
                     continue
                 slope = self._slopes[self._places[name]]
                 for j, x in enumerate(self._args[name]):
-                    if x is None or x.base in components:
+                    is_position = (slope.callee, j) in positions
+                    if x is None or x.base in components or is_position:
                         times.setdefault((slope.callee, j), set()).add("")
                         continue
                     times.setdefault((slope.callee, j), set()).add(x.base)
@@ -414,7 +523,12 @@ class _FollowedStep:
         return of
 
 
-def _is_whole(row: Mapping[str, Value]) -> bool:
+def _whole_of(callee: ir.Expr) -> ir.Expr:
+    """The function behind one that gives an entry of its value."""
+    return callee.of if isinstance(callee, ir.Index) else callee
+
+
+def is_whole(row: Mapping[str, Value]) -> bool:
     """Whether the slopes times the step have the sum 1, unlike partial sums."""
     return abs(near(*row.values()) - 1) < NEAR
 

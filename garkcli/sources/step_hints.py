@@ -12,9 +12,10 @@ from functools import reduce
 
 from garkcli.frozen import Frozen, fields
 from garkcli.sources import ir
+from garkcli.sources.elementwise import Each, each_in, loop_over, transformed
 from garkcli.sources.evaluate import names_of
 from garkcli.sources.known import CONVERSIONS
-from garkcli.sources.step_words import COPIES, NO_SLOPES, OPERATIONS, SUMS, callee_name
+from garkcli.sources.step_words import APPENDING, COPIES, NO_SLOPES, OPERATIONS, SUMS, callee_name
 
 
 class _Made(Frozen):
@@ -96,6 +97,10 @@ class Hints:
                     elif not isinstance(target, ir.Name):
                         self._value(target)
                     self._stored(target, made)
+                case ir.Do(ir.Call(ir.Field(of, name), (value,))) if name in APPENDING:
+                    self._stored(of, self._value(value))
+                case ir.Do(ir.Call(ir.Name("push!"), (of, value))):
+                    self._stored(of, self._value(value))
                 case ir.Do(ir.Call() as call):
                     self._effected(call)
                 case ir.Return(value):
@@ -105,6 +110,11 @@ class Hints:
                         self._over(arm)
                 case ir.Loop(name, over, inner):
                     self._stored(ir.Name(name), self._value(over))
+                    for entry, vector in loop_over(statement)[0].items():
+                        self._stored(ir.Name(entry), self._value(vector))
+                        if vector is not None:
+                            # the loop may change its entries
+                            self._stored(vector, self._named.get(entry, _EMPTY))
                     is_outer, self._is_inside = not self._is_inside, True
                     self._over(inner)
                     if is_outer:
@@ -116,6 +126,10 @@ class Hints:
 
     def _effected(self, call: ir.Call) -> None:
         """Any argument of a call may be its result."""
+        if (changed := transformed(call)) is not None:
+            target, each = changed
+            self._stored(target, self._each(each))
+            return
         made = self._called(call, is_effect=True)
         of = [call.callee.of] if isinstance(call.callee, ir.Field) else []
         for target in (*call.args, *of):
@@ -163,7 +177,14 @@ class Hints:
             self._sums.append(made)
         return made
 
+    def _each(self, each: Each) -> _Made:
+        for name, vector in zip(each.names, each.vectors, strict=True):
+            self._stored(ir.Name(name), self._value(vector))
+        return self._value(each.body)
+
     def _called(self, call: ir.Call, is_effect: bool = False) -> _Made:
+        if (each := each_in(call)) is not None:
+            return self._each(each)
         callee, name = call.callee, callee_name(call.callee)
         count = len(call.args) + len(call.named)
         given = self._all((*call.args, *(x for _, x in call.named)))

@@ -24,6 +24,10 @@ TELLING = {
     *("push!", "emplace_back", "write", "writeln"),
 }
 """Functions that store or print their arguments without changing them."""
+APPENDING = {"append", "push_back", "emplace_back", "push", "add"}
+"""Methods that put a value behind the end of a list."""
+DOTS = {"dot", "matmul", "inner", "tensordot"}
+"""Products of lists."""
 COPIES = {"memcpy", "dbl_memcpy", "copyto!", "set", "copy", "assign"}
 """Functions that assign their second argument to their first."""
 OPERATIONS = {

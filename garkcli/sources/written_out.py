@@ -13,9 +13,10 @@ from typing import Any
 
 from garkcli.frozen import Frozen, fields, replace
 from garkcli.sources import ir
-from garkcli.sources.step_words import is_sum
+from garkcli.sources.elementwise import substituted
 
 _MEMBER = re.compile(r"(?P<head>[^\W\d]{1,40}?)_?(?P<number>[0-9]{1,2})(?P<tail>[^\W\d]{0,40})")
+_DIGITS = re.compile("[0-9]+")
 MOST_ARGUMENTS = 12
 Values = Mapping[int, ir.Expr]
 """Values of assignments by the identities of these."""
@@ -32,9 +33,10 @@ def with_functions(body: ir.Body, has_increments: bool) -> ir.Body | None:
     families: dict[tuple[str, str], list[ir.Assign]] = defaultdict(list)
     for x in ir.statements(body):
         match x:
-            case ir.Assign(ir.Name(name), value, sign="") if value is not None:
+            case ir.Assign(target, value, sign="") if value is not None:
+                name, entry = _parted(target)
                 if match := _MEMBER.fullmatch(name):
-                    families[match["head"], match["tail"]].append(x)
+                    families[match["head"], match["tail"] + entry].append(x)
     for (head, tail), members in families.items():
         names = [x.target for x in members]
         if 1 < len(members) == len({*names}):
@@ -42,6 +44,76 @@ def with_functions(body: ir.Body, has_increments: bool) -> ir.Body | None:
             calls = _calls(f"{head}{tail}", expressions, has_increments)
             values |= {id(x): call for x, call in zip(members, calls, strict=False)}
     return _replaced(body, values) if values else None
+
+
+def with_calls(body: ir.Body) -> ir.Body:
+    """Statements of Fortran with calls in place of what looks like entries, ``f(u + h*k)``."""
+    targets = (x.target for x in ir.statements(body) if isinstance(x, ir.Assign))
+    assigned = {x.of for x in targets if isinstance(x, ir.Index)}
+    entries = (x for x in ir.parts_of(body) if isinstance(x, ir.Index) and len(x.at) == 1)
+    called = {x.of for x in entries if any(map(_is_multiple, ir.inside(x.at[0])))}
+    names = frozenset(x.name for x in called - assigned if isinstance(x, ir.Name))
+    return substituted(body, {}, names) if names else body
+
+
+def _is_multiple(expr: object) -> bool:
+    """Whether it is a product of names, which no index is."""
+    match expr:
+        case ir.Binary("*", left, right):
+            return not isinstance(left, ir.Literal) and not isinstance(right, ir.Literal)
+    return False
+
+
+def _parted(target: ir.Expr) -> tuple[str, str]:
+    """The name in a target, and its entry or field, ``k1[0]``, ``k1.x``; empty for others."""
+    match target:
+        case ir.Name(name):
+            return name, ""
+        case ir.Index(ir.Name(name), (ir.Literal(at),)):
+            return name, f"[{at}]"
+        case ir.Field(ir.Name(name), field):
+            return name, f".{field}"
+    return "", ""
+
+
+def with_one_function(body: ir.Body, functions: Mapping[str, ir.Scope]) -> ir.Body:
+    """Statements with calls of one function in place of those of a family, ``f1(y)``, ``f2(z)``,
+    whose members differ in numbers alone, as a vector field does at different times.
+
+    Args:
+        body: the statements.
+        functions: of the source.
+    """
+    local = {x.name: x for x in ir.statements(body) if isinstance(x, ir.Scope)}
+    called = (x.callee for x in ir.parts_of(body) if isinstance(x, ir.Call))
+    families: dict[tuple[str, object], set[str]] = defaultdict(set)
+    for callee in called:
+        scope = (local | dict(functions)).get(getattr(callee, "name", ""))
+        match = _MEMBER.fullmatch(scope.name) if scope is not None else None
+        if scope is not None and match is not None:
+            families[match["head"], _shape((scope.parameters, scope.body))].add(scope.name)
+    values: dict[str, ir.Expr] = {
+        name: ir.Name(f"each {head}")
+        for (head, _), names in families.items()
+        if len(names) > 1
+        for name in names
+    }
+    return substituted(body, values) if values else body
+
+
+def _shape(node: object) -> object:
+    """Statements without the numbers in them, those of names too."""
+    match node:
+        case ir.Literal():
+            return "#"
+        case str():
+            return _DIGITS.sub("#", node)
+        case tuple():
+            return tuple(map(_shape, node))
+        case Frozen():
+            return (type(node), *(_shape(getattr(node, x)) for x in fields(node)))
+    # a line
+    return None
 
 
 def _replaced(body: Iterable[ir.Statement], values: Values) -> ir.Body:
@@ -74,7 +146,7 @@ def _calls(name: str, values: Sequence[ir.Expr], has_increments: bool) -> list[i
     if any(isinstance(x, ir.Call) for x in (*inner, *differing)):
         # other functions are there
         return []
-    if not 0 < len(arguments) <= MOST_ARGUMENTS or not any(map(is_sum, every)):
+    if not 0 < len(arguments) <= MOST_ARGUMENTS:
         return []
     callee = ir.Name(f"f of {name}")
     calls = [ir.Call(callee, tuple(x)) for x in zip(*arguments, strict=True)]

@@ -458,7 +458,7 @@ def test_a_wrong_number_is_found() -> None:
     [
         JULIA,
         PYTHON.replace("y + k1", "y + k1**2"),
-        PYTHON.replace("k1 = dt", "for i in range(3):\n        k1 = dt"),
+        PYTHON.replace("k1 = dt", "for i in range(n):\n        k1 = dt"),
         PYTHON.replace("0.5 * (k1", "0.4 * (k1"),
         PYTHON.replace("t + dt", "t + 1"),
         "def g(a, b):\n    c = max(a, b)\n    d = max(a + c, b)\n    return c + d\n",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from garkcli.sources import ir
@@ -74,7 +75,13 @@ def _of_ndsolve(value: ir.Expr) -> tuple[ir.Expr, ...]:
     return ()
 
 
+_MATLAB = re.compile(r"^[ \t]*(?:%|function\b|classdef\b|end[ \t]*;?$)", re.MULTILINE)
+"""Lines of MATLAB, whose files have the same ending."""
+
+
 def find(text: str, source: str) -> list[FoundTable]:
+    if source.endswith(".m") and _MATLAB.search(text):
+        return []
     return tables_in(text, source, NAME, lambda x: MathematicaLowering(x).block(), base=1)
 
 

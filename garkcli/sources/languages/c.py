@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 NAME = "c"
 PETSC = "petsc"
-SUFFIXES = (".c", ".h", ".def", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".cu", ".cuh", INCLUDED)
+SUFFIXES = (".c", ".C", ".h", ".def", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".cu", ".cuh", INCLUDED)
 C = "tree_sitter_c"
 CPP = "tree_sitter_cpp"
 _NAMES = frozenset(
@@ -57,6 +57,10 @@ MOST_MACROS = 5
 MOST_SPELLED = 10_000
 """Longest expression with its macros put in, in characters."""
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+_ENDS = frozenset(
+    {"begin", "end", "cbegin", "cend", "std::begin", "std::end", "std::cbegin", "std::cend"}
+)
+"""Iterators of an array."""
 
 
 def _is_made_of(args: list[Node], name: str) -> bool:
@@ -74,7 +78,7 @@ class CLowering(Lowering):
         " linkage_specification namespace_definition template_declaration attributed_statement"
         " else_clause field_declaration_list preproc_else enumerator_list field_initializer_list",
         assignment="assignment_expression",
-        loop="do_statement for_range_loop",
+        loop="do_statement",
         switch="switch_statement",
         case="case_statement",
         tried="try_statement",
@@ -146,6 +150,9 @@ class CLowering(Lowering):
                 yield from self._declaration(node)
             case "for_statement":
                 yield self.loop(node, *self._counted(node))
+            case "for_range_loop":
+                name = self._declared(part(node, "declarator"))[0]
+                yield self.loop(node, name, self.expr(part(node, "right")))
             case "call_expression":
                 yield from self._call(node)
             case "expression_statement":
@@ -284,6 +291,9 @@ class CLowering(Lowering):
             initialiser = part(each, "value") or default
             name, extents = self._declared(each)
             extents = (*extents, *sizes)
+            if initialiser is None and (copied := self._copied(each)):
+                yield ir.Assign(ir.Name(name), ir.Name(copied), line_of(each))
+                continue
             if initialiser is None and (not extents or each.type not in _DECLARED):
                 continue
             value = None if initialiser is None else self.expr(initialiser)
@@ -309,6 +319,15 @@ class CLowering(Lowering):
             elif not extents and value is not None and kind and kind.type != "primitive_type":
                 value = _within_braces(value)
             yield ir.Assign(ir.Name(name), value, line_of(each), extents=extents, is_real=is_real)
+
+    def _copied(self, declarator: Node) -> str:
+        """The name in ``T x(y);`` of a function, which looks like a declaration of another one."""
+        given = self.children(part(declarator, "parameters"))
+        is_local = declarator.parent and declarator.parent.parent
+        if len(given) != 1 or not is_local or is_local.type != "compound_statement":
+            return ""
+        is_name = not part(given[0], "declarator") and len(given[0].children) == 1
+        return self.text(given[0]) if is_name and self.text(given[0]) != "void" else ""
 
     def _with_fields(
         self, value: ir.Expr, kind: Node | None, line: int, is_array: bool = False
@@ -407,6 +426,10 @@ class CLowering(Lowering):
             yield ir.Scope("entry", self.text(args[0]), inside, line_of(node))
         elif called == "strcpy" and len(args) == 2:
             yield ir.Assign(self.target(args[0]), self.expr(args[1]), line_of(node))
+        elif called.endswith("vector_set") and len(args) == 3:
+            # of GSL
+            entry = ir.Index(self.expr(args[0]), (self.expr(args[1]),))
+            yield ir.Assign(entry, self.expr(args[2]), line_of(node))
         elif called in {"PetscCall", "CHKERRQ", "PetscCallVoid"} and len(args) == 1:
             yield from self.block(args)
         else:
@@ -421,8 +444,11 @@ class CLowering(Lowering):
             case "new_expression":
                 return ir.Opaque("never assigned")
             case "pointer_expression":
-                # &A[0][0] is the array
                 of = part(node, "argument")
+                match self.expr(of):
+                    case ir.Binary("+", array, i) if self.text(node).startswith("*"):
+                        return ir.Index(array, (i,))
+                # &A[0][0] is the array
                 while self.is_a("index", of):
                     of = part(of, "argument")
                 return self.expr(of)
@@ -440,6 +466,9 @@ class CLowering(Lowering):
                 return ir.Fields(
                     tuple((self.text(x[0]).lstrip("."), self.expr(x[-1])) for x in pairs)
                 )
+            case "argument_list" if len(inside) == 2 and _is_copy(*map(self.text, inside)):
+                # T x(y.begin(), y.end())
+                return self.expr(inside[0])
             case "argument_list":
                 # T x(args)
                 return ir.Call(ir.Name("constructor"), self.exprs(inside))
@@ -459,6 +488,13 @@ class CLowering(Lowering):
                     case ir.Field(array, "at") if len(args) == 1:
                         # A.at(1).at(0)
                         return ir.Index(array, args)
+                    case ir.Field(array, name) if name in _ENDS and not args:
+                        return array
+                    case ir.Name(name) if name in _ENDS and len(args) == 1:
+                        return args[0]
+                match callee:
+                    case ir.Name(name) if name.endswith("vector_get") and len(args) == 2:
+                        return ir.Index(args[0], args[1:])
                 return ir.Call(callee, args)
             case "lambda_expression":
                 return self._lambda(node)
@@ -559,6 +595,12 @@ def _without_open_comment(data: bytes) -> bytes:
         if match[0].startswith(b"/*") and match["closed"] is None:
             return data[: match.start()]
     return data
+
+
+def _is_copy(first: str, last: str) -> bool:
+    """Whether two texts are the ends of one array."""
+    head, _, end = first.rpartition("begin")
+    return end == "()" and last == f"{head}end()"
 
 
 def _target(expr: ir.Expr) -> ir.Expr:

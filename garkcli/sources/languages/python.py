@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
+from garkcli.sources.elementwise import ITEM
 from garkcli.sources.found import FoundTable
 from garkcli.sources.known import CALLS, CONVERSIONS
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
@@ -19,6 +20,9 @@ NAME = "python"
 _OF_LISTS = {"*": "list *", "+": "list +"}
 """The functions of operators after a list."""
 _PROPERTIES = frozenset({"property", "cached_property", "functools.cached_property"})
+
+
+_NOT_ZERO = re.compile(r"\s*!=\s*0(?:\.0*)?$")
 
 
 class PythonLowering(Lowering):
@@ -61,12 +65,11 @@ class PythonLowering(Lowering):
                 yield ir.Scope("class", name, self.block([body]), line, bases=bases)
             case "for_statement":
                 target, over = part(node, "left"), self.expr(part(node, "right"))
-                made = self.loop(node, self.text(target), over)
+                loop = self.loop(node, self.text(target) if self.is_a("name", target) else "", over)
                 if target is not None and self.is_a("list", target):
-                    # for i, j, value in entries
-                    first = ir.Assign(self.target(target), ir.Name(made.name), line)
-                    made = replace(made, body=(first, *made.body))
-                yield made if target is not None else replace(made, name="")
+                    first = ir.Assign(self.expr(target), ir.Name(ITEM), line)
+                    loop = replace(loop, name=ITEM, body=(first, *loop.body))
+                yield loop
             case "import_statement" | "import_from_statement":
                 for each in inside:
                     # from fractions import Fraction as F
@@ -109,7 +112,9 @@ class PythonLowering(Lowering):
             case "attribute":
                 name, of = self.text(part(node, "attribute")), self.expr(part(node, "object"))
                 return ir.Transposed(of) if name == "T" else ir.Field(of, name)
-            case "list_comprehension" | "generator_expression" if len(inside) == 2:
+            case "list_comprehension" | "generator_expression" if len(inside) == 2 or (
+                len(inside) == 3 and self._is_of_zeros(inside)
+            ):
                 target, over = part(inside[1], "left"), self.expr(part(inside[1], "right"))
                 names = [target] if self.is_a("name", target) else self.children(target)
                 if names and all(self.is_a("name", x) for x in names):
@@ -133,6 +138,18 @@ class PythonLowering(Lowering):
             case "string":
                 return ir.Text("".join(self.text(x) for x in inside if x.type == "string_content"))
         return unmeant(node)
+
+    def _is_of_zeros(self, inside: list[Node]) -> bool:
+        """Whether a comprehension leaves out only products with zero, ``a*k for … if a != 0``, so
+        that the sum is that of all.
+        """
+        element, condition = self.text(inside[0]), self.text(inside[2]).removeprefix("if ")
+        factor = _NOT_ZERO.sub("", condition)
+        call = inside[0].parent
+        while call is not None and call.type != "call":
+            call = call.parent
+        is_sum = self.text(part(call, "function")).rpartition(".")[2] == "sum"
+        return is_sum and factor in re.split(r"\s*\*\s*", element)
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
         if node.type == "call" and inside[-1].type == "generator_expression":

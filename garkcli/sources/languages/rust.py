@@ -196,7 +196,7 @@ class RustLowering(Lowering):
                 return value if is_whole else ir.Call(ir.Name("double"), (value,))
             case "closure_expression":
                 given = self.children(part(node, "parameters"))
-                parameters = tuple(self.first_name(part(x, "pattern") or x) for x in given)
+                parameters = tuple(y for x in given for y in self._named(part(x, "pattern") or x))
                 return ir.Lambda(parameters, self.expr(part(node, "body")))
             case "macro_invocation" if self.text(inside[0]) in _MATRICES:
                 return self._matrix(self.text(inside[-1])[1:-1])
@@ -207,6 +207,12 @@ class RustLowering(Lowering):
             case "if_expression" if len(inside) == 3:
                 return ir.Either((self.expr(inside[1]), self.expr(inside[2])))
         return unmeant(node)
+
+    def _named(self, pattern: Node) -> list[str]:
+        """The names in a pattern: ``((a, b), &c)``."""
+        if pattern.type == "tuple_pattern":
+            return [y for x in self.children(pattern) for y in self._named(x)]
+        return [self.first_name(pattern)]
 
     def _list(self, node: Node, inside: list[Node]) -> ir.Expr:
         """A list; ``[x; n]`` repeats x."""
