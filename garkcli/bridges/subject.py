@@ -20,7 +20,7 @@ from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.printed import FEW_PLACES, FEWEST_DIGITS, SEVERAL
+from garkcli.methodfile.printed import FEW_PLACES, FEWEST_DIGITS, SEVERAL, SEVERAL_PLACES
 from garkcli.order.certificate import StageSpans
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.sums import wrong_rows
@@ -187,11 +187,11 @@ def _short_units(table: FoundTable) -> Mapping[Number, fmpq]:
     """
     values = [x for text in numbers_of(table) for x in [parsed(text)] if x]
     places = [_places(x) for x in values]
-    few = [x for x in places if x in FEW_PLACES]
-    if not values or max(places) not in FEW_PLACES or len(few) < SEVERAL:
+    short = range(SEVERAL_PLACES, FEW_PLACES.stop)
+    if sum(n in short for n in places) < SEVERAL or max(places) not in short:
         return {}
     pairs = zip(values, places, strict=True)
-    return {x: fmpq(1, 10**n) if n in FEW_PLACES else fmpq(0) for x, n in pairs}
+    return {x: fmpq(1, 10**n) if n in short else fmpq(0) for x, n in pairs}
 
 
 def _places(value: Number) -> int:

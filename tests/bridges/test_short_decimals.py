@@ -81,6 +81,14 @@ def test_a_longer_number_makes_the_others_exact() -> None:
     assert {(x.code, x.level) for x in found.findings} >= {("order", "error")}
 
 
+def test_three_places_are_exact() -> None:
+    """Eighths have three places: 0.626 is no rounded 0.625."""
+    text = "A = [[0, 0, 0], [0.375, 0, 0], [0.125, {}, 0]]\nb = [0.125, 0.375, 0.5]\n"
+    text += "c = [0, 0.375, 0.75]\n"
+    assert [x.code for x in audited(text.format("0.625")).findings] == []
+    assert [x.code for x in audited(text.format("0.626")).findings] == ["nodes"]
+
+
 def test_fractions_are_exact() -> None:
     """1/3 is no decimal: nothing of the table looks rounded."""
     found = audited(KUTTA_38.replace("0, 0.3333, 0.6667", "0, 1/3, 2/3"))
