@@ -64,14 +64,16 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     looks_like = False
     if is_of_fortran(like):
         body = with_calls(body)
-    body = with_one_function(body, like.functions)
-    for has_increments in (None, False, True):
-        each = body if has_increments is None else with_functions(body, has_increments)
-        try:
-            if each is not None:
-                return _steps_with_calls(each, space, like, is_function)
-        except NoStep as error:
-            looks_like |= error.looks_like
+    # functions that differ in numbers are one at several times, or components of one
+    of_one = with_one_function(body, like.functions)
+    for whole in [body] if of_one is body else [of_one, body]:
+        for has_increments in (None, False, True):
+            each = whole if has_increments is None else with_functions(whole, has_increments)
+            try:
+                if each is not None:
+                    return _steps_with_calls(each, space, like, is_function)
+            except NoStep as error:
+                looks_like |= error.looks_like
     raise NoStep(looks_like)
 
 

@@ -69,6 +69,18 @@ class RK4:
         self.k[1] = f2(u0 + 0.5*tau*self.k[0])
         return u0 + tau*self.k[1]
 """
+COMPONENTS = """
+def f1(x, y):
+    return 2*x - y
+def f2(x, y):
+    return 3*x - y
+def step(x, y, h):
+    k1 = f1(x, y)
+    l1 = f2(x, y)
+    k2 = f1(x + h/2*k1, y + h/2*l1)
+    l2 = f2(x + h/2*k1, y + h/2*l1)
+    return x + h*k2, y + h*l2
+"""
 STAGES_IN_A_LIST = """
 def step(f, t, y, h):
     k = [f(t, y)]
@@ -309,6 +321,7 @@ FORMS = {
     "lists of slopes": (python.find, ENTRIES, (2, None), "t + h/2", "t + h", NODE),
     "structures": (c.find, STRUCTURES, (2, None), "l.dx*h", "k.dx*h", UNREAD),
     "no function": (c.find, WITHOUT_A_FUNCTION, (2, None), "-sin(z[0])", "-sin(2*z[0])", UNREAD),
+    "components": (python.find, COMPONENTS, (2, None), "y + h/2*l1)", "y + h*l1)", UNREAD),
     "backward": (python.find, BACKWARD, (2, None), "x - 0.5*h", "x + 0.5*h", NODE),
     "kept entries": (python.find, KEPT_ENTRIES, (2, None), "v_0 = vs[n]", "v_0 = xs[n]", UNREAD),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
@@ -429,6 +442,12 @@ def step(f, t, y, h):
 def test_what_goes_on_with_a_step_is_not_read(find: Find, text: str) -> None:
     """Another value is put into the list; a function may change the guess; the step changes."""
     assert _judged(find, text) == []
+
+
+@pytest.mark.parametrize(("term", "is_read"), [("{}*k[j]", True), ("{}*k[j] + k[j]", False)])
+def test_only_products_with_zero_are_left_out(term: str, is_read: bool) -> None:
+    text = STAGES_BY_NUMBER.replace("A[i][j]*k[j]", term.format("A[i][j]"))
+    assert bool(_judged(python.find, text)) is is_read
 
 
 def test_long_loops_over_steps_are_read() -> None:

@@ -23,6 +23,7 @@ _PROPERTIES = frozenset({"property", "cached_property", "functools.cached_proper
 
 
 _NOT_ZERO = re.compile(r"\s*!=\s*0(?:\.0*)?$")
+_FACTOR = re.compile(r"[\w.]+(?:\[[^\[\]]*\])*")
 
 
 class PythonLowering(Lowering):
@@ -149,7 +150,8 @@ class PythonLowering(Lowering):
         while call is not None and call.type != "call":
             call = call.parent
         is_sum = self.text(part(call, "function")).rpartition(".")[2] == "sum"
-        return is_sum and factor in re.split(r"\s*\*\s*", element)
+        factors = re.split(r"\s*\*\s*", element)
+        return is_sum and factor in factors and all(map(_FACTOR.fullmatch, factors))
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
         if node.type == "call" and inside[-1].type == "generator_expression":
