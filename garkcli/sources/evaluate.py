@@ -261,8 +261,8 @@ class Evaluator:
             self.spoil(target, space, "assigned in a loop", line)
 
     def _is_filled(self, loop: ir.Loop, space: Space) -> bool:
-        """Whether a loop of unknown length sets all entries of arrays to zero, and does nothing
-        else; an array without entries so far has zeros then.
+        """Whether a loop of unknown length sets the entries of arrays without values to zero, and
+        does nothing else; an array without entries so far has zeros then.
         """
         filled: dict[str, Array] = {}
         for statement, counters in _within(loop, frozenset()):
@@ -274,6 +274,9 @@ class Evaluator:
             if not (name and at and at <= counters and is_zero):
                 return False
             old = space.find(name)
+            if isinstance(old, Array) and any(map(_has_value, old.flat())):
+                # it may set some entries alone
+                return False
             made = Array([], is_growing=True, fill=value)
             filled[name] = old.map(lambda _: ZERO) if isinstance(old, Array) and old.items else made
         for name, array in filled.items():
@@ -944,6 +947,13 @@ def _within(
             yield from _within(statement, counters)
         else:
             yield statement, counters
+
+
+def _has_value(entry: Value) -> bool:
+    """Whether an entry was set, and not to zero."""
+    if isinstance(entry, Number):
+        return not entry.is_zero
+    return isinstance(entry, Unknown) and entry.was_written
 
 
 def _entry_of(target: ir.Expr) -> tuple[str, frozenset[str]]:

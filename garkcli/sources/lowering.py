@@ -420,7 +420,9 @@ def counted(
 ) -> tuple[str, ir.Expr]:
     """The counter of ``for (i = a; i < b; i++)`` and its range; an empty name for other loops."""
     sign = lowering.text(part(condition, "operator"))
-    if not (first and sign in {"<", "<=", "!="} and ("++" in update or "+= 1" in update)):
+    by_one = rf"\+\+\s*{name}\b|\b{name}\s*(?:\+\+|\+=\s*1(?![\w.]))"
+    is_counted = first and name.isidentifier() and sign in {"<", "<=", "!="}
+    if not (is_counted and re.search(by_one, update)):
         return "", ir.Opaque("a loop")
     last = lowering.expr(part(condition, "right"))
     return name, ir.Range(lowering.expr(first), last if sign == "<=" else less_one(last))

@@ -48,6 +48,10 @@ SAME = {
         "#define HALF 1.0-0.5 /* no brackets */\n#define MORE HALF+HALF\n#define T (1.0/3.0)\n"
         "double A[2][2] = {{0}, {2*T}}, b[2] = {HALF-0.25, 2*MORE-1.25};"
     ),
+    "c, macros of floats and of doubles": (
+        "#ifdef SINGLE\n#define HALF 1.0f-0.5f\n#else\n#define HALF 1.0 - 0.5\n#endif\n"
+        "double A[2][2] = {{0}, {2.0/3}}, b[2] = {HALF-0.25, 0.75};"
+    ),
     "c, loops": (
         "void f(void) { double A[2][2] = {{0}}, b[2]; A[1][0] = 2./3;\n"
         "  for (int i = 0; i < 2; i++) b[i] = (2*i + 1)/4.; }"
@@ -389,6 +393,26 @@ UNKNOWN = {
     "c, a loop that sets not only zeros": (
         "void f(int n) { double A[2][2] = {{0}, {0.5}}, b[2] = {0.25, 0.75};\n"
         "  for (int i = 0; i < n; i++) { b[i] = 1; } }",
+        "arrays called A and b do not fit together: assigned in a loop, line 2, is not known",
+    ),
+    "c, a loop that sets some entries to zero": (
+        "void f(int k, int n) { double A[2][2] = {{0}, {0.5}}, b[2] = {0.25, 0.75};\n"
+        "  for (int i = k; i < n; i++) { b[i] = 0; } }",
+        "arrays called A and b do not fit together: assigned in a loop, line 2, is not known",
+    ),
+    "c, a macro that has other numbers in a branch": (
+        "#ifdef FAST\n#define HALF 1.0-0.25\n#else\n#define HALF 1.0-0.5\n#endif\n"
+        "double A[2][2] = {{0}, {2.0/3}}, b[2] = {HALF-0.25, 0.75};",
+        "a macro with several values, line 6, is not known",
+    ),
+    "ts, a loop in steps of ten": (
+        "const A = [[0, 0], [1 / 2, 0]];\nconst b = [0.25, 0.75];\n"
+        "for (let i = 0; i < 2; i += 10) { b[i] = 0.5; }",
+        "arrays called A and b do not fit together: assigned in a loop, line 3, is not known",
+    ),
+    "c, a loop in steps of two beside another counter": (
+        "void f(int j) { double A[2][2] = {{0}, {0.5}}, b[2] = {0.25, 0.75};\n"
+        "  for (int i = 0; i < 2; i += 2, j++) b[i] = 0.5; }",
         "arrays called A and b do not fit together: assigned in a loop, line 2, is not known",
     ),
     "c, a loop that sets one entry to zero": (

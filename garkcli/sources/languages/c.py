@@ -57,6 +57,7 @@ MOST_MACROS = 5
 MOST_SPELLED = 10_000
 """Longest expression with its macros put in, in characters."""
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+_PRECISION = re.compile(r"(?<=[0-9.])[fFlLqQ]\b|\s+")
 _ENDS = frozenset(
     {"begin", "end", "cbegin", "cend", "std::begin", "std::end", "std::cbegin", "std::cend"}
 )
@@ -103,7 +104,8 @@ class CLowering(Lowering):
         self._reals: set[str] = set()  # parameters that are real numbers
         self._gives: Node | None = None  # the return type of the function around
         self._code = b""  # without comments and texts, made on use
-        self._loose: dict[str, str] = {}  # the texts of macros of several terms or factors
+        self._macros: dict[str, str] = {}  # the texts of macros, empty for several ones
+        self._loose: set[str] = set()  # the macros of several terms or factors
 
     def statement(self, node: Node) -> Iterator[ir.Statement]:
         """A statement; braces behind a macro, ``DEFINE(3, 2) {…}``, are a separate scope."""
@@ -210,13 +212,18 @@ class CLowering(Lowering):
             yield ir.Branch((first, second), line_of(node), is_total=True)
 
     def _definition(self, node: Node) -> Iterator[ir.Statement]:
-        value = self._fragment(self._plain(node))
+        name, text = self.text(part(node, "name")), self._plain(node)
+        value = self._fragment(text)
         if value is not None:
             if given := part(node, "parameters"):
                 value = ir.Lambda(tuple(map(self.text, self.children(given))), value)
             elif isinstance(value, ir.Binary):
-                self._loose[self.text(part(node, "name"))] = self._plain(node)
-            yield ir.Assign(ir.Name(self.text(part(node, "name"))), value, line_of(node))
+                self._loose.add(name)
+            old = self._macros.get(name, text)
+            # in branches, or defined anew; 1.0f/3 is 1.0/3
+            are_equal = _PRECISION.sub("", old) == _PRECISION.sub("", text)
+            self._macros[name] = text if are_equal else ""
+            yield ir.Assign(ir.Name(name), value, line_of(node))
 
     def _plain(self, node: Node) -> str:
         """The text of a macro without comments."""
@@ -227,15 +234,20 @@ class CLowering(Lowering):
 
     def _spelled(self, node: Node) -> ir.Expr | None:
         """An expression with its macros put in as text, as the preprocessor does: 2*X is 2*1-y if
-        X is 1-y; None without such macros.
+        X is 1-y; None without such macros. A macro with several texts has no value.
         """
         text = before = self.text(node)
         for _ in range(MOST_MACROS):
-            spelled = _IDENTIFIER.sub(lambda x: self._loose.get(x[0], x[0]), text)
-            if spelled == text or len(spelled) > MOST_SPELLED:
+            names = [x for x in _IDENTIFIER.findall(text) if x in self._loose]
+            if not all(self._macros[x] for x in names):
+                return ir.Opaque("a macro with several values")
+            if not names or len(text) + sum(len(self._macros[x]) for x in names) > MOST_SPELLED:
                 break
-            text = spelled
+            text = _IDENTIFIER.sub(self._replaced, text)
         return None if text == before else self._fragment(text)
+
+    def _replaced(self, name: re.Match[str]) -> str:
+        return self._macros[name[0]] if name[0] in self._loose else name[0]
 
     def _fragment(self, plain: str) -> ir.Expr | None:
         """The expression of a macro; None if it has none."""
