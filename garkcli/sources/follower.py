@@ -800,6 +800,7 @@ class Follower(Evaluator):
 
 
 _PARTED = re.compile(r"[.\[]")
+_SHORT = re.compile("[0-9]{1,6}")
 
 
 def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
@@ -849,9 +850,9 @@ def _steps_from(at: ir.Expr, counters: Sequence[str]) -> int | None:
         case ir.Name(name) if name in counters:
             return 0
         case ir.Binary("+" | "-" as sign, ir.Name(name), ir.Literal(text)) if name in counters:
-            return int(f"{sign}{text}") if text.isdigit() else None
+            return int(f"{sign}{text}") if _SHORT.fullmatch(text) else None
         case ir.Binary("+", ir.Literal(text), ir.Name(name)) if name in counters:
-            return int(text) if text.isdigit() else None
+            return int(text) if _SHORT.fullmatch(text) else None
     return None
 
 

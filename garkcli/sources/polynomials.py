@@ -46,7 +46,7 @@ def shift(form: Mapping[Place, str]) -> int | None:
     rest = {at: x for at, x in form.items() if at}
     by = form.get((), "0")
     is_name = [*rest.values()] == ["1"] and all(len(at) == 1 for at in rest)
-    return int(by) if is_name and by.lstrip("-").isdigit() else None
+    return int(by) if is_name and _SHIFT.fullmatch(by) else None
 
 
 def is_sum_with_slopes(form: Terms) -> bool:
@@ -123,5 +123,6 @@ def is_of_slopes(value: Value) -> bool:
     return bool(form) and all(any(" " in name for name in at) for at in form)
 
 
+_SHIFT = re.compile("-?[0-9]{1,6}")
 _AT_A_STEP = re.compile(r"(?P<head>.*?)(?:@(?P<by>-?[0-9]{1,6}))?")
 """A value of an array at a step, ``t@1``."""

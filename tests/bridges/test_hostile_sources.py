@@ -47,6 +47,10 @@ HOSTILE = {
     "indices": "B->A[99999999][99999999] = 1; B->b[99999999] = 1;",
     "zeros": "A = zeros(99999, 99999)\nb = np.zeros((10**9, 10**9))",
     "repetition": "A = [0] * 999999999999\nb = [[0] * 10] * 10**9",
+    "steps far away": "def heun(f, y0, t):\n    y = [y0]\n    for i in range(len(t) - 1):\n"
+    "        h = t[i+1] - t[i]\n        guess = y[-1] + h*f(t[i], y[-1])\n"
+    f"        y.append(y[-1] + h/2*(f(t[i], y[-1]) + f(t[i+{'9' * LONG}], guess)))\n    return y\n",
+    "a comprehension that is cut": "k = [f(i, t, y) for* i in eachindex(y)]",
     "surrogates": "b = ['\udcff']",
     "slices": "A = [0]\nA[0:9**9**9] = [1]\nb = A[10**10**10]\n",
 }

@@ -334,11 +334,11 @@ class JuliaLowering(Lowering):
         """``[a[i, j] for i in 1:3, j in 1:2]``, a matrix with a row for each i."""
         element = self.expr(value)
         for binding in reversed(self.children(over)):
-            counter, *_, values = self.children(binding) or [binding]
-            if counter.type != "identifier":
+            inside = self.children(binding)
+            if len(inside) < 2 or inside[0].type != "identifier":
                 return unmeant(node)
-            each = ir.Lambda((self.text(counter),), element)
-            element = ir.Call(ir.Name("list of each"), (each, self.expr(values)))
+            each = ir.Lambda((self.text(inside[0]),), element)
+            element = ir.Call(ir.Name("list of each"), (each, self.expr(inside[-1])))
         return element
 
     def _rows(self, rows: list[Node]) -> tuple[tuple[ir.Expr, ...], ...]:
