@@ -112,10 +112,8 @@ def check_method(
         return _check_other_kind(method, reach, want_constants)
     try:
         analysis = analyse(method.tableau, reach, method.tolerance, method.further)
-    except (
-        errors.MethodError,
-        errors.UsageProblem,
-    ) as error:  # it has too many stages, or needs numpy
+    except (errors.MethodError, errors.UsageProblem) as error:
+        # it has too many stages, or needs numpy
         fault = errors.Remark(error.message, error.help, code=error.code)
         return Outcome(method.source, method.name, faults=(fault,), text=method.text)
     claims = verify(method.claims, analysis)

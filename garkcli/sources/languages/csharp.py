@@ -65,10 +65,6 @@ class CSharpLowering(Lowering):
         either="conditional_expression",
     )
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text)
-        self._owner = ""
-
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
             case "class_declaration" | "struct_declaration" | "record_declaration":
