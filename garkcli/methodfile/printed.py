@@ -83,14 +83,14 @@ def left_open(printed: Printed) -> list[fmpq]:
 
 def is_short(printed: Printed) -> bool:
     """Returns whether decimals with few places look rounded, though ``left_open`` finds them exact:
-    none has more, and there are several, or a few that all are simple fractions.
+    none has more, and there are several, or all are simple fractions; one alone of four places.
     """
     decimals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
     few = [x for x in decimals if _decimals(x) in FEW_PLACES]
     if not few or max(map(_decimals, decimals)) not in FEW_PLACES:
         return False
-    has_several = sum(_decimals(x) >= SEVERAL_PLACES for x in few) >= SEVERAL
-    return has_several or (len(few) > 1 and all(map(_is_simple, few)))
+    four = sum(_decimals(x) >= SEVERAL_PLACES for x in few)
+    return four >= SEVERAL or (len(few) + four > 1 and all(map(_is_simple, few)))
 
 
 def _is_simple(literal: Literal) -> bool:

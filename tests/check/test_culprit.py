@@ -167,12 +167,14 @@ SHEET = "A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [0.1667, 0.3333, 0.3333, {}]\n"
 def test_decimals_of_a_sheet_look_rounded(claim: str) -> None:
     """Alexander's method and RK4 with four decimals, as a student types them: the line to write is
     named, and with it the order is there. Two decimals are rounded if both are simple fractions; one
-    alone is not.
+    alone only beside no fraction.
     """
     for text, places, order in (
         (ALEXANDER, 4, 3),
         (SHEET.format("0.1667"), 4, 4),
         ("A: [[], [0.3333], [0, 0.6667]]\nb: [0.25, 0, 0.75]\n", 4, 3),
+        ("A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [0.1667, 1/3, 1/3, 1/6]\n", 4, 4),
+        ("A: [[], [0.6667]]\nb: [0.25, 0.75]\n", 4, 2),
         ("A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [0.167, 0.333, 0.333, 0.167]\n", 3, 4),
     ):
         found = checked(text + claim).remark
@@ -181,10 +183,8 @@ def test_decimals_of_a_sheet_look_rounded(claim: str) -> None:
         within = checked(f"{text}{found.line}\n").analysis
         assert within is not None
         assert within.order.order == order
-    assert (
-        checked("A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [0.1667, 1/3, 1/3, 1/6]\n").remark is None
-    )
-    assert checked("A: [[], [0.625]]\nb: [0.2, 0.801]\n").remark is None
+    for text in ("A: [[], [0.625]]\nb: [0.2, 0.801]\n", "A: [[], [0.667]]\nb: [0.25, 0.75]\n"):
+        assert checked(text).remark is None
 
 
 @pytest.mark.parametrize("claim", ["", "expect: {order: 4}\n"])
