@@ -17,6 +17,7 @@ from contextvars import ContextVar
 from time import monotonic
 from typing import TypeVar
 
+from garkcli.ending import raise_if_ended
 from garkcli.errors import NotDecided
 
 T = TypeVar("T")
@@ -114,7 +115,8 @@ def seconds_left() -> float | None:
 
 
 def check_time() -> None:
-    """Raises ``NotDecided`` if the time is over."""
+    """Raises ``NotDecided`` if the time is over, and ``Ended`` if a signal asked for the end."""
+    raise_if_ended()
     if seconds_left() == 0:
         raise NotDecided(is_late=True)
 

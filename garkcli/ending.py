@@ -35,10 +35,12 @@ class _RunningWork(Mutable, eq=False):
 
     Attributes:
         undoing: the number of things that have to be undone.
+        ended: the signal that asked it to end; 0 for none.
     """
 
     signals: list[int]
     undoing: int = 0
+    ended: int = 0
 
 
 _run: ContextVar[_RunningWork | None] = ContextVar("run", default=None)
@@ -94,7 +96,18 @@ def undone() -> Iterator[None]:
                 signal.signal(number, signal.SIG_DFL)
 
 
+def raise_if_ended() -> None:
+    """Raises ``Ended`` again if a signal asked the run to end and a library in C lost the exception
+    that told so.
+    """
+    run = _run.get()
+    if run is not None and run.ended:
+        raise Ended(run.ended)
+
+
 def _end(number: int, _frame: FrameType | None) -> NoReturn:
     # once is enough: the next one would stop the cleaning up
     signal.signal(number, signal.SIG_IGN)
+    if run := _run.get():
+        run.ended = number
     raise Ended(number)

@@ -8,7 +8,7 @@ import signal
 import sys
 import traceback
 from collections.abc import Callable
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout, suppress
 from io import StringIO
 from pathlib import Path
 from typing import NoReturn
@@ -17,7 +17,8 @@ import flint
 import pytest
 
 from garkcli.cli.main import _exit_code
-from garkcli.ending import at_once, undone
+from garkcli.deadline import check_time
+from garkcli.ending import Ended, at_once, undone
 from tests.cli.harness import NAMES
 from tests.had import needs_fork
 from tests.whole import IS_WHOLE
@@ -137,6 +138,25 @@ def _afterwards() -> int:
             pass
         flint.fmpz_poly([1 + 10**2000, -2 * 10**1000, 1]).complex_roots()
     return 0
+
+
+def _with_a_lost_exception() -> int:
+    """Work in which a library loses the exception of a signal; loops look for it."""
+    with at_once(), undone():
+        with suppress(Ended):
+            os.kill(os.getpid(), signal.SIGTERM)
+        try:
+            check_time()
+        except Ended as ended:
+            return ended.exit_code
+    return 1
+
+
+def test_a_lost_exception_is_raised_again() -> None:
+    before = signal.getsignal(signal.SIGTERM)
+    assert _with_a_lost_exception() == 128 + signal.SIGTERM
+    assert signal.getsignal(signal.SIGTERM) == before
+    check_time()
 
 
 @pytest.mark.parametrize(("work", "code"), [(_in_c, 130), (_in_python, 5), (_afterwards, 130)])
