@@ -86,9 +86,7 @@ class CSharpLowering(Lowering):
                 name = self.text(part(node, "left"))
                 yield self.loop(node, name, self.expr(part(node, "right")))
             case "if_statement":
-                ways = [part(node, x) for x in ("consequence", "alternative")]
-                arms = tuple(self.block([x]) for x in ways if x is not None)
-                yield ir.Branch(arms, line, len(arms) > 1)
+                yield self.if_else(node)
             case "invocation_expression" | "object_creation_expression":
                 yield ir.Do(self._invoked(node, is_statement=True), line)
 

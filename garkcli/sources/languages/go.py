@@ -57,9 +57,7 @@ class GoLowering(Lowering):
             case "for_statement":
                 yield self._loop(node, inside)
             case "if_statement":
-                ways = [part(node, x) for x in ("consequence", "alternative")]
-                arms = tuple(self.block([x]) for x in ways if x is not None)
-                yield ir.Branch(arms, line, len(arms) > 1)
+                yield self.if_else(node)
             case "switch_statement":
                 arms = tuple(self.case(x) for x in inside if self.is_a("case", x))
                 yield ir.Branch(arms, line)

@@ -80,9 +80,7 @@ class JavaLowering(Lowering):
                 ends = first, part(node, "condition"), self.text(part(node, "update"))
                 yield self.loop(node, *counted(self, name, *ends))
             case "if_statement":
-                ways = [part(node, x) for x in ("consequence", "alternative")]
-                arms = tuple(self.block([x]) for x in ways if x is not None)
-                yield ir.Branch(arms, line, len(arms) > 1)
+                yield self.if_else(node)
             case "expression_statement":
                 yield from self.block(inside)
             case "method_invocation" | "object_creation_expression":

@@ -83,9 +83,7 @@ class TypeScriptLowering(Lowering):
                 each = self.text(part(node, "left"))
                 yield self.loop(node, each, self.expr(part(node, "right")))
             case "if_statement":
-                ways = [part(node, x) for x in ("consequence", "alternative")]
-                arms = tuple(self.block([x]) for x in ways if x is not None)
-                yield ir.Branch(arms, line, len(arms) > 1)
+                yield self.if_else(node)
             case "internal_module":
                 yield from self.block([part(node, "body")])
             case "object" | "call_expression" | "new_expression" | "identifier":
