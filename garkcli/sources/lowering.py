@@ -214,12 +214,6 @@ class Lowering(ABC):
         """The title of a case by its value."""
         return self.text(node).strip("'\"")
 
-    def if_else(self, node: Node) -> ir.Branch:
-        """An ``if`` whose grammar names its arms."""
-        arms = [part(node, name) for name in ("consequence", "alternative")]
-        blocks = tuple(self.block([x]) for x in arms if x is not None)
-        return ir.Branch(blocks, line_of(node), len(blocks) > 1)
-
     def branch(self, inside: list[Node], line: int) -> ir.Branch:
         """The arms of an ``if``; the first child of each is its condition, except for ``else``."""
         ways: list[list[Node]] = [[]]

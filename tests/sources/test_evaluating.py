@@ -242,6 +242,22 @@ SAME = {
         "package p\nfunc f() {\n\tvar A [2][2]float64\n\tvar b [2]float64\n\tA[1][0] = 2.0 / 3\n"
         "\tfor i := range b {\n\t\tb[i] = (2*float64(i) + 1) / 4\n\t}\n}"
     ),
+    "ts, behind else": (
+        "function f(s) { let A, b; if (s) { A = 1; } else {\n"
+        "  A = [[0, 0], [2 / 3, 0]]; b = [1 / 4, 3 / 4]; } }"
+    ),
+    "go, behind else": (
+        "package p\nfunc f(s bool) {\n\tif s {\n\t\tprint(1)\n\t} else {\n"
+        "\t\tA := [][]float64{{0, 0}, {2.0 / 3, 0}}\n\t\tb := []float64{0.25, 0.75}\n\t}\n}"
+    ),
+    "java, behind else": (
+        "class X { void f(boolean s) { if (s) { f(false); } else {\n"
+        "  double[][] A = {{0, 0}, {2.0 / 3, 0}}; double[] b = {0.25, 0.75}; } } }"
+    ),
+    "cs, behind else": (
+        "class X { void F(bool s) { if (s) { F(false); } else {\n"
+        "  double[,] A = { { 0, 0 }, { 2.0 / 3, 0 } }; double[] b = { 0.25, 0.75 }; } } }"
+    ),
     "go, a matrix of gonum": (
         "package p\nvar A, b = mat.NewDense(2, 2, []float64{0, 0, 2.0 / 3, 0}),"
         " mat.NewVecDense(2, []float64{0.25, 0.75})"

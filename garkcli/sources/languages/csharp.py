@@ -85,8 +85,6 @@ class CSharpLowering(Lowering):
             case "foreach_statement":
                 name = self.text(part(node, "left"))
                 yield self.loop(node, name, self.expr(part(node, "right")))
-            case "if_statement":
-                yield self.if_else(node)
             case "invocation_expression" | "object_creation_expression":
                 yield ir.Do(self._invoked(node, is_statement=True), line)
 

@@ -56,8 +56,6 @@ class GoLowering(Lowering):
                 yield self._function(node)
             case "for_statement":
                 yield self._loop(node, inside)
-            case "if_statement":
-                yield self.if_else(node)
             case "switch_statement":
                 arms = tuple(self.case(x) for x in inside if self.is_a("case", x))
                 yield ir.Branch(arms, line)

@@ -79,8 +79,6 @@ class JavaLowering(Lowering):
                 name = self.text(part(declared, "name") or part(start, "left"))
                 ends = first, part(node, "condition"), self.text(part(node, "update"))
                 yield self.loop(node, *counted(self, name, *ends))
-            case "if_statement":
-                yield self.if_else(node)
             case "expression_statement":
                 yield from self.block(inside)
             case "method_invocation" | "object_creation_expression":

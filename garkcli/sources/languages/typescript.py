@@ -82,8 +82,6 @@ class TypeScriptLowering(Lowering):
             case "for_in_statement":
                 each = self.text(part(node, "left"))
                 yield self.loop(node, each, self.expr(part(node, "right")))
-            case "if_statement":
-                yield self.if_else(node)
             case "internal_module":
                 yield from self.block([part(node, "body")])
             case "object" | "call_expression" | "new_expression" | "identifier":
