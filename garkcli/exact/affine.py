@@ -1,13 +1,10 @@
 """Affine forms: numbers that depend on others which are known within radii.
 
 A form is c + Σ_k g_k ε_k + ρ with |ε_k| ≤ 1 and |ρ| ≤ r: ε_k is the error of the k-th printed
-number, in units of its radius. The centre c is a ball of many bits, the slopes g_k are floats, and
-r bounds what they leave out: their own rounding and all terms of second order. So a form encloses
-what is made of the printed numbers for all numbers within their radii, and equal numbers stay
-equal: a − a is 0.
-
-Slopes and remainders are bounded however floats are rounded: every operation adds a few units in
-the last place of the sizes that take part, and the radius of a ball of which the middle is used.
+number in units of its radius, c a ball of many bits, the slopes g_k floats; r bounds their rounding
+and all terms of second order. A form encloses a result for all numbers within their radii, and
+a − a is 0. Every operation adds a few units in the last place of the sizes that take part, and the
+radius of a ball of which the middle is used, so the bounds hold however floats are rounded.
 """
 
 from __future__ import annotations
@@ -45,9 +42,7 @@ def lost(ball: arb) -> float:
 
 
 class Affine:
-    """A number c + Σ g_k ε_k + ρ; ``slopes`` has the g_k that are not zero. A form is no zero, and
-    equal to nothing but itself: a sum without slopes is a plain number.
-    """
+    """A number c + Σ g_k ε_k + ρ. Forms are true, and equal to themselves alone."""
 
     __slots__ = ("centre", "remainder", "slopes")
 
@@ -58,7 +53,7 @@ class Affine:
 
     @property
     def reach(self) -> float:
-        """Returns an upper bound of the distance from the centre."""
+        """An upper bound of the distance from the centre."""
         return (sum(map(abs, self.slopes.values())) + self.remainder) * (
             1 + len(self.slopes) * UNIT
         )
@@ -74,7 +69,7 @@ class Affine:
         return slopes
 
     def height_bits(self) -> int:
-        """0: the form does not get longer with the numbers that it comes from."""
+        """0, as the form does not get longer with the numbers that it comes from."""
         return 0
 
     def __add__(self, other: Any) -> Affine:
@@ -192,7 +187,6 @@ class Forms:
 
     @property
     def are_numbers(self) -> bool:
-        """Whether the forms have no slopes: K = 0."""
         return not self.slopes.shape[1]
 
     @property
@@ -225,7 +219,6 @@ class Forms:
         return len(self.centres)
 
     def __mul__(self, other: Forms) -> Forms:
-        """The products, form by form."""
         centres = [x * y for x, y in zip(self.centres, other.centres, strict=True)]
         if self.are_numbers:
             return Forms(centres, self.slopes, self.remainders)
@@ -256,7 +249,6 @@ class Forms:
         return Forms(centres, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
     def dot(self, other: Forms) -> Forms:
-        """The scalar product, as a row of one form."""
         centre = scalar_product(self.centres, other.centres)
         if self.are_numbers:
             return Forms([centre], self.slopes[:1], self.remainders[:1])

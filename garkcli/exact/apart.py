@@ -31,24 +31,17 @@ _CAN_COUNT = hasattr(signal, "setitimer")
 """Whether a process can limit its own time, including that of the processor."""
 
 Task: TypeAlias = tuple[Callable[..., T], tuple[Any, ...]]
-"""A function of a module and its arguments, which travel to another process."""
 
 
 def apart(work: Callable[..., T], *arguments: Any) -> T:
-    """Returns work(*arguments), ended at the deadline; without a deadline it runs in this process.
-
-    The arguments and the result are pickled. Raises NotDecided if the time is over, the process
-    ended without a result, or only small work is done.
-    """
+    """work(*arguments) in a process that the deadline ends; NotDecided if it has no result."""
     if seconds_left() is None and not is_only_small():
         return work(*arguments)
     return first_of((work, arguments))
 
 
 def first_of(*tasks: Task[T]) -> T:
-    """Runs each task in a process of its own and returns the first result; the others are ended.
-    Raises NotDecided if the time is over, no process had a result, or only small work is done.
-    """
+    """The first result of tasks, each in its own process; NotDecided if there is none in time."""
     if is_only_small():
         raise NotDecided
     check_time()
@@ -74,7 +67,6 @@ def first_of(*tasks: Task[T]) -> T:
 
 @contextmanager
 def _started(task: Task[Any]) -> Iterator[Connection]:
-    """Starts a process for a task and yields the pipe that its result arrives in."""
     from multiprocessing import get_context
 
     # fork would copy the locks of other threads
@@ -126,11 +118,7 @@ def without_handlers() -> None:
 
 
 def start_method() -> str:
-    """The start method of processes: ``fork``, which keeps the loaded modules, where it is safe.
-
-    Windows has no fork, and on macOS a fork of a process whose libraries have begun threads may
-    crash.
-    """
+    """``fork``, which keeps loaded modules, but not on macOS: threads of libraries may crash it."""
     from multiprocessing import get_all_start_methods
 
     can_fork = "fork" in get_all_start_methods() and sys.platform != "darwin"
@@ -138,9 +126,7 @@ def start_method() -> str:
 
 
 def begin(process: BaseProcess) -> None:
-    """Starts a process with interrupts held back, as one would be reported before it is ready. If
-    this process is ended meanwhile, it knows of the new one.
-    """
+    """Starts a process; no signal ends this one before it knows of the new one."""
     with _without_signals(), warnings.catch_warnings():
         # the threads are those of numpy's BLAS, which stops them before a fork
         message = "This process .* is multi-threaded"
@@ -160,7 +146,6 @@ def without_program() -> Iterator[None]:
 
 
 def end(process: BaseProcess) -> None:
-    """Kills a process that has started."""
     if process.pid is not None:
         process.kill()
         process.join()

@@ -73,11 +73,7 @@ def sign_of(p: Polynomial, point: Point) -> int:
 def where(
     holds: Callable[[Point], bool], polynomials: Iterable[Polynomial], start: fmpq | None = None
 ) -> tuple[Interval, ...]:
-    """Returns the x ≥ ``start`` at which ``holds`` is true, as intervals in ascending order.
-
-    ``holds`` decides a point by the signs of ``polynomials`` there alone; zero polynomials are
-    skipped. ``start`` is None for −∞.
-    """
+    """The x ≥ ``start`` with ``holds(x)``, ascending; signs of ``polynomials`` alone decide it."""
     roots = roots_of(polynomials)
     left = None if start is None else RealRoot.rational(start)
     if left is not None:
@@ -92,15 +88,11 @@ def pieces(
     roots: Sequence[RealRoot],
     is_bounded: bool = False,
 ) -> list[tuple[Interval, T]]:
-    """The intervals of equal values of a function that is constant between some numbers, from left
-    to right.
+    """The intervals of equal values of a function that is constant between ``roots``, left to
+    right.
 
-    Args:
-        inside: its value at a rational number between two of them.
-        at: its value at one of them, also given those to the left and to the right; None if there
-            is nothing to the left.
-        roots: the numbers, in ascending order.
-        is_bounded: whether it begins at the first of them.
+    ``inside`` is its value at a rational number between two roots; ``at`` that at a root, given
+    those to the left (None if there is nothing) and right. A bounded one begins at a root.
     """
     opened: list[Interval] = [
         Interval(left, right) for left, right in pairwise([None, *roots, None])
@@ -130,7 +122,6 @@ def pieces(
 
 
 def roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
-    """The real roots of polynomials in ascending order; zero polynomials are skipped."""
     roots: set[RealRoot] = set()
     for p in polynomials:
         if p:
@@ -166,7 +157,6 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
 
 
 def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
-    """Yields a rational number from each open interval between the roots of polynomials."""
     for left, right in pairwise([None, *roots_of(polynomials), None]):
         check_time()
         yield between(left, right)
@@ -200,11 +190,8 @@ def is_half_line(intervals: Sequence[Interval]) -> bool:
 def first_end(intervals: Sequence[Interval]) -> RealRoot | None:
     """The end of the interval that begins at 0: 0 if there is none, None for ∞.
 
-    >>> first_end([]), first_end(where_not_negative([Polynomial([4, 0, -1])]))
-    (<RealRoot 0>, <RealRoot 0>)
     >>> first_end(where_not_negative([Polynomial([0, 4, -1])]))
     <RealRoot 4>
-    >>> first_end(where_not_negative([Polynomial([0, 1])]))
     """
     if not intervals or intervals[0].start != RealRoot.rational(fmpq(0)):
         return RealRoot.rational(fmpq(0))

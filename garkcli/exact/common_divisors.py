@@ -28,9 +28,7 @@ _Residues: TypeAlias = list[nmod_poly]
 def candidates(
     a: Sequence[fmpq_poly], b: Sequence[fmpq_poly], field: NumberField
 ) -> Iterator[list[fmpq_poly]]:
-    """Yields monic candidates for the greatest common divisor over K: it is the first that divides
-    both. ``a`` and ``b`` are the coefficients in θ, lowest first, the leading one not zero.
-    """
+    """Yields monic candidates for the common divisor; coefficients in θ are lowest first."""
     number = FIRST
     modulus, known, length = 1, [], None
     wanted, primes = 1, 0

@@ -31,9 +31,7 @@ MOST_BITS_APART = 1024
 
 
 class Image(Frozen):
-    """The image u + iv of a polynomial under an embedding. ``imaginary`` is None for an embedding
-    in ℝ. A complex embedding represents its conjugate too, with the image u − iv.
-    """
+    """The image u + iv under an embedding in ℂ and its conjugate; in ℝ ``imaginary`` is None."""
 
     real: arb_poly
     imaginary: arb_poly | None
@@ -45,7 +43,6 @@ class Image(Frozen):
 
     @property
     def norm(self) -> arb_poly:
-        """The product of the images under these embeddings."""
         if self.imaginary is None:
             return self.real
         return self.real * self.real + self.imaginary * self.imaginary
@@ -104,9 +101,7 @@ def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
 
 
 def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
-    """Returns the images of Σ p_k(θ) x^k, with the identity first if the field has radicals. None
-    if two conjugates of θ are too close to isolate with ``bits`` bits.
-    """
+    """The images of Σ p_k(θ) x^k in the order of ``conjugates``; None like those."""
     roots = conjugates(field, bits)
     if roots is None:
         return None

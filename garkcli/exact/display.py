@@ -70,7 +70,6 @@ def to_latex(number: Number | Parametric) -> str:
 
 
 def _latex_term(coefficient: fmpq, factors: str) -> str:
-    """A signed multiple of radicals, as one fraction."""
     sign = "-" if coefficient < 0 else "+"
     numerator = abs(coefficient.p)
     top = f"{numerator}{factors}"

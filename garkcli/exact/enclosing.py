@@ -20,11 +20,7 @@ from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power
 
 @lru_cache(maxsize=512)
 def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
-    """Returns the real roots of an irreducible polynomial in ascending order, with about ``bits``
-    bits.
-
-    ``coefficients`` begin with the lowest. Not by python-flint's complex roots, which may take for
-    ever if two are close.
+    """The real roots of an irreducible polynomial in ascending order, to about ``bits`` bits.
 
     >>> [float(x) for x in isolated((-2, 0, 1), 64)]
     [-1.4142135623730951, 1.4142135623730951]
@@ -105,7 +101,6 @@ OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "*": operator.mul,
     "/": operator.truediv,
 }
-"""The operation of each sign in a chain."""
 
 
 def integer_power(base: arb, exponent: int) -> arb:
@@ -128,9 +123,7 @@ def real_root(ball: arb, index: int) -> arb:
 
 
 def enclose(expression: Expression) -> arb:
-    """A ball that holds the value of ``expression``, at the current ``flint.ctx`` precision.
-
-    The ball is the whole line if a divisor may be 0.
+    """A ball of the value at the precision of ``flint.ctx``; the whole line if a divisor may be 0.
 
     >>> from garkcli.exact.expression import parse
     >>> bool(abs(enclose(parse("sqrt(2)")) ** 2 - 2) < 1e-14)
@@ -192,7 +185,6 @@ def derivative(coefficients: Sequence[arb]) -> list[arb]:
 
 
 def value(coefficients: Sequence[arb | fmpq | fmpz], x: Any) -> Any:
-    """The value at a real or complex ball, by Horner's rule."""
     total: Any = arb(0)
     for a in reversed(coefficients):
         total = total * x + a

@@ -34,7 +34,6 @@ MAX_DIGITS = 1_000
 """Most digits of one number with its decimal exponent written out."""
 MAX_EXPONENT = 64
 MAX_ROOT = 12
-"""Largest index of a root."""
 
 
 _TOKEN = re.compile(
@@ -70,11 +69,7 @@ def named_sign(sign: str) -> str:
 
 
 def parse(text: str) -> Expression:
-    """Parses ``text``.
-
-    Raises:
-        ExpressionError: syntax error, with its offset.
-        LimitExceeded: it exceeds a limit of this module.
+    """Parses ``text``; raises ExpressionError with its offset, LimitExceeded beyond a limit above.
 
     >>> parse("1/2 - sqrt(3)/6").signs
     '+-'
@@ -144,7 +139,6 @@ class Parser:
         self._advance()
 
     def whole(self) -> Expression:
-        """Parses the whole text. Raises ExpressionError if it is no expression."""
         if self.kind == "end":
             self._fail(f"no {self.value_noun} here", self.example)
         result = self._sum()

@@ -24,14 +24,14 @@ from garkcli.exact.roots import FIRST_BITS, RealRoot, root_within, sign_at
 from garkcli.frozen import Frozen, replace
 
 Holds: TypeAlias = Callable[[Sequence[int]], bool]
-"""Decides from the signs of polynomials whether a property holds."""
+"""Decides a property from the signs of polynomials."""
 
 
 class FibreRoot(Frozen, eq=False):
     """A number y > 0 at which curves meet the line.
 
-    ``polynomial`` is in y over ℚ(t_0) and has y as a simple root, the only one between the rational
-    bounds ``low`` and ``high``, which are equal if y is rational and known. ``curves`` are indices.
+    ``polynomial`` is in y over ℚ(t_0) and has y as a simple root, the only one in [``low``,
+    ``high``], which is a point if y is rational and known. ``curves`` are indices.
     """
 
     fibre: Fibre
@@ -65,7 +65,6 @@ class FibreRoot(Frozen, eq=False):
 
     @property
     def exact(self) -> RealRoot:
-        """The root with its minimal polynomial over ℚ."""
         curve = self.fibre.curves[min(self.curves)]
         return root_within(in_one(resultant(curve, of_root(self.fibre.t), "t")), self.ball)
 
@@ -81,12 +80,10 @@ class Fibre:
         self._signs: dict[tuple[Polynomial, fmpq], int] = {}
 
     def polynomial(self, p: fmpq_mpoly) -> Polynomial:
-        """p(y, t_0)."""
         rows = (in_t(coefficient_of(p, k)).to_flint() for k in range(p.degrees()[0] + 1))
         return Polynomial([self._field.element(row) for row in rows])
 
     def sign_on(self, p: Polynomial, y: fmpq) -> int:
-        """The sign of a polynomial over ℚ(t_0) at a rational number."""
         key = p, y
         if key not in self._signs:
             number = p(y)
@@ -95,7 +92,6 @@ class Fibre:
 
     @cached_property
     def roots(self) -> list[FibreRoot]:
-        """All roots in ascending order, with disjoint bounds."""
         roots: list[FibreRoot] = []
         for place, curve in enumerate(self.curves):
             p = self.polynomial(curve)
@@ -121,7 +117,6 @@ class Fibre:
             bits *= 2
 
     def _common(self, a: FibreRoot, b: FibreRoot) -> FibreRoot | None:
-        """The root that two share; None if they differ."""
         low, high = max(a.low, b.low), min(a.high, b.high)
         if low > high or a.curves & b.curves:
             return None
@@ -186,11 +181,9 @@ class Fibre:
     def first_failure(
         self, polynomials: Sequence[fmpq_mpoly], holds: Holds
     ) -> FibreRoot | fmpq | None:
-        """Returns the smallest y at which a property fails; 0 if it fails at once, None if it never
-        fails.
+        """The smallest y at which a property fails; 0 if it fails at once, None if never.
 
-        ``polynomials`` are products of the curves and of polynomials without a zero on the line;
-        ``holds`` decides by their signs.
+        ``polynomials`` are products of the curves and of factors without a zero on the line.
         """
         divisors = [
             frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)
@@ -216,18 +209,15 @@ class Fibre:
 
 
 class _NotFineEnough(Exception):
-    """Balls are too wide for a decision."""
+    """Balls are too wide."""
 
 
 def _ball(a: Number, t: arb) -> arb:
-    """The enclosure of an element of ℚ(t_0), from one of t_0."""
     return Polynomial.from_flint(poly_of(a)).enclosed_at(t)
 
 
 def _bound(coefficients: Sequence[arb], bits: int) -> fmpq:
-    """A power of 2 that bounds all roots (Cauchy). Raises _NotFineEnough if the leading coefficient
-    may be 0.
-    """
+    """A power of 2 above all roots (Cauchy); _NotFineEnough if the leading coefficient may be 0."""
     with ctx.workprec(bits):
         *lower, leading = coefficients
         if leading.contains(0):

@@ -45,8 +45,9 @@ def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
 
 
 class NumberField:
-    """K = ℚ(θ), with radicals that generate it. ``modulus`` is the minimal polynomial of θ;
-    ``radicals`` are pairs ``(expression, element)``, without which elements are written in θ.
+    """K = ℚ(θ) = ℚ[x]/(modulus), with pairs of generating radicals and their elements.
+
+    Without ``radicals`` elements are written in θ.
     """
 
     def __init__(
@@ -57,7 +58,7 @@ class NumberField:
         self.radicals = tuple(radicals)
 
     def is_same(self, other: NumberField) -> bool:
-        """Whether two objects are the same field: the radicals tell which root θ is."""
+        """Whether the fields are equal: the radicals tell which root θ is."""
         if other is self:
             return True
         return (
@@ -68,8 +69,9 @@ class NumberField:
 
     @cached_property
     def place(self) -> tuple[int, int] | None:
-        """A prime p and a simple root of the minimal polynomial modulo p, which map elements with
-        denominators prime to p to F_p; None if no prime that is tried has one.
+        """A prime p and a simple root of the minimal polynomial modulo p; None if none is tried.
+
+        They map elements with denominators prime to p to F_p.
         """
         primes = (fmpz(n) for n in range(FIRST_PRIME, FIRST_PRIME + PRIMES_WITHIN, 2))
         for p in filter(fmpz.is_prime, primes):
@@ -87,7 +89,6 @@ class NumberField:
         return Algebraic(self, poly)
 
     def from_coordinates(self, coordinates: Sequence[fmpq]) -> Number:
-        """The element Σ coordinates[k] θ^k."""
         return self.element(fmpq_poly(list(coordinates)))
 
     @cached_property
@@ -97,9 +98,7 @@ class NumberField:
 
     @cached_property
     def _basis(self) -> tuple[tuple[Word, ...], fmpq_mat]:
-        """The monomials and the inverse of their matrix in powers of θ. A multiple of a dependent
-        product is dependent too, so only chosen products are extended.
-        """
+        """The monomials and the inverse of their matrix in powers of θ."""
         if not self.radicals:
             powers = tuple((0,) * k for k in range(self.degree))
             size = range(self.degree)
@@ -132,7 +131,6 @@ class NumberField:
         return [poly[k] for k in range(self.degree)]
 
     def powers(self, word: Word, latex: bool = False) -> Iterator[tuple[str, int]]:
-        """The radicals of a word of ``monomials`` as text, each with its exponent."""
         if not self.radicals:
             if word:
                 yield r"\theta" if latex else "theta", len(word)
@@ -142,7 +140,6 @@ class NumberField:
             yield format_expression(radical, latex), power
 
     def in_radicals(self, number: Algebraic) -> list[fmpq]:
-        """The coordinates of ``number`` in the basis ``monomials``."""
         _, inverse = self._basis
         return (inverse * fmpq_mat(self.degree, 1, self._column(number.poly))).entries()
 
@@ -195,7 +192,6 @@ class Algebraic:
     __rmul__ = __mul__
 
     def inverse(self) -> Number:
-        """1/self, by the extended Euclidean algorithm."""
         modulus = self.field.modulus
         bits = max(int(self.poly.numer().height_bits()), int(modulus.numer().height_bits()))
         is_long = self.field.degree * bits > LONG
@@ -231,7 +227,6 @@ class Algebraic:
         return value
 
     def _sympy_(self) -> Any:
-        """SymPy calls this to convert the number."""
         return answered(self, "sympy")
 
     def __bool__(self) -> bool:
@@ -247,7 +242,7 @@ class Algebraic:
         return hash((tuple(self.poly.numer()), self.poly.denom()))
 
     def terms(self) -> Iterator[tuple[fmpq, Word]]:
-        """The number as pairs of a coefficient and a word of ``NumberField.monomials``."""
+        """Pairs of a coefficient and a word of ``NumberField.monomials``."""
         coefficients = self.field.in_radicals(self)
         for coefficient, word in zip(coefficients, self.field.monomials, strict=True):
             if coefficient:
@@ -289,7 +284,6 @@ def poly_of(number: Number) -> fmpq_poly:
 
 
 def with_radicals(number: Number, radicals: Sequence[Any]) -> Any:
-    """A number with other values for the radicals of its field."""
     if not isinstance(number, Algebraic):
         return number
     total: Any = ZERO
@@ -299,14 +293,12 @@ def with_radicals(number: Number, radicals: Sequence[Any]) -> Any:
 
 
 def coordinates(number: Number, degree: int) -> list[fmpq]:
-    """The coordinates of ``number`` in 1, θ, …, θ^(degree−1)."""
     if isinstance(number, Algebraic):
         return [number.poly[k] for k in range(degree)]
     return [number] + [ZERO] * (degree - 1)
 
 
 def flat(numbers: Iterable[Number], degree: int) -> list[fmpq]:
-    """All coordinates, concatenated."""
     if degree == 1:
         return cast("list[fmpq]", list(numbers))
     return [x for number in numbers for x in coordinates(number, degree)]

@@ -39,11 +39,7 @@ _CURES = {
 
 
 def parse_formula(text: str) -> nodes.Expression:
-    """Parses ``text``.
-
-    Raises:
-        ExpressionError: syntax error, with its offset.
-        LimitExceeded: it exceeds a limit of ``garkcli.exact.expression``.
+    """Parses ``text``; raises as ``garkcli.exact.expression.parse``.
 
     >>> parse_formula("exp(-x)").function
     'exp'
@@ -107,14 +103,11 @@ _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for n
 
 
 def value_of(expression: nodes.Expression, names: Mapping[str, Value]) -> Value:
-    """Returns the value of a formula at the current ``flint.ctx`` precision; operations on rational
-    numbers are exact.
+    """The value at the precision of ``flint.ctx``; operations on rational numbers are exact.
 
-    Raises UndefinedValue, with offsets, for an operation without a real value, or with an undecided
-    one: log(-1), 1/0; LimitExceeded for a number beyond ``MAX_BITS`` or the floats, or an exponent
-    out of range; KeyError for a name without a value.
+    Raises UndefinedValue, with offsets, for a value that is not real or not decided: log(-1),
+    1/0; LimitExceeded beyond ``MAX_BITS`` or floats; KeyError for a name without a value.
 
-    >>> from garkcli.exact.formula import parse_formula
     >>> value_of(parse_formula("(1 + x)**2/3"), {"x": fmpq(1, 2)})
     3/4
     """
@@ -146,9 +139,7 @@ def value_of(expression: nodes.Expression, names: Mapping[str, Value]) -> Value:
 
 
 def exponent_of(expression: nodes.Expression, names: Mapping[str, Value]) -> fmpq:
-    """Returns the value of an exponent. Raises UndefinedValue if it is irrational, LimitExceeded if
-    it or its denominator is too large.
-    """
+    """The exponent; UndefinedValue if it is irrational, LimitExceeded if it is too large."""
     value = value_of(expression, names)
     start, end = expression.start, expression.end
     if isinstance(value, arb):
@@ -163,11 +154,6 @@ def exponent_of(expression: nodes.Expression, names: Mapping[str, Value]) -> fmp
 
 
 def shown(x: Value) -> str:
-    """A number in a message.
-
-    >>> shown(fmpq(1, 3)), shown(arb(2).sqrt())
-    ('1/3', '1.41421')
-    """
     if isinstance(x, fmpq) and len(str(x)) <= 12:
         return str(x)
     return f"{float(arb(x)):.6g}"

@@ -23,17 +23,13 @@ FLOAT_DIGITS = 15
 MAX_BITS = 10_000
 """Longer numbers are refused: Python does not print more than 4300 digits."""
 EXACTLY = "give it exactly, as a Fraction or a text such as '1/3'"
-"""The cure for a rounded number."""
 OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
-"""The cure for a rounded number where a tolerance is possible."""
 
 
 def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) -> str:
-    """Returns the text of a coefficient.
+    """The text of a coefficient; MethodError for other values. ``where`` is for messages.
 
-    A float stands for the decimal that it prints. With more than 15 digits it is a rounded number
-    and needs a tolerance. ``where`` names it in messages, ``cure`` is for a rounded number. Raises
-    MethodError for other values.
+    A float is the decimal that it prints; with more than 15 digits it needs a tolerance.
     """
     if isinstance(x, str):
         return x
@@ -78,7 +74,7 @@ def _shown(x: Any) -> str:
 
 
 def _is_float(x: Any) -> bool:
-    """Whether x is a float of Python or NumPy, without importing NumPy."""
+    # without importing NumPy
     if isinstance(x, float):
         return True
     kind = type(x)
@@ -106,9 +102,7 @@ def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
 
 
 def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
-    """The text of a SymPy expression of rationals and real roots, without importing SymPy. With
-    ``is_part`` it is in parentheses where a product or power needs them.
-    """
+    """The text of rationals and real roots of SymPy, without importing it."""
     if x.is_Pow and x.exp.is_Rational:
         return _sympy_power(x, where)
     if x.is_Rational:
@@ -137,7 +131,6 @@ def _unreadable(x: Any, where: str) -> MethodError:
 
 
 def _sympy_power(x: Any, where: str) -> str:
-    """A rational power of SymPy, in parentheses unless it is a root."""
     p = int(x.exp.p)
     q = int(x.exp.q)
     if q == 1:
@@ -177,7 +170,7 @@ def complex_parts(text: str) -> tuple[str, str]:
 
 
 def rational_of(x: Any, where: str, is_rounded: bool = False) -> fmpq:
-    """Returns the rational value of any kind of number.
+    """The rational value of any kind of number.
 
     ``where`` names it in messages; ``is_rounded`` accepts floats of more than 15 digits. Raises
     MethodError for other values, for a text with the position of the error.

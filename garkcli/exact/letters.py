@@ -21,11 +21,7 @@ NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
 class Letters:
-    """The letters of one text, as its roots occur.
-
-    Attributes:
-        of: the roots that have occurred, with their letters.
-    """
+    """The letters of one text, as its roots occur; ``of`` has those that have occurred."""
 
     def __init__(
         self,
@@ -56,7 +52,6 @@ _letters: ContextVar[Letters | None] = ContextVar("letters", default=None)
 
 @contextmanager
 def lettered(letters: Letters | None) -> Iterator[None]:
-    """Roots have letters in texts that are made inside; None for no letters."""
     token = _letters.set(letters)
     try:
         yield

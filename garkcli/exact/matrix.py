@@ -32,7 +32,6 @@ def from_flint(matrix: fmpq_mat) -> Matrix:
 
 
 def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
-    """A rational matrix for python-flint; ``columns`` is the width if there are no rows."""
     entries: list[Number] = []
     for row in rows:
         entries += row
@@ -44,7 +43,6 @@ def identity(size: int) -> Matrix:
 
 
 def transpose(a: Matrix) -> Matrix:
-    """The transpose of a matrix with at least one row."""
     return tuple(zip(*a, strict=True))
 
 
@@ -61,12 +59,10 @@ def scale(factor: Number, a: Matrix) -> Matrix:
 
 
 def outer(u: Vector, v: Vector) -> Matrix:
-    """The product u vᵀ, shape (len(u), len(v))."""
     return tuple(tuple(x * y for y in v) for x in u)
 
 
 def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
-    """Σ u_i v_i."""
     total = ZERO
     irrational = []
     for x, y in zip(u, v, strict=True):
@@ -85,7 +81,6 @@ def apply(a: Matrix, v: Sequence[Number]) -> Vector:
 
 
 def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
-    """uᵀ A."""
     return tuple(dot(u, column) for column in zip(*a, strict=True))
 
 
@@ -97,10 +92,7 @@ def multiply(a: Matrix, b: Matrix) -> Matrix:
 
 
 def solve(a: Matrix, b: Matrix) -> Matrix:
-    """The solution A⁻¹ B of a linear system.
-
-    Raises:
-        SingularMatrixError: A is singular.
+    """A⁻¹ B; raises SingularMatrixError.
 
     >>> solve(((fmpq(2), fmpq(0)), (fmpq(0), fmpq(4))), ((fmpq(1),), (fmpq(1),)))
     ((1/2,), (1/4,))
@@ -124,7 +116,6 @@ def is_singular(a: Matrix) -> bool:
 
 
 def _eliminated(rows: list[list[Number]]) -> Matrix:
-    """A⁻¹ B from the rows of (A B), by Gauss-Jordan elimination."""
     n = len(rows)
     for k in range(n):
         chosen = next((i for i in range(k, n) if rows[i][k]), None)
@@ -165,22 +156,13 @@ MIN_BITS_APART = 20_000
 
 
 class LinearMap:
-    """The maps v ↦ A v and w ↦ wᵀ A, prepared for many vectors.
+    """The maps v ↦ A v and w ↦ wᵀ A of a matrix that is not empty, prepared for many vectors.
 
-    Over ℚ this is one product of two matrices in python-flint. Over K = ℚ(θ) of degree d the matrix
-    is Σ θᵏ A_k with rational A_k, vectors are Σ θʲ v_j, and
+    Over K = ℚ(θ) of degree d the matrix is Σ θᵏ A_k with rational A_k, vectors are Σ θʲ v_j, and
+    A v = Σ_{j,k} θ^(j+k) A_k v_j: at most d² products over ℚ, and one reduction of each entry.
 
-        A v = Σ_{j,k} θ^(j+k) A_k v_j:
-
-    at most d² products over ℚ, and one reduction of each entry.
-
-    A product in python-flint puts every row over one denominator. If the denominators of a row
-    share few factors, as in interpolation through unrelated fractions, that denominator is very
-    long, and the row is summed as fractions instead.
-
-    Args:
-        rows: the matrix A, not empty.
-        field: the field of its entries and of the vectors; None for ℚ.
+    python-flint puts every row of a product over one denominator, which is very long if those of
+    the row share few factors: such a row is summed as fractions instead.
 
     >>> LinearMap(((fmpq(1), fmpq(2)), (fmpq(0), fmpq(1, 3))), None).images([(fmpq(1), fmpq(6))])
     [(13, 2)]
@@ -222,7 +204,6 @@ class EntrywiseMap:
 
 
 def _has_denominators_apart(row: _Rational) -> bool:
-    """Whether a row is faster summed as fractions."""
     denominators = [int(x.q) for x in row]
     bits = sum(q.bit_length() for q in denominators)
     if bits < MIN_BITS_APART:
@@ -237,9 +218,7 @@ def _image(rows: Sequence[_Rational], vector: _Rational) -> Vector:
 
 
 def _sum(terms: _Rational) -> fmpq:
-    """The sum of fractions, added in pairs and reduced once at the end: neighbours are of equal
-    length, which fast multiplication needs, and reducing each would take most of the time.
-    """
+    """The sum, added in pairs and reduced once: fast multiplication needs equal lengths."""
     fractions = [(term.p, term.q) for term in terms]
     while len(fractions) > 1:
         if len(fractions) % 2:
@@ -273,7 +252,6 @@ def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) 
 
 
 def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]:
-    """The rows of Σ θⁿ P_n, reduced entry by entry; ``powers`` has P_0 and the nonzero P_n."""
     constant = powers[0]
     zeros = fmpq_mat(constant.nrows(), constant.ncols())
     by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]

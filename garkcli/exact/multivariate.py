@@ -25,20 +25,13 @@ Exponents: TypeAlias = tuple[int, ...]
 
 
 class Multivariate(Frozen):
-    """Σ a_e z^e. ``terms`` are pairs of exponents and nonzero coefficient, by descending total
-    degree, then exponents.
-    """
+    """Σ a_e z^e: pairs of e and a_e ≠ 0, by descending total degree, then exponents."""
 
     variables: int
     terms: tuple[tuple[Exponents, Number], ...]
 
     @classmethod
     def of(cls, variables: int, terms: Mapping[Exponents, Number]) -> Multivariate:
-        """The polynomial with these terms, zeros dropped.
-
-        >>> Multivariate.of(2, {(0, 1): fmpq(3), (1, 0): fmpq(0), (1, 1): fmpq(2)}).terms
-        (((1, 1), 2), ((0, 1), 3))
-        """
         kept = [(exponents, a) for exponents, a in terms.items() if a]
         kept.sort(key=lambda term: (sum(term[0]), term[0]), reverse=True)
         return cls(variables, tuple(kept))
@@ -110,10 +103,9 @@ def lattice(axes: int, degree: int) -> Iterator[Exponents]:
 
 
 def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) -> Multivariate:
-    """Returns the polynomial with given restrictions to lines.
+    """The polynomial whose restriction to t ↦ t (1, o + i_2, …, o + i_N) is ``lines[i]``.
 
-    ``lines`` has, for each point i of the lattice of ``degree``, the polynomial t ↦ p(t v) with v =
-    (1, o + i_2, …, o + i_N), o the ``offset``. ``degree`` is the total degree of p, or more.
+    i runs through the lattice of ``degree``, the total degree or more; o is ``offset``.
     """
     axes = len(next(iter(lines)))
     terms: dict[Exponents, Number] = {}
@@ -125,8 +117,7 @@ def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) 
 
 
 def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivariate:
-    """Returns the polynomial with given values on the lattice of ``degree``, its total degree or
-    more.
+    """The polynomial with given values on the lattice of ``degree``, its total degree or more.
 
     >>> through_points({(0, 0): fmpq(1), (0, 1): fmpq(1), (1, 0): fmpq(3)}, 1).terms
     (((1, 0), 2), ((0, 0), 1))
@@ -138,7 +129,6 @@ def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivari
 def _interpolated(
     values: Mapping[Exponents, Number], axes: int, offset: int, degree: int
 ) -> dict[Exponents, Number]:
-    """The terms of the polynomial of total degree ≤ ``degree`` through values on a lattice."""
     table = dict(values)
     for axis in range(axes):
         # replace the values along an axis by their forward differences at its first point

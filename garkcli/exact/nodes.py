@@ -9,9 +9,7 @@ from garkcli.frozen import FrozenBut
 
 
 class Expression(FrozenBut, kw_only=True):
-    """A node. Not compared: ``start`` and ``end``, its offsets in the text, and ``decimals``, those
-    in the polynomial that it is a root of.
-    """
+    """A node. Its offsets, and decimals in the polynomial it is a root of, are not compared."""
 
     besides = frozenset({"start", "end", "decimals"})
 
@@ -38,14 +36,13 @@ def is_decimal(literal: Literal) -> bool:
 
 
 class Name(Expression):
-    """A parameter."""
-
     name: str
 
 
 class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or by ``* /``, each preceded by one of
-    ``signs``. Flat, so that the depth of an expression is that of its parentheses.
+    """Operands joined from left to right by ``+ -`` or ``* /``, each preceded by a sign.
+
+    Flat, so that the depth of an expression is that of its parentheses.
     """
 
     signs: str
@@ -53,8 +50,6 @@ class Chain(Expression):
 
 
 class Power(Expression):
-    """An integer power."""
-
     base: Expression
     exponent: int
 
@@ -67,10 +62,9 @@ class Root(Expression):
 
 
 class AlgebraicRoot(Expression):
-    """A real root of an irreducible polynomial over ℤ of degree 3 or more.
+    """The real root of index ``number``, in ascending order, of an irreducible polynomial over ℤ.
 
-    ``coefficients`` begin with the lowest; the leading one is positive. ``number`` is the index of
-    the root, from 0 in ascending order.
+    Its degree is 3 or more; ``coefficients`` begin with the lowest, the leading one positive.
     """
 
     coefficients: tuple[int, ...]
@@ -78,8 +72,6 @@ class AlgebraicRoot(Expression):
 
 
 class Call(Expression):
-    """A function of one argument, one of ``garkcli.exact.formula``."""
-
     function: str
     argument: Expression
 

@@ -26,9 +26,7 @@ Mixed: TypeAlias = "fmpq | Parametric"
 
 
 class Rule(Frozen):
-    """A rewriting rule for a power of an unknown, such as sqrt(3)² = 3. ``instead`` is a polynomial
-    of smaller degree in it, without unknowns of later rules.
-    """
+    """A power of an unknown and its value, as sqrt(3)² = 3; no unknowns of later rules in it."""
 
     index: int
     degree: int
@@ -63,13 +61,6 @@ class Parameters:
         return re.sub(_NAME, lambda name: self.shown.get(name[0], (name[0], ""))[0], text)
 
     def latex(self, polynomial: fmpq_mpoly) -> str:
-        r"""The terms in LaTeX.
-
-        >>> ring = Parameters(["a", "b"])
-        >>> a, b = ring.context.gens()
-        >>> print(ring.latex(a**2 / 2 - 2 * b / 3 + fmpq(1, 4)))
-        \frac{a^{2}}{2}-\frac{2b}{3}+\frac{1}{4}
-        """
         text = ""
         for exponents, a in polynomial.to_dict().items():
             powers = ""
@@ -94,9 +85,7 @@ class Parameters:
         return self.context.constant(number)
 
     def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
-        """The quotient in lowest terms, its denominator with leading coefficient 1. Raises
-        NotDecided if the time limit has passed.
-        """
+        """The quotient in lowest terms, its denominator with leading coefficient 1."""
         check_time()
         if self.rules:
             numerator = self.reduced(numerator)
@@ -130,9 +119,8 @@ class Parameters:
     def telling_apart(self) -> Iterator[dict[str, fmpq_mpoly]]:
         """Collects the polynomials that are taken to be different from 0.
 
-        Decisions made meanwhile hold for all values of the parameters at which none of these
-        polynomials vanishes (D. Duval, *Algebraic numbers: an example of dynamic evaluation*, J.
-        Symb. Comput. 18, 1994).
+        Decisions meanwhile hold for all parameters at which none of them vanishes (D. Duval,
+        *Algebraic numbers: an example of dynamic evaluation*, J. Symb. Comput. 18, 1994).
         """
         before, self._told_apart = self._told_apart, {}
         try:
@@ -141,7 +129,6 @@ class Parameters:
             self._told_apart = before
 
     def tell_apart(self, polynomial: fmpq_mpoly) -> None:
-        """Records that a polynomial is taken to be different from 0."""
         if self._told_apart is not None and not polynomial.is_constant():
             self._told_apart[str(polynomial)] = polynomial
 
@@ -236,7 +223,6 @@ _height_bits: Callable[[fmpq], int] = fmpq.height_bits
 
 
 def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
-    """The product of two polynomials. Raises TooManyTerms if it would fill the memory."""
     if q.is_one():  # most denominators
         return p
     refuse_long(p, q)
@@ -244,15 +230,13 @@ def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
 
 
 def refuse_long(p: fmpq_mpoly, q: fmpq_mpoly) -> None:
-    """Raises an error if a product would be too long. Raises TooManyTerms if it would fill the
-    memory.
-    """
+    """Raises TooManyTerms if a product would fill the memory."""
     if len(p) * len(q) > MAX_TERMS and terms_of_product(p, q) > MAX_TERMS:
         raise _too_many_terms()
 
 
 def power(p: fmpq_mpoly, exponent: int) -> fmpq_mpoly:
-    """A power of a polynomial. Raises TooManyTerms if it would fill the memory."""
+    """A power; raises TooManyTerms if it would fill the memory."""
     if terms_of_power(p, exponent) > MAX_TERMS:
         raise _too_many_terms()
     return p**exponent
@@ -284,12 +268,7 @@ def terms_of_sum(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
 
 
 def terms_of_power(p: fmpq_mpoly, exponent: int) -> int:
-    """An upper bound of the number of terms of a power with an exponent ≥ 0.
-
-    >>> x, y = Parameters(["x", "y"]).context.gens()
-    >>> terms_of_power(1 + x + y, 20), len((1 + x + y) ** 20)
-    (231, 231)
-    """
+    """An upper bound; the exponent is at least 0."""
     if not p:
         return 1
     degrees = [exponent * a for a in p.degrees()]
@@ -298,7 +277,7 @@ def terms_of_power(p: fmpq_mpoly, exponent: int) -> int:
 
 
 def monomials(degrees: Sequence[int], total: int) -> int:
-    """An upper bound of the number of monomials with limited degrees in each variable and in total.
+    """An upper bound of the monomials with degrees limited in each variable and in total.
 
     >>> monomials([1, 1, 0], 2), monomials([9, 9], 2)
     (4, 6)
@@ -308,7 +287,7 @@ def monomials(degrees: Sequence[int], total: int) -> int:
 
 
 def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The distinct irreducible factors that are not constant; zero polynomials are skipped."""
+    """The distinct irreducible factors that are not constant, of polynomials ≠ 0."""
     found: dict[str, fmpq_mpoly] = {}
     for p in polynomials:
         for factor, _ in p.factor()[1]:
@@ -321,7 +300,6 @@ def unknowns_of(p: fmpq_mpoly) -> list[int]:
 
 
 def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
-    """The value of a polynomial at numbers of any kind, one for each variable."""
     total: Any = fmpq(0)
     for exponents, a in p.to_dict().items():
         term: Any = a
@@ -333,7 +311,6 @@ def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
 
 
 def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """Numerator and denominator as polynomials; ``number`` may be rational."""
     if isinstance(number, Parametric):
         return number.numerator, number.denominator
     return ring.constant(cast("fmpq", number)), ring.constant(fmpq(1))

@@ -51,10 +51,8 @@ PARTS: Mapping[type, Callable[[Any], Made]] = {
     flint.fmpq_mpoly: _in_several,
     flint.fmpz_mpoly: _in_several,
 }
-"""The constructor and arguments of each type of python-flint that occurs in results."""
 
 
 def register() -> None:
-    """Teaches pickle the types of python-flint."""
     for kind, parts in PARTS.items():
         copyreg.pickle(kind, parts)

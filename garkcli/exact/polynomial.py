@@ -45,7 +45,6 @@ class Polynomial:
 
     @property
     def leading(self) -> Number:
-        """The leading coefficient; 0 for the zero polynomial."""
         if not self.coefficients:
             return ZERO
         return self.coefficients[-1]
@@ -142,7 +141,6 @@ class Polynomial:
         return divmod(self, divisor)[1]
 
     def monic(self) -> Polynomial:
-        """The multiple with leading coefficient 1; zero stays zero."""
         if not self:
             return self
         return self * (ONE / self.leading)
@@ -151,11 +149,9 @@ class Polynomial:
         return Polynomial([a * k for k, a in enumerate(self.coefficients)][1:])
 
     def reversed(self, degree: int) -> Polynomial:
-        """The polynomial x^degree p(1/x)."""
         return Polynomial([self[k] for k in range(degree, -1, -1)])
 
     def substituted(self, inner: Polynomial) -> Polynomial:
-        """The composition p(inner(x)), by Horner's rule."""
         result = Polynomial([])
         for a in reversed(self.coefficients):
             result = result * inner + a
@@ -191,14 +187,12 @@ class Polynomial:
         return self._norm_by_resultants(field) if found is None else found
 
     def images(self, field: NumberField, bits: int) -> list[Image] | None:
-        """The images of an integral multiple under all embeddings of the field."""
         if bits not in self._images:
             integral = over_integers([poly_of(a) for a in self.coefficients])
             self._images[bits] = images(integral, field, bits)
         return self._images[bits]
 
     def _norm_by_resultants(self, field: NumberField) -> fmpz_poly:
-        """The norm by interpolation at integers, for conjugates that are too close."""
         degree = field.degree * self.degree
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]
@@ -217,8 +211,7 @@ def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
 
 
 def squared_on_axis(p: Sequence[Any]) -> list[Any]:
-    """The coefficients of |p(iy)|² as a polynomial in x = y²: Σ (−1)^((j − k)/2) p_j p_k x^((j +
-    k)/2) over even j + k.
+    """Coefficients in x = y² of |p(iy)|² = Σ (−1)^((j − k)/2) p_j p_k x^((j + k)/2), j + k even.
 
     >>> squared_on_axis([1, 2, 3])  # (1 − 3x)² + 4x
     [1, -2, 9]
@@ -239,9 +232,7 @@ def in_one(p: fmpq_mpoly, variable: int = 0) -> Polynomial:
 
 
 def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial:
-    """Returns the polynomial of least degree through points, by Newton's divided differences.
-
-    The ``points`` are distinct.
+    """The polynomial of least degree through distinct points, by Newton's divided differences.
 
     >>> interpolated([fmpq(0), fmpq(1), fmpq(2)], [fmpq(1), fmpq(2), fmpq(5)])
     Polynomial([1, 0, 1])
@@ -304,9 +295,7 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
 
 
 def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial, field: NumberField) -> bool:
-    """Whether two polynomials are coprime modulo a prime, which proves them coprime: a monic
-    divisor of both would have degree ≥ 1 there too. Much shorter numbers than over the field.
-    """
+    """A common divisor over the field would have degree ≥ 1 modulo the prime too."""
     if field.place is None:
         return False
     p, root = field.place
@@ -320,10 +309,7 @@ def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial, field: NumberField
 
 
 def reciprocal_characteristic(W: Matrix) -> Polynomial:
-    """Returns det(I − z W), the characteristic polynomial of W read backwards.
-
-    It is the product over the strongly connected components of the graph of W: single vertices for
-    an explicit method, the diagonal entries for a diagonally implicit one.
+    """det(I − z W), the product over the strongly connected components of the graph of W.
 
     >>> half = fmpq(1, 2)
     >>> reciprocal_characteristic(((half, half), (half, half)))
@@ -339,7 +325,6 @@ def reciprocal_characteristic(W: Matrix) -> Polynomial:
 
 
 def _dense(W: Matrix) -> Polynomial:
-    """``reciprocal_characteristic`` of one component."""
     size = len(W)
     if size == 1:
         [[entry]] = W

@@ -19,8 +19,7 @@ LONG_COEFFICIENT = 16
 
 
 def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-    """Polynomials scaled by one positive number to coprime integer coefficients; unchanged if a
-    coefficient is irrational.
+    """Polynomials with one positive factor to coprime integers; unchanged if one is irrational.
 
     >>> integral([Polynomial([2, fmpq(-11, 12)]), Polynomial([1, fmpq(1, 24)])])
     [Polynomial([48, -22]), Polynomial([24, 1])]
@@ -44,20 +43,11 @@ def integral_scale(numbers: Iterable[Number]) -> fmpq:
 
 
 def polynomial_text(p: Polynomial, variable: str) -> str:
-    """A polynomial, highest power first.
-
-    >>> polynomial_text(Polynomial([48, -22, 1]), "x")
-    'x^2 - 22*x + 48'
-    """
     return sum_text([(a, power_text(variable, k)) for k, a in enumerate(p.coefficients)][::-1])
 
 
 def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
-    """A polynomial with coefficients rounded to decimals, without trailing zeros.
-
-    >>> polynomial_decimals(Polynomial([fmpq(1), fmpq(10**30 + 1, 7 * 10**30)]), "z")
-    '0.14285714*z + 1'
-    """
+    """Coefficients are rounded, without trailing zeros."""
     powers = reversed([*enumerate(p.coefficients)])
     return sum_text([(_rounded(a, digits), power_text(variable, k)) for k, a in powers])
 
@@ -77,12 +67,11 @@ def has_long_coefficients(*polynomials: Polynomial) -> bool:
 
 
 def multivariate_decimals(p: Multivariate, variables: Sequence[str], digits: int = 8) -> str:
-    """A polynomial in several variables with coefficients rounded to decimals."""
     return sum_text((_rounded(a, digits), power) for a, power in _terms(p, variables))
 
 
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
-    """A polynomial in several variables, highest total degree first.
+    """The highest total degree is first.
 
     >>> multivariate_text(Multivariate.of(2, {(1, 1): fmpq(-3), (0, 0): fmpq(1)}), ["x", "y"])
     '-3*x*y + 1'
@@ -97,7 +86,6 @@ def _terms(p: Multivariate, variables: Sequence[str]) -> Iterator[tuple[Number, 
 
 
 def sum_text(terms: Iterable[tuple[Number | Parametric | str, str]]) -> str:
-    """A sum of coefficients times powers; zero terms are left out."""
     text = ""
     for a, power in terms:
         if not a:
@@ -113,7 +101,6 @@ def sum_text(terms: Iterable[tuple[Number | Parametric | str, str]]) -> str:
 
 
 def power_text(variable: str, k: int, exponent: str = "") -> str:
-    """x^k, or x^exponent if one is given; empty for k = 0."""
     if k == 0:
         return ""
     if k == 1:
@@ -164,16 +151,10 @@ def root_in_short(root: RealRoot) -> str:
 
 
 def root_decimal(root: RealRoot, digits: int) -> str:
-    """A root rounded to significant digits, without trailing zeros."""
     return ball_decimal(root.ball(int(digits * BITS_OF_A_DIGIT) + 40), digits)
 
 
 def ball_decimal(ball: arb, digits: int) -> str:
-    """An enclosed number rounded to significant digits, without trailing zeros.
-
-    >>> ball_decimal(arb(8), 12)
-    '8'
-    """
     text = str(ball.str(digits, radius=False))
     if "e" in text or "." not in text:
         return text

@@ -30,24 +30,19 @@ PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 
 
 def in_plane(p: fmpq_mpoly, y: int, t: int) -> fmpq_mpoly:
-    """A polynomial mapped to the plane; ``y`` and ``t`` are the indices of its only variables."""
     return p.project_to_context(PLANE, {t: 1, y: 0})
 
 
 def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
-    """Returns the nonzero polynomials in t between whose roots nothing changes. ``irreducible`` are
-    distinct irreducible curves, ``ends`` the ends of the interval of y.
-    """
+    """Nonzero polynomials in t between whose roots distinct irreducible curves change nothing."""
     return [in_t(p) for p in seen_along(irreducible, ends)]
 
 
 def seen_along(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[fmpq_mpoly]:
-    """The nonzero polynomials without the first variable, between whose zeros the zeros of others
-    in it keep their order and number.
+    """Nonzero polynomials between whose zeros those of others in their first variable do not
+    change.
 
-    Args:
-        irreducible: distinct irreducible polynomials.
-        ends: the ends of the interval of the first variable.
+    ``irreducible`` are distinct, ``ends`` those of the interval of the first variable.
     """
     found: list[fmpq_mpoly] = []
     crossing = []
@@ -72,17 +67,13 @@ LARGE = 30_000
 
 
 def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The discriminant with respect to the first variable, y in the plane. Raises NotDecided if the
-    time limit has passed.
-    """
+    """With respect to the first variable; NotDecided if the time is over."""
     variable = p.context().name(0)
     return _without(variable, p, p, methodcaller("discriminant", variable))
 
 
 def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str | None = None) -> fmpq_mpoly:
-    """The resultant with respect to a variable, the first one where none is named. Raises
-    NotDecided if the time limit has passed.
-    """
+    """With respect to a variable, by default the first; NotDecided if the time is over."""
     variable = variable or p.context().name(0)
     return _without(variable, p, q, methodcaller("resultant", q, variable))
 
@@ -90,7 +81,6 @@ def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str | None = None) -> fmpq
 def _without(
     variable: str, p: fmpq_mpoly, q: fmpq_mpoly, work: Callable[[fmpq_mpoly], fmpq_mpoly]
 ) -> fmpq_mpoly:
-    """The result of eliminating an unknown, in a process of its own where that is large."""
     check_time()
     place = p.context().variable_to_index(variable)
     degrees = [max(x) for x in zip(p.degrees(), q.degrees(), strict=True)]
@@ -99,22 +89,18 @@ def _without(
 
 
 def of_root(t: RealRoot) -> fmpq_mpoly:
-    """The polynomial of an algebraic number, in the variable t of the plane."""
     return across(t.polynomial.coeffs())
 
 
 def across(coefficients: Iterable[Any]) -> fmpq_mpoly:
-    """The polynomial in the variable t of the plane with these rational coefficients."""
     return PLANE.from_dict({(0, k): fmpq(a) for k, a in enumerate(coefficients) if a})
 
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The coefficient of the highest power of the first variable, y in the plane."""
     return coefficient_of(p, p.degrees()[0])
 
 
 def coefficient_of(p: fmpq_mpoly, power: int, variable: int = 0) -> fmpq_mpoly:
-    """The coefficient of a power of one variable, as a polynomial in the others."""
     terms = {}
     for e, a in p.to_dict().items():
         if e[variable] == power:
@@ -123,7 +109,6 @@ def coefficient_of(p: fmpq_mpoly, power: int, variable: int = 0) -> fmpq_mpoly:
 
 
 def coefficients(p: fmpq_mpoly) -> list[Polynomial]:
-    """The coefficients of the powers of y, lowest first, as polynomials in t."""
     return [in_t(coefficient_of(p, k)) for k in range(p.degrees()[0] + 1)]
 
 
@@ -141,24 +126,18 @@ MOST_DEGREE = 12
 
 
 class Along(Frozen):
-    """A variable with its values: a number or an interval.
-
-    Attributes:
-        place: of the variable.
-        values: the number, or the interval.
-    """
+    """A variable, by its place, and its values: a number or an interval."""
 
     place: int
     values: Interval
 
     def reduced(self, p: fmpq_mpoly) -> fmpq_mpoly:
-        """The polynomial of least degree with the values of another one at a number."""
         number = self.values.start
         return p if number is None or not self.values.is_point else modulo(p, self.place, number)
 
 
 def modulo(p: fmpq_mpoly, place: int, number: RealRoot) -> fmpq_mpoly:
-    """The polynomial of least degree with the same values where a variable is a number."""
+    """The polynomial of least degree that is equal where a variable is a number."""
     gen = p.context().gens()[place]
     powers = enumerate(number.polynomial.coeffs())
     return divmod(p, sum((gen**k * fmpq(a) for k, a in powers), gen * 0))[1]
@@ -167,13 +146,9 @@ def modulo(p: fmpq_mpoly, place: int, number: RealRoot) -> fmpq_mpoly:
 def kept_sign(p: fmpq_mpoly, along: Along | None = None) -> int | None:
     """1 if p ≥ 0 at all real points, −1 if p ≤ 0; None if neither holds or the tests below fail.
 
-    Each irreducible factor of odd power has to keep its sign. This is decided if all terms are
-    squares of one sign; in one or two variables always, up to a degree; and for a v² + b v + c if a
-    keeps its sign and 4ac − b² ≥ 0.
-
-    Args:
-        p: the polynomial.
-        along: a variable with its values; None if all variables have all values.
+    Irreducible factors of odd power have to keep their signs. That is decided if all terms are
+    squares of one sign; in one or two variables always, up to a degree; and for a v² + b v + c if
+    a keeps its sign and 4ac − b² ≥ 0. One variable may be ``along`` an interval or number.
 
     >>> from flint import Ordering, fmpq_mpoly_ctx
     >>> x, y, z = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex).gens()
@@ -197,7 +172,6 @@ def kept_sign(p: fmpq_mpoly, along: Along | None = None) -> int | None:
 
 
 def _of_factor(p: fmpq_mpoly, along: Along | None) -> int | None:
-    """``kept_sign`` of an irreducible polynomial that is not constant."""
     t = -1 if along is None else along.place
     if any(degree % 2 for k, degree in enumerate(p.degrees()) if k != t):
         return None  # it has both signs on a line
@@ -224,7 +198,6 @@ def _of_factor(p: fmpq_mpoly, along: Along | None) -> int | None:
 
 
 def _in_plane(p: fmpq_mpoly, y: int, along: Along) -> int | None:
-    """``kept_sign`` of a polynomial in two variables."""
     if p.total_degree() > MOST_DEGREE and not along.values.is_point:
         return None
     moved = in_plane(p, y, along.place)
@@ -239,9 +212,7 @@ SPACE = fmpq_mpoly_ctx.get(["y", "x", "t"], Ordering.lex)
 
 
 def _beside_number(p: fmpq_mpoly, variables: tuple[int, int], along: Along) -> int | None:
-    """``kept_sign`` of an irreducible polynomial in two variables and a number, by one line in each
-    strip between the critical values of a variable.
-    """
+    """By one line in each strip between the critical values of a variable."""
     x, y = sorted(variables, key=lambda i: p.degrees()[i], reverse=True)
     moved = p.project_to_context(SPACE, {y: 0, x: 1, along.place: 2})
     root = along.values.start
@@ -270,11 +241,10 @@ MOST_FIELD = 6
 
 
 def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None) -> bool | None:
-    """Whether p(y, t) ≥ 0 for all t, or the t of a set; None if the set has an isolated number of
-    large degree.
+    """Whether p(y, t) ≥ 0 for the t of a set; None if an isolated one has a large degree.
 
-    Between the roots of the projection (``garkcli.exact.projection``) the signs on the lines t =
-    const do not change, so one line each decides; the others follow by continuity.
+    Signs on the lines t = const do not change between the roots of the projection: one line each
+    decides, the others follow by continuity.
     """
     lines: list[Number] = []
     if within is not None:

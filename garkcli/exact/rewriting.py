@@ -18,24 +18,19 @@ MAX_SIZE = 2_000
 
 
 def size_of(expression: nodes.Expression, sizes: Mapping[str, int]) -> int:
-    """The number of nodes, a name counting ``sizes[name]``, or 1 if it is unknown."""
     if isinstance(expression, nodes.Name):
         return sizes.get(expression.name, 1)
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
 
 def check_size(size: int, text: str) -> None:
-    """Refuses an expression of ``size`` operations that was read from ``text``. Raises
-    LimitExceeded if these are more than ``MAX_SIZE``.
-    """
+    """Raises LimitExceeded for too many operations in ``text``."""
     if size > MAX_SIZE:
         message = f"more than {MAX_SIZE} operations, with the parameters written out"
         raise LimitExceeded(message, "write it shorter", 0, len(text))
 
 
 class Expanded(NamedTuple):
-    """An expression without names, or with free ones; its size and its depth."""
-
     expression: nodes.Expression
     size: int = 1
     depth: int = 1
@@ -44,9 +39,7 @@ class Expanded(NamedTuple):
 def expanded(
     expression: nodes.Expression, values: Mapping[str, Expanded], used: set[str] | None = None
 ) -> Expanded:
-    """``expression`` with each name replaced by its value; it keeps its offsets. The names are
-    added to ``used``. Raises UndefinedValue if a name has no value.
-    """
+    """``expression`` with values for names, added to ``used``; UndefinedValue without a value."""
 
     def of(inner: nodes.Expression) -> Expanded:
         return expanded(inner, values, used)
@@ -95,7 +88,6 @@ def names_in(expression: nodes.Expression) -> Iterator[nodes.Name]:
 def substitute(
     expression: nodes.Expression, values: Mapping[str, nodes.Expression]
 ) -> nodes.Expression:
-    """``expression`` with each name replaced by its value; see ``expanded``."""
     return expanded(expression, {name: Expanded(x) for name, x in values.items()}).expression
 
 
@@ -113,7 +105,6 @@ def _unknown_name(name: nodes.Name, values: Mapping[str, object]) -> UndefinedVa
 
 
 def roots_in(expression: nodes.Expression) -> Iterator[nodes.Root | nodes.AlgebraicRoot]:
-    """Every root in ``expression``, inner ones first."""
     for part in parts(expression):
         yield from roots_in(part)
     if isinstance(expression, (nodes.Root, nodes.AlgebraicRoot)):
@@ -159,7 +150,6 @@ class PlainText:
         raise TypeError(f"no expression: {expression!r}")
 
     def chain(self, chain: nodes.Chain) -> str:
-        """The operands with their signs; a leading + or * is dropped."""
         is_product = chain.signs[0] in "*/"
         parts = []
         for sign, operand in zip(chain.signs, chain.operands, strict=True):
@@ -168,7 +158,6 @@ class PlainText:
         return "".join(parts).removeprefix("+").removeprefix("*")
 
     def tight(self, expression: nodes.Expression) -> str:
-        """The text, in parentheses unless it is one token or call."""
         text = self.written(expression)
         is_whole_number = isinstance(expression, nodes.Literal) and text.isdigit()
         if is_whole_number or isinstance(
@@ -184,7 +173,6 @@ class PlainText:
         return str(value)
 
     def decimal(self, literal: nodes.Literal) -> str:
-        """A number that was written as a decimal."""
         return self.number(literal.value)
 
     def power(self, base: str, exponent: int) -> str:
@@ -197,20 +185,17 @@ class PlainText:
         return f"{function}({argument})"
 
     def root(self, radicand: str, index: int) -> str:
-        """A root by its name, or by its index if it has none."""
         for name, named in INDEX_OF_ROOT.items():
             if named == index:
                 return f"{name}({radicand})"
         return f"root({radicand}, {index})"
 
     def algebraic(self, root: nodes.AlgebraicRoot) -> str:
-        """A root by its polynomial and first digits."""
         from garkcli.exact.root_of import approximate
 
         return f"root_of({self.polynomial(root)}, {approximate(root)})"
 
     def polynomial(self, root: nodes.AlgebraicRoot) -> str:
-        """The polynomial of a root, highest power first."""
         text = ""
         for k, a in reversed(list(enumerate(root.coefficients))):
             if a:
@@ -236,7 +221,7 @@ _GREEK = {
 
 
 def name_latex(name: str) -> str:
-    """The LaTeX of a name of a parameter: a21 is an a with indices."""
+    """a21 is an a with indices."""
     letters = name.rstrip("0123456789_")
     index = name[len(letters) :].strip("_").replace("_", ",")
     head = letters.replace("_", r"\_")
@@ -256,17 +241,12 @@ def _is_sum(expression: nodes.Expression) -> bool:
 
 
 def decimal_latex(text: str) -> str:
-    r"""A decimal in LaTeX.
-
-    >>> decimal_latex("-1.5e-16"), decimal_latex("0.25")
-    ('-1.5 \\cdot 10^{-16}', '0.25')
-    """
     mantissa, _, exponent = text.partition("e")
     return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
 
 
 class _Latex(PlainText):
-    r"""Writes expressions in LaTeX: products without signs, quotients as fractions.
+    r"""Products have no signs, quotients are fractions.
 
     >>> from garkcli.exact.expression import parse
     >>> texts = "1/2 - 3*sqrt(154)/77", "1/2*x", "-1/120*z^5", "-2*a12_31*(-x^2 + tau)"
@@ -300,7 +280,6 @@ class _Latex(PlainText):
         return rf"{minus}\frac{{{top.removeprefix(minus)}}}{{{self.product(under)}}}"
 
     def product(self, factors: list[nodes.Expression]) -> str:
-        """Juxtaposed factors; one alone needs no parentheses, nor does a leading sign."""
         if len(factors) == 1:
             return self.written(factors[0])
         text = ""
@@ -316,7 +295,6 @@ class _Latex(PlainText):
         return f"{text}1" if text in {"", "-"} else text
 
     def factor(self, expression: nodes.Expression) -> str:
-        """The text, with parentheses around sums and negative factors."""
         text = self.written(expression)
         is_whole = not text.startswith("-") and not _is_sum(expression)
         return text if is_whole else rf"\left({text}\right)"

@@ -16,9 +16,7 @@ from garkcli.exact.enclosing import isolated
 from garkcli.frozen import replace
 
 MAX_POLYNOMIAL_DEGREE = 12
-"""Largest degree of such a polynomial."""
 MAX_COEFFICIENT_BITS = 4_000
-"""Longest coefficient of such a polynomial."""
 BITS = 128
 """First precision for comparing distances; it doubles until they differ."""
 MOST_BITS = 1 << 16
@@ -29,11 +27,10 @@ VARIABLE = "x"
 def root_nearest(
     polynomial: nodes.Expression, near: nodes.Expression, start: int, end: int
 ) -> nodes.Expression:
-    """Returns the real root of a polynomial nearest to a number; a ``Literal`` if it is rational.
+    """The real root nearest to a number, a ``Literal`` if it is rational.
 
-    ``start`` and ``end`` are the offsets of the text. Raises ExpressionError if it is not a
-    polynomial in x, or ``near`` is not a number; UndefinedValue without a real root, or with two
-    equally near; LimitExceeded beyond the limits of this module.
+    ``start`` and ``end`` are offsets. Raises ExpressionError without a polynomial in x or a number;
+    UndefinedValue without a real root, or with two equally near; LimitExceeded.
     """
     p = polynomial_in_x(polynomial)
     if p.degree() < 1:
@@ -69,7 +66,6 @@ def _decimals(expression: nodes.Expression) -> Iterator[nodes.Literal]:
 def _nearest(
     p: fmpq_poly, target: fmpq, at: nodes.Expression, near: nodes.Expression
 ) -> tuple[fmpz_poly, int]:
-    """The irreducible factor with the nearest root, and the index of that root."""
     _, factors = p.numer().factor()
     bits = BITS
     while bits <= MOST_BITS:
@@ -95,7 +91,6 @@ def _nearest(
 
 
 def polynomial_in_x(expression: nodes.Expression) -> fmpq_poly:
-    """The value of an expression in ℚ[x]."""
     match expression:
         case nodes.Literal(value=value):
             return fmpq_poly([value])
@@ -130,7 +125,6 @@ def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: nodes.Expression) 
 
 
 def _power(base: fmpq_poly, exponent: int, at: nodes.Expression) -> fmpq_poly:
-    """A power; one that would be too long is refused before it is computed."""
     if exponent < 0:
         if base.degree() > 0:
             raise _error("a polynomial is not divided by x", at)

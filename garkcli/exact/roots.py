@@ -90,12 +90,7 @@ def _integers(polynomial: fmpz_poly) -> tuple[int, ...]:
 
 
 def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
-    """The distinct real roots in ascending order, with their multiplicities.
-
-    Over a number field they are roots of the norm with positive multiplicity in p.
-
-    Raises:
-        ValueError: p is zero.
+    """The distinct real roots in ascending order, with their multiplicities; p is not zero.
 
     >>> real_roots(Polynomial([2, -3, 0, 1]))
     [(<RealRoot -2>, 1), (<RealRoot 1>, 2)]
@@ -117,7 +112,6 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
 
 
 def factors_of(p: fmpz_poly) -> list[tuple[fmpz_poly, int]]:
-    """The irreducible factors over ℤ that are not constant, with their multiplicities."""
     is_large = p.degree() * int(p.height_bits()) > LARGE
     return apart(_factors, p) if is_large else _factors(p)
 
@@ -127,11 +121,6 @@ def _factors(p: fmpz_poly) -> list[tuple[fmpz_poly, int]]:
 
 
 def is_nonnegative(p: Polynomial) -> bool:
-    """Whether p(y) ≥ 0 for all real y, decided exactly.
-
-    >>> is_nonnegative(Polynomial([1, -2, 1])), is_nonnegative(Polynomial([1, -3, 1]))
-    (True, False)
-    """
     if not p:
         return True
     if sign(p.leading) < 0 or p.degree % 2:
@@ -141,9 +130,7 @@ def is_nonnegative(p: Polynomial) -> bool:
 
 
 def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) -> int:
-    """Returns the multiplicity of ``root`` as a root of p ≠ 0, decided exactly. ``together`` is its
-    multiplicity in the norm, if known.
-    """
+    """The multiplicity of a root of p ≠ 0; ``together`` is that in the norm, if known."""
     if together is None:
         together = _multiplicity(p.norm(), root.polynomial)
     field = p.field
@@ -176,7 +163,6 @@ def _multiplicity(p: fmpz_poly, factor: fmpz_poly) -> int:
 
 
 def _multiplicity_by_gcds(p: Polynomial, root: RealRoot) -> int:
-    """The multiplicity by common divisors over the number field."""
     multiplicity = 0
     while p and _is_root(p, root):
         multiplicity += 1
@@ -202,7 +188,6 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
 
 
 def _sign_in_balls(p: Polynomial, root: RealRoot, bits: int) -> int:
-    """1 or −1; 0 where balls of a precision leave it open."""
     with ctx.workprec(bits):
         ball = p.enclosed_at(root.ball(bits))
     return int(ball > 0) - int(ball < 0)
@@ -255,8 +240,7 @@ def sign(number: Number) -> int:
 
 
 def roots_below(M: fmpq_poly, x: fmpq) -> int:
-    """The number of roots smaller than x of a polynomial with only real roots, exact by Descartes'
-    rule.
+    """The number of roots below x if all roots of M are real, by Descartes' rule.
 
     >>> roots_below(fmpq_poly([0, 2, -3, 1]), fmpq(2))  # the roots 0, 1, 2
     2
@@ -267,7 +251,7 @@ def roots_below(M: fmpq_poly, x: fmpq) -> int:
 
 
 def root_within(p: Polynomial, ball: Callable[[int], arb]) -> RealRoot:
-    """Returns the real root of a polynomial that a ball encloses, to about so many bits."""
+    """The real root that a ball of so many bits encloses."""
     candidates = [x for x, _ in real_roots(p)]
     bits = FIRST_BITS
     while len(candidates) > 1:
@@ -295,12 +279,7 @@ def number_of(root: RealRoot, most_degree: int) -> Number | None:
 
 
 def square_root(x: RealRoot) -> RealRoot:
-    """The square root of a number ≥ 0: squaring keeps the order of positive numbers.
-
-    >>> from flint import fmpq
-    >>> square_root(RealRoot.rational(fmpq(9, 4))).exact
-    3/2
-    """
+    """The square root of a number ≥ 0: squaring keeps the order of positive numbers."""
     origin = RealRoot.rational(ZERO)
     if x == origin:
         return origin

@@ -6,11 +6,6 @@ from flint import fmpq
 
 
 def in_decimals(number: fmpq, digits: int) -> str:
-    """The nearest decimal with ``digits`` decimals; ``0`` if that is zero.
-
-    >>> in_decimals(fmpq(-1, 3), 4), in_decimals(fmpq(0), 4)
-    ('-0.3333', '0')
-    """
     rounded = int((abs(number) * fmpq(10) ** digits + fmpq(1, 2)).floor())
     if not rounded:
         return "0"

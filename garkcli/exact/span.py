@@ -1,8 +1,6 @@
 """Spans over ℚ, grown by exact elimination, and pivot columns of matrices.
 
-A vector joins the span when it is linearly independent of the members. With vectors (1, point), a
-point joins if it is no affine combination of those before. Many candidates are eliminated at once
-in python-flint.
+With vectors (1, point), a point joins a span if it is no affine combination of those before.
 """
 
 from __future__ import annotations
@@ -20,7 +18,6 @@ def pivot_columns(matrix: fmpq_mat) -> list[int]:
 
 
 def leading_columns(reduced: fmpq_mat) -> list[int]:
-    """The column of the first entry in each nonzero row of a reduced echelon form."""
     columns = []
     for row in reduced.tolist():
         first = next((j for j, x in enumerate(row) if x), None)
@@ -53,7 +50,7 @@ class Span:
         return len(self) == self.dimension
 
     def insert(self, vectors: Sequence[Sequence[fmpq]]) -> list[int]:
-        """Inserts ``vectors`` from left to right; returns the indices where the span grew."""
+        """The indices of vectors, from left to right, with which the span grows."""
         check_time()
         if not vectors or self.is_full:
             return []
@@ -70,7 +67,6 @@ class Span:
         return chosen
 
     def _reduce(self, candidates: fmpq_mat) -> fmpq_mat:
-        """Candidates minus their part along the echelon rows: zero for vectors in the span."""
         if not self._pivots:
             return candidates
         at_pivots = [[row[p] for p in self._pivots] for row in candidates.tolist()]

@@ -23,10 +23,9 @@ _X = fmpq_poly([0, 1])
 
 
 class Tower(Frozen):
-    """A field ℚ(θ) with the real numbers adjoined so far.
+    """A field ℚ(θ) with the real numbers adjoined so far; θ = Σ combination[i] · elements[i].
 
-    ``modulus`` is the minimal polynomial of θ, x for ℚ itself; ``elements`` are the adjoined
-    numbers as polynomials in θ, and θ = Σ combination[i] · elements[i].
+    ``modulus`` is the minimal polynomial of θ, x for ℚ; ``elements`` are polynomials in θ.
     """
 
     modulus: fmpq_poly
@@ -38,10 +37,10 @@ class Tower(Frozen):
         return int(self.modulus.degree())
 
     def adjoin(self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]) -> Tower:
-        """Returns the field with a real root y of yⁿ = r_0 + r_1 y + … adjoined.
+        """The field with a real root y of yⁿ = r_0 + r_1 y + … adjoined, n ≥ 2, no double root.
 
-        ``relation`` has the r_j as polynomials in θ, n ≥ 2; the equation has no double root.
-        ``values`` encloses all elements, then y, at the current precision of flint.
+        ``relation`` has the r_j as polynomials in θ; ``values`` encloses all elements, then y, at
+        the precision of ``flint.ctx``.
         """
         multiply_y, multiply_theta = self._multiplications(relation)
         for k in count():
@@ -82,7 +81,7 @@ RATIONALS = Tower(_X, (), ())
 
 
 def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_poly]:
-    """Elements given by their multiplication matrices, as polynomials in the generator."""
+    """Elements, as multiplication matrices, in powers of the generator."""
     size = generator.nrows()
     one = fmpq_mat(size, 1)
     one[0, 0] = fmpq(1)
@@ -99,9 +98,7 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
 def _vanishing_factor(
     characteristic: fmpq_poly, combination: tuple[int, ...], values: Callable[[], list[arb]]
 ) -> fmpq_poly:
-    """The irreducible factor that vanishes at Σ combination·values. The factors have no common
-    root, so enough digits exclude all but one.
-    """
+    """The factors have no common root, so enough digits exclude all but one."""
     _, factors = characteristic.factor()
     candidates = [fmpq_poly(factor) for factor, _ in factors]
     with ctx.workprec(ctx.prec):

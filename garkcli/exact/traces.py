@@ -15,9 +15,7 @@ class Untold(ValueError):
 
 
 class Trace:
-    """A printed number, or an expression of some. A trace is never zero, and equal to nothing but
-    itself. ``told`` is its expression, ``length`` the number of leaves in it.
-    """
+    """A printed number, or an expression of ``length`` leaves; true, equal to itself alone."""
 
     __slots__ = ("length", "told")
 
@@ -26,7 +24,7 @@ class Trace:
         self.length = length
 
     def height_bits(self) -> int:
-        """0: the number of digits does not grow."""
+        """0, as the number of digits does not grow."""
         return 0
 
     def _joined(self, sign: str, other: Any, is_turned: bool = False) -> Trace:
@@ -68,14 +66,11 @@ class Trace:
         return 1 / result if exponent < 0 else result
 
     def root(self, index: int) -> Trace:
-        """Always raises Untold: a recomputation has sums and products only."""
         raise Untold(f"a rounded number is under a root of index {index}")
 
 
 def told(number: Any) -> Told:
-    """Returns the expression of a number, a trace or not.
-
-    Raises Untold if it is only known as a ball.
+    """The expression of a number; Untold if it is only known as a ball.
 
     >>> x = Trace(1)
     >>> told(1 - x * x / 3)
@@ -92,7 +87,7 @@ def told(number: Any) -> Told:
 
 
 def rational_text(number: fmpq) -> str:
-    """A rational number as a fraction, or in decimals if that is shorter; without an exponent.
+    """A fraction, or decimals without an exponent if they are shorter.
 
     >>> rational_text(fmpq(1, 3)), rational_text(fmpq(1, 10**6)), rational_text(fmpq(-3, 250))
     ('1/3', '0.000001', '-0.012')
