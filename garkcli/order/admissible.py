@@ -14,7 +14,6 @@ from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Colour, Tableau
 
 _Place: TypeAlias = tuple[int, Tree]
-"""The stage space that sees a branch, and the branch."""
 
 _CURE = "gark conditions FILE lists the trees of a method"
 
@@ -27,9 +26,7 @@ class TreeVectors:
         self._images: dict[_Place, Vector] = {}
 
     def of(self, tree: Tree) -> Vector:
-        """𝒜^[u], eqs. (Ataul) and (Au). Raises MethodError if the coupling graph does not admit the
-        tree.
-        """
+        """𝒜^[u], eqs. (Ataul) and (Au); MethodError if the coupling graph does not admit u."""
         colour = self.tableau.colours[tree.root]
         if not colour.kind.allows(len(tree.branches)):
             message = f"colour {colour.name} is linear: its vertices have one branch at most"
@@ -61,12 +58,10 @@ class TreeVectors:
 
 
 def elementary_weights(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[tuple[Tree, Number]]:
-    """Each tree, as the tableau knows it, with b_lᵀ 𝒜^[u]; stage vectors of shared branches are
-    computed once.
+    """The trees with b_lᵀ 𝒜^[u], exact.
 
-    Raises:
-        MethodError: a tree that the coupling graph does not admit, or beyond the order up to which
-            the conditions are known.
+    Raises MethodError for a tree that the coupling graph does not admit, or of an order beyond that
+    up to which the conditions are known.
     """
     vectors = TreeVectors(tableau)
     most = tableau.exact_to
@@ -79,12 +74,10 @@ def elementary_weights(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[tupl
 
 
 def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
-    """b_lᵀ 𝒜^[u], exact. Raises MethodError if the coupling graph does not admit the tree."""
     return next(elementary_weights(tableau, [tree]))[1]
 
 
 def is_admissible(tableau: Tableau, tree: Tree) -> bool:
-    """Whether every vertex sees its branches and may have as many."""
     if not tableau.colours[tree.root].kind.allows(len(tree.branches)):
         return False
     for branch in tree.branches:
@@ -96,7 +89,6 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
 
 
 def coupling_graph(tableau: Tableau) -> Admissible:
-    """The admissible trees: which colours see which, and the kinds of their vertices."""
     colours = range(tableau.size)
     branches = tuple(tuple(m for m in colours if tableau.block(l, m) is not None) for l in colours)
     return Admissible(tableau.size, branches, tuple(colour.kind for colour in tableau.colours))
@@ -107,9 +99,10 @@ def are_few(tableau: Tableau, order: int, most: int) -> bool:
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
-    """Groups of root colours with identical conditions, by their first colour; colours without
-    conditions are left out. Colours with the same stages and weights, such as V^l and F^l of the
-    symplectic pair, give every tree the same elementary weight.
+    """Groups of root colours whose stages and weights agree, so that they have identical
+    conditions.
+
+    Keys are their first colours, as for V^l and F^l of the symplectic pair.
     """
     groups: dict[int, tuple[int, ...]] = {}
     for l in tableau.roots:
@@ -124,14 +117,13 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
 
 
 def _are_twins(one: Colour, other: Colour) -> bool:
-    """Whether two colours share stages, weights and the kind of their vertices."""
     if (one.space, one.kind, one.late) != (other.space, other.kind, other.late):
         return False
     return one.b == other.b
 
 
 def count_conditions(tableau: Tableau, order: int) -> int:
-    """The number of conditions of ``order``, those of twin roots counted once."""
+    """Twin roots are counted once."""
     by_root = counts_of(coupling_graph(tableau), order)
     return sum(by_root[root] for root in twin_roots(tableau))
 

@@ -1,21 +1,20 @@
 """Bounds the residuals of all trees of an order without listing the trees.
 
 These are the affine spans of ``certificate`` for rounded coefficients, which are hardly ever
-exactly dependent. Some trees are members, with their normalised stage vectors ψ_i; every other tree
-u of the same order and root colour satisfies
+exactly dependent. Some trees are members, with normalised stage vectors ψ_i; every other tree u of
+the same order and root colour satisfies
 
     ψ(u) = Σ λ_i ψ_i + e,      Σ λ_i = 1,      Σ|λ_i| ≤ Λ,      |e| ≤ ε,      |ψ(u)| ≤ π,
 
 with one Λ for all trees, and vectors ε and π that hold entry by entry. (If the exact solution does
 not have all trees, Σ λ_i is over the members that it has, and 0 for trees that it does not have.)
-The order condition of u is b_lᵀ ψ(u) = 1/ρ, and it is missed by at most
+The order condition b_lᵀ ψ(u) = 1/ρ is missed by at most
 
-    Λ max_i |b_lᵀ ψ_i − 1/ρ| + |b_l|ᵀ ε.
+    Λ max_i |b_lᵀ ψ_i − 1/ρ| + |b_l|ᵀ ε,
 
-Its residual b_lᵀ 𝒜^[u] − 1/γ(u) is ρ/γ ≤ 1 times as large. Λ, ε and π follow branches and products:
-a branch ρ A ψ has Λ, ρ |A| ε and ρ |A| π; a product of independent parts has Λ Λ', π ε' + ε π' + ε
-ε' and π π'. All numbers are balls, so the bounds are proved; the choice of members only makes them
-good or bad.
+the residual b_lᵀ 𝒜^[u] − 1/γ(u) by ρ/γ ≤ 1 times that. A branch ρ A ψ has Λ, ρ |A| ε and ρ |A| π; a
+product of independent parts has Λ Λ', π ε' + ε π' + ε ε' and π π'. All numbers are balls, so the
+bounds are proved; the choice of members only makes them good or bad.
 """
 
 from __future__ import annotations
@@ -39,8 +38,6 @@ Places = list[int]
 
 
 class _Hull(Frozen, eq=False):
-    """Members with the bounds Λ, ε and π for all other trees or forests of their kind."""
-
     members: Sequence[ForestVector]
     weight: arb
     error: Entries
@@ -48,9 +45,7 @@ class _Hull(Frozen, eq=False):
 
 
 class HullSizes(Frozen, eq=False):
-    """Bounds on the residuals of one order. ``bound`` is on |b_lᵀ ψ(u) − 1/ρ| and so on |residual|;
-    ``members`` are pairs of |residual| and tree, the largest first.
-    """
+    """``bound`` is on |b_lᵀ ψ(u) − 1/ρ| ≥ |residual|; members have |residual|, largest first."""
 
     bound: arb
     members: list[tuple[arb, Tree]]
@@ -61,11 +56,7 @@ class HullSizes(Frozen, eq=False):
 
 
 class ApproximateSpans(OrderByOrder[_Hull]):
-    """Computes members and bounds for the branches and forests of each stage space, on demand.
-
-    ``enclosure`` has the entries of the tableau to the working precision; a remainder below
-    ``grain`` counts as an error, not as a member.
-    """
+    """``grain``: remainders below it are errors, not members."""
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
         self.enclosure = enclosure
@@ -76,7 +67,6 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         super().__init__(tableau, [_unit(s) for s in enclosure.stages])
 
     def sizes(self, order: int) -> HullSizes:
-        """A bound on |bᵀψ(u) − 1/ρ| for an order, and the members with their |residuals|."""
         bound = arb(0)
         members: list[tuple[arb, Tree]] = []
         with ctx.workprec(self.enclosure.bits):
@@ -113,9 +103,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         )
 
     def _new_forests(self, k: int, order: int) -> _Hull:
-        """All products of the smallest branch and a forest of the others, and all single branches.
-        The bush comes first: it has the smallest density and often shows that an order fails.
-        """
+        """The bush comes first: it has the smallest density and often shows that an order fails."""
         return self._joined(k, chain(self._products(k, order), [self.branches(k, order)]))
 
     def _new_several(self, k: int, order: int) -> _Hull:
@@ -133,7 +121,6 @@ class ApproximateSpans(OrderByOrder[_Hull]):
 
 
 def _unit(stages: int) -> _Hull:
-    """The hull of the single vertex: its vector is 𝟙, without an error."""
     one = [arb(1)] * stages
     zero = [arb(0)] * stages
     vertex = ForestVector(one, ())
@@ -151,7 +138,6 @@ def _product(x: _Hull, y: _Hull) -> _Hull:
 
 
 def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
-    """A hull with few of the members of all hulls, and bounds for everything in any of them."""
     members = [member for hull in hulls for member in hull.members]
     points: Rows = [[arb(member.exact), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
@@ -171,8 +157,8 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
 def _around(kept: Sequence[ForestVector], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
     """The bounds of one hull around the members that are kept.
 
-    ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,
-    and the remainder of (1, ψ), or of (0, ψ) for a tree that the exact solution does not have.
+    Rows belong to members of the hull: ``weights`` are their λ in those kept, ``misses`` the
+    remainders of (1, ψ), or of (0, ψ) for trees that the exact solution does not have.
     """
     amount = arb(0)
     for row in weights:
@@ -183,7 +169,6 @@ def _around(kept: Sequence[ForestVector], hull: _Hull, weights: Rows, misses: Ro
 
 
 def _in_both(one: _Hull, other: _Hull) -> _Hull:
-    """Bounds that hold in both of two hulls with the same members."""
     weight = one.weight.max(other.weight)
     error = entrywise_max(one.error, other.error)
     return _Hull(other.members, weight, error, entrywise_max(one.size, other.size))
@@ -193,8 +178,7 @@ def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
     """The points (1, ψ) that become members, and λ of each point in them: a row that sums to 1.
 
     The true λ solve the equations of some coordinates, one per member and the first among them, so
-    balls around the solution hold weights whose sum is exactly 1. The same holds for points (0, ψ)
-    of trees that the exact solution does not have.
+    balls around the solution hold weights whose sum is exactly 1; likewise for points (0, ψ).
     """
     chosen, columns = _pivots(arb_mat(points), grain)
     while True:
@@ -211,9 +195,10 @@ def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
 
 
 def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
-    """Rows far from each other's affine hull, and one column for each, by elimination with the
-    largest pivots. The first pivot is a 1 in the first column, so that combinations of rows that
-    agree there are affine; if that column is 0, it is the largest entry.
+    """Rows far from each other's affine hull, and a column for each: the largest pivots.
+
+    The first pivot is a 1 in the first column, so combinations of rows that agree there are affine;
+    if that column is 0, it is the largest entry.
     """
     rest = points.mid()
     ones = [i for i in range(rest.nrows()) if rest[i, 0] != 0]

@@ -28,21 +28,17 @@ from garkcli.tableau.tableau import Edge, Tableau
 MAX_CONDITIONS = 20_000
 MAX_ENTRIES = 2_000
 FEW_CHECKED = 20
-"""Failing conditions that are examined before the order is known."""
 NEAR = 10
 """Largest distance of a row sum from its node, in tolerances: the rounding of all entries."""
 FEW_ENTRIES = 400
 FEW_CONDITIONS_UNASKED = 2_000
-"""Most conditions that are evaluated without a claim."""
 
 
 class MissedOrder(Frozen):
-    """A claimed order that the method misses.
+    """``order`` is the first failing one, ``of`` the key of the claim.
 
-    ``order`` is the first failing one, ``of`` the key of the claim. With ``is_embedded`` it is the
-    order of embedded weights, and only these may be wrong if they are exact. With ``keeps_shape``
-    zeros outside the pattern of a block, such as the diagonal of an explicit method, are taken to
-    be right.
+    Of ``is_embedded`` claims only exact weights may be wrong. With ``keeps_shape`` zeros outside
+    the pattern of a block, as on the diagonal of an explicit method, are right.
     """
 
     order: int
@@ -52,7 +48,6 @@ class MissedOrder(Frozen):
     keeps_shape: bool = False
 
     def made_of(self, method: Tableau) -> Tableau | None:
-        """The tableau that the claim is about; None if it divides by a zero weight."""
         try:
             return printed(derived(method, self.of))
         except ZeroWeight:
@@ -62,9 +57,7 @@ class MissedOrder(Frozen):
 def repairs(
     method: AnyTableau, missed: MissedOrder, failing: Sequence[Condition]
 ) -> Iterator[Repair]:
-    """Single entries whose change restores the claimed order. With exact coefficients the new value
-    solves one failing condition.
-    """
+    """Single entries that restore the claimed order; exact ones solve a failing condition."""
     if not isinstance(method, Tableau):
         from garkcli.order.suspects import suspects  # slopes, which exact methods do without
 
@@ -90,7 +83,7 @@ def repairs(
 
 
 def named_block(tableau: Tableau, edge: Edge) -> Edge:
-    """The block (l, m) with l the first colour that shares its stages: one name for each block."""
+    """(l, m) with l the first colour that shares its stages: one name for each block."""
     l, m = edge
     spaces = [colour.space for colour in tableau.colours]
     return spaces.index(spaces[l]), m
@@ -121,9 +114,7 @@ def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator
 
 
 def _reach(block: Matrix) -> int:
-    """The number of entries in the first row of a block within its pattern, row i having i − 1
-    more: 0 if strictly lower triangular, 1 if lower triangular, all if full.
-    """
+    """Entries in the first row of a block within its pattern, row i having i − 1 more."""
     for reach in (0, 1):
         if not any(any(row[i + reach :]) for i, row in enumerate(block)):
             return reach
@@ -137,9 +128,7 @@ def _has_points(method: Tableau, l: int) -> bool:
 def _solution(
     method: Tableau, missed: MissedOrder, entry: RepairedEntry, failing: Condition
 ) -> Number | None:
-    """The value of an entry with which a failing condition holds, if it is linear in the entry:
-    from its values at the entry and at one and two beyond. None if not linear or constant.
-    """
+    """The root of a failing condition in an entry, if linear: from its values there and beyond."""
     values = [failing.value]
     for step in (ONE, ONE + ONE):
         moved = missed.made_of(entry.put(method, entry.old + step))
@@ -157,17 +146,13 @@ class Blame(Frozen):
     """The diagnosis of the conditions of the first failing order.
 
     Attributes:
-        in_every: the blocks (l, m) that take part in every failing condition.
-        in_none: the blocks that take part in none.
-        culprit: among ``in_every``, the block whose conditions fail most often; None if there is no
-            single one.
-        only_coupling: whether every failing condition mixes colours, so the diagonal methods are
-            right.
+        in_every, in_none: the blocks (l, m) in every failing condition, and those in none.
+        culprit: the block in ``in_every`` whose conditions fail most often; None if not single.
+        only_coupling: whether every failing condition mixes colours.
         names: the colours of the tableau whose conditions fail.
-        restores: other claims that fail, and hold with the first of ``repairs``: consequences of
-            the same fault.
+        restores: other claims that fail, and hold with the first of ``repairs``.
         restored: without a claimed order, the order with any of the repairs.
-        within: the tolerance that a remark proposes for the file, where the diagnosis assumes it.
+        within: the tolerance that a remark proposes for the file, where it is assumed.
     """
 
     order: int
@@ -189,11 +174,10 @@ class Blame(Frozen):
 def blame_of(
     method: AnyTableau, missed: MissedOrder, known: tuple[Repair, ...] | None = None
 ) -> Blame | None:
-    """Examines all conditions of the first failing order of a method, its conjugate or their pair.
+    """Examines all conditions of the first failing order; None if they are too many.
 
-    ``method`` is the tableau whose entries may be wrong: an exact one has the embedded weights as b
-    if these miss the order. ``known`` are its repairs, if known already. None if there are more
-    than ``MAX_CONDITIONS`` conditions.
+    ``method`` has the entries that may be wrong, with embedded weights as b if these miss the
+    order; ``known`` are its repairs, if known already.
     """
     judged = derived(method, missed.of)
     tableau = printed(judged)
@@ -240,11 +224,10 @@ def blame_of(
 
 @doing("which entry is wrong")
 def slip_of(method: AnyTableau, missed: MissedOrder, found: AnyOrder) -> Blame | None:
-    """Finds a single entry that costs a method several orders, if no order is claimed.
+    """A single entry that costs a method several orders, without a claim; None if there is none.
 
     Some value of an entry may satisfy a condition by chance, but hardly all of two orders. One
-    order is enough for an entry whose row then sums to its printed node. None if there is no such
-    entry, or the search would take long.
+    order is enough for an entry whose row then sums to its printed node.
     """
     order, tableau = found.order, printed(method)
     missed = replace(missed, order=order + 1, claimed=order + 1, keeps_shape=True)
@@ -282,7 +265,6 @@ def _restoring(
 
 
 def _fits_node(method: AnyTableau, repair: Repair) -> bool:
-    """Whether the row of an entry sums to its node after the repair, but not before."""
     if repair.m is None or repair.i is None:
         return False
     tableau, near = printed(method), NEAR * (tolerance_of(method) or ZERO)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 INDEPENDENT = 1e-6
 """Rows with a smaller part outside the span of the others count as dependent."""
 END = 1 - 1e-8
-"""Bound of a step to first order; the rest is left for second-order terms."""
+"""Bound of a step to first order: second-order terms have the rest."""
 RIDGE = 1e-3
 """Cost of a shift by its radius, in the compromise between rows that exclude each other."""
 MISS = 1e-9
@@ -28,11 +28,7 @@ FLOOR = 1e-10
 
 
 class Solver:
-    """Newton steps with the slopes at one method.
-
-    ``rows`` are those at the method, ``radius`` is the largest of the printed numbers. Numbers of a
-    group move together; those in ``fixed`` do not move.
-    """
+    """Newton steps with the slopes of ``rows`` at one method; ``groups`` of numbers are tied."""
 
     def __init__(
         self, rows: Forms, radius: float, groups: Sequence[int], fixed: Floats | None = None
@@ -48,7 +44,7 @@ class Solver:
         self._cut = 0.0
 
     def nearest(self, parts: Sequence[arb], shifts: Sequence[fmpq], cut: float) -> Floats | None:
-        """The shifts of the method nearest to the print, to first order; None without any."""
+        """The shifts nearest to the print, to first order; None without any."""
         here = np.array([to_float(x) for x in shifts])
         floats = np.array([float(x.mid()) for x in parts])
         near = nearest(self.slopes, floats - self.alone @ here, cut)
@@ -71,7 +67,6 @@ class Solver:
 
 
 def together(slopes: Floats, groups: Floats) -> Floats:
-    """The slopes of groups of numbers that move together: sums of columns."""
     count = int(groups.max(initial=-1)) + 1
     if count == slopes.shape[1]:
         return slopes
@@ -82,7 +77,6 @@ def together(slopes: Floats, groups: Floats) -> Floats:
 
 
 def orthonormal(rows: Floats) -> Floats:
-    """An orthonormal basis of the span of rows, without directions that are rounding."""
     norms = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
     _, s, v = np.linalg.svd(rows / norms[:, None], full_matrices=False)
     basis: Floats = v[: int((s > INDEPENDENT).sum())]
@@ -90,7 +84,6 @@ def orthonormal(rows: Floats) -> Floats:
 
 
 def scaled(rows: Forms) -> tuple[Floats, Floats, Floats]:
-    """Centres and slopes scaled by the reach of each row, and these scales."""
     scale = np.maximum(rows.reach + rows.remainders, 1e-300)
     return rows.middle / scale, rows.slopes / scale[:, None], scale
 
@@ -123,9 +116,7 @@ def compromise(G: Floats, c: Floats) -> Floats:
 
 
 def bounded_least_squares(G: Floats, c: Floats) -> Floats:
-    """The x with |x_k| ≤ 1 that minimises |c + G x|, by active sets (P. Stark, R. Parker,
-    *Bounded-variable least-squares*, 1995).
-    """
+    # active sets (P. Stark, R. Parker, *Bounded-variable least-squares*, 1995)
     count = G.shape[1]
     if len(G) > count:  # sums of squares up to a constant
         q, G = np.linalg.qr(G)
@@ -162,8 +153,8 @@ def bounded_least_squares(G: Floats, c: Floats) -> Floats:
 def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
     """The smallest x with |x_k| ≤ 1 and c + J x = 0, up to rounding; None if none is found.
 
-    Entries beyond an end are held close to it, or at it if needed: numbers halfway between two
-    decimals are rounded by their radius. They are released if the others pull them back.
+    Entries beyond an end are held close to it, or at it if needed (numbers halfway between two
+    decimals are rounded by their radius), and released if the others pull them back.
     """
     for end, miss in ((END, 1e-4 * (1 - END)), (1.0, MISS), (END, MISS)):
         x = _nearest(J, c, cut, end, miss)
@@ -173,7 +164,6 @@ def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
 
 
 def _nearest(J: Floats, c: Floats, cut: float, end: float, miss: float) -> Floats | None:
-    """``nearest`` with |x_k| ≤ ``end`` and residuals up to ``miss``."""
     count = J.shape[1]
     held = np.zeros(count)
     for _ in range(count + 20):
@@ -210,5 +200,4 @@ def exactly(x: float) -> fmpq:
 
 
 def dyadic(x: float, bits: int) -> fmpq:
-    """A float, truncated to ``bits`` binary places."""
     return fmpq(int(x * 2.0**bits), 1 << bits)

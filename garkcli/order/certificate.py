@@ -1,12 +1,12 @@
 """The exact order, with a witness, in time polynomial in the order.
 
-Instead of evaluating every tree, compute the affine spans of the normalised stage vectors
+The affine spans of the normalised stage vectors
 
     ψ(u) = γ(u)/ρ(u) · 𝒜^[u],      ψ(τ) = 𝟙,      ψ(u) = ⊙_i A^{l,ν_i} (ρ(u_i) ψ(u_i)),
 
-in which the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u). The right-hand side depends on the order
-alone and ψ is affine in each branch, so all conditions of one order hold if and only if they hold
-for a set of trees whose ψ span, and at most s + 1 per colour are needed. If there are trees that
+decide it: the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u), with a right-hand side that depends on
+the order alone, and ψ is affine in each branch. So all conditions of one order hold if and only if
+they hold for trees whose ψ span, and at most s + 1 per colour are needed. If there are trees that
 the exact solution does not have, the spans are those of (ε(u), ψ(u)), with ε(u) = 0 for these and 1
 for the others. ``docs/exact-order.md`` has the proof.
 """
@@ -30,7 +30,6 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 DEFAULT_LIMIT = 60
-"""The order at which the search stops if nothing has failed."""
 
 
 class Witness(Shown, Frozen):
@@ -103,10 +102,9 @@ class Order(Shown, Frozen):
 def find_order(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> Order:
-    """Returns the exact order of a tableau, at most ``limit``, by affine spans.
+    """The exact order, at most ``limit``, by affine spans of the trees of the coupling graph.
 
-    The coupling graph of the tableau decides which trees count. ``spans`` are its stage vectors, if
-    some are known; they do not depend on weights.
+    ``spans`` are stage vectors that are known; they do not depend on weights.
     """
     spans = spans or StageSpans(tableau)
     limit = min(limit, tableau.exact_to or limit)
@@ -118,8 +116,9 @@ def find_order(
 
 
 def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
-    """The first condition of an order that fails. If rounding may explain it, the one with the
-    largest residual: all residuals are combinations of those of the spanning trees.
+    """The first condition of an order that fails; if rounding may explain it, the largest.
+
+    All residuals are combinations of those of the spanning trees.
     """
     largest: Witness | None = None
     # the blocks of a family have no coefficients that could be rounded, nor has a root that a
@@ -152,7 +151,7 @@ def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
 
 
 def required_of(tree: Tree, share: int = 1) -> fmpq:
-    """The elementary weight of the exact solution: share/γ(u), or 0 without such a tree."""
+    """share/γ(u), or 0 if the exact solution has no such tree."""
     return fmpq(share * tree.is_exact, tree.density)
 
 
@@ -178,8 +177,9 @@ class StageSpans(Spans):
 def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
-    """Yields for each colour the trees with that root whose ψ span those of all trees of an order,
-    order by order, over ℚ at most s + 1. ``orders`` are ascending from 1.
+    """By colour, trees with that root whose ψ span those of all: over ℚ at most s + 1.
+
+    ``orders`` are ascending from 1.
     """
     spans = StageSpans(tableau)
     for order in orders:
@@ -208,6 +208,5 @@ class Proof(Frozen):
 
 
 def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
-    """The exact order of a tableau with its spanning trees, up to the order ``limit``."""
     order = find_order(tableau, limit)
     return Proof(tableau, order, tuple(all_spanning_trees(tableau, range(1, order.order + 1))))

@@ -68,9 +68,7 @@ class Condition(Shown, Frozen):
 
     @property
     def is_coupling(self) -> bool:
-        """Whether every tree has more than one colour; otherwise the condition is one of a diagonal
-        method.
-        """
+        """Whether every tree has several colours: no condition of a diagonal method."""
         return all(len(tree.colours) > 1 for tree in self.trees)
 
     def __repr__(self) -> str:
@@ -81,11 +79,6 @@ class Condition(Shown, Frozen):
 
 
 def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]:
-    """The conditions of ``trees``.
-
-    Raises:
-        MethodError: as ``elementary_weights``.
-    """
     for tree, value in elementary_weights(printed(method), trees):
         if isinstance(method, Tableau) or value == required_of(tree):
             yield Condition(tree, value)

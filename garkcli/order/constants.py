@@ -27,14 +27,10 @@ from garkcli.tableau.tableau import Tableau
 EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly, not in floats."""
 EXACT_ESTIMATES = 300
-"""Most conditions of the error estimate that are evaluated exactly; every check has them."""
 _BITS = 128
-"""Bits of norms before they become floats."""
 MAX_TREES = 10_000_000
-"""Most trees up to an order for which error constants are computed."""
 Mask: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.bool_]]"
 _Coefficient: TypeAlias = "tuple[Number, Sequence[Tree]]"
-"""e(u), and the trees u that share it, with different root colours."""
 
 
 class Norms(Frozen):
@@ -42,9 +38,9 @@ class Norms(Frozen):
 
     Attributes:
         two_squared: Σ e(u)² if the coefficients are exact, else None.
-        two: (Σ e(u)²)^½, a float.
-        largest: max |e(u)|, a float.
-        worst: a tree with the largest |e(u)|; None if all are zero or there are no trees.
+        two: (Σ e(u)²)^½.
+        largest: max |e(u)|.
+        worst: a tree with the largest |e(u)|; None if all are zero.
         worst_value: e(worst) if the coefficients are exact, else None.
     """
 
@@ -57,11 +53,7 @@ class Norms(Frozen):
 
 
 class ErrorConstants(Frozen):
-    """Norms of the error coefficients of one order, one more than that of the method.
-
-    ``is_exact`` says that the coefficients were computed exactly, not in floats; ``coupling`` is
-    over the trees with more than one colour.
-    """
+    """``order`` is one more than the method's; ``coupling`` is over trees of several colours."""
 
     order: int
     is_exact: bool
@@ -70,15 +62,16 @@ class ErrorConstants(Frozen):
 
 
 def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
-    """The error constants at ``order``; None if there are more than ``MAX_TREES`` trees."""
+    """None if there are more than ``MAX_TREES`` trees."""
     return _constants(tableau, order, 1, EXACT_CONDITIONS)
 
 
 def estimate_constants(
     difference: Tableau, order: int, is_rounded: bool = False
 ) -> ErrorConstants | None:
-    """Returns the norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u), those of the error estimate h Σ (b_i − b̂_i)
-    k_i. ``difference`` has the weights b − b̂. For rounded coefficients exact norms mean nothing.
+    """Norms of the (b − b̂)_lᵀ 𝒜^[u] / σ(u) of the error estimate h Σ (b_i − b̂_i) k_i.
+
+    ``difference`` has the weights b − b̂. For rounded coefficients exact norms mean nothing.
     """
     exact = 0 if is_rounded else EXACT_ESTIMATES
     return _constants(difference, order, 0, exact)

@@ -14,15 +14,12 @@ if TYPE_CHECKING:
     from garkcli.order.rounded import RoundedOrder
 
 AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
-"""An order found exactly, or within a tolerance."""
 
 
 def order_of(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> AnyOrder:
-    """Returns the order of an exact or a rounded tableau, at most ``limit``. ``spans`` are its
-    stage vectors, if some are known; they do not depend on weights.
-    """
+    """The order, at most ``limit``; ``spans`` are known stage vectors, whatever the weights."""
     if isinstance(method, Tableau):
         return find_order(method, limit, spans)
     # balls, which exact methods do without
@@ -34,7 +31,7 @@ def order_of(
 def nonautonomous(
     method: AnyTableau, order: AnyOrder, inconsistent: Sequence[Edge], limit: int
 ) -> AnyOrder | None:
-    """Returns the order for ẏ = f(t, y), which is the order itself if A^{l,m} 𝟙 = c^{l}."""
+    """The order for ẏ = f(t, y), which is the order itself if A^{l,m} 𝟙 = c^{l}."""
     timed = with_time(method) if isinstance(method, Tableau) else method.with_time()
     if timed is None:
         return None

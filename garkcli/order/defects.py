@@ -14,9 +14,7 @@ from garkcli.tableau.tableau import Edge, Tableau
 
 
 class Defects:
-    """The conditions on one tableau as left side minus right side; powers of its nodes are cached.
-    ``entries`` are computed with: the tableau's own, or others in their place.
-    """
+    """Left sides minus right sides for one tableau, computed with ``entries``."""
 
     def __init__(self, tableau: Tableau, entries: Tableau | None = None) -> None:
         self.tableau = tableau
@@ -32,7 +30,6 @@ class Defects:
         return powers[exponent]
 
     def precision(self) -> AbstractContextManager[object]:
-        """The precision of the arithmetic inside."""
         return nullcontext()
 
     def weights(self, l: int) -> Vector:
@@ -77,7 +74,6 @@ class Defects:
             return (dot(weighted, image) - fmpq(1, 2 * (k + 1) ** 2),)
 
     def of(self, letter: str, l: int, m: int, k: int) -> Vector:
-        """The defect of a condition by its letter; B belongs to the colour l."""
         found: Vector = self.B(l, k) if letter == "B" else getattr(self, letter)(l, m, k)
         return found
 
@@ -94,9 +90,7 @@ class Defects:
 
 
 class BoxDefects(Defects):
-    """The defects of many methods at once: balls, which contain 0 if one of them has none.
-    ``tableau`` is one of the methods, ``balls`` encloses all of them on point stages.
-    """
+    """The defects of a box on point stages as balls: they contain 0 if one method has none."""
 
     def __init__(self, tableau: Tableau, balls: Tableau, bits: int) -> None:
         super().__init__(tableau, balls)
@@ -113,8 +107,6 @@ class BoxDefects(Defects):
 
 
 class RoundedDefects(BoxDefects):
-    """The defects of the method that a tableau is taken to mean, in balls."""
-
     def __init__(self, near: Tableau, grain: fmpq) -> None:
         from garkcli.tableau.enclosure import in_balls  # balls, which exact methods do without
 

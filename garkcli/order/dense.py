@@ -1,13 +1,12 @@
-"""The order of dense output x + h Σ b_i(θ) k_i for all θ at once, and the smoothness of its pieces.
+"""The order of dense output x + h Σ b_i(θ) k_i for all θ, and the smoothness of its pieces.
 
 With b_i(θ) = Σ_k B_ik θ^k the condition of a tree u, Σ_i b_i(θ) 𝒜^[u]_i = θ^ρ(u)/γ(u), is one of
-polynomials in θ: B_kᵀ 𝒜^[u] is 1/γ(u) for k = ρ(u) and zero for every other k. So the order is no
-larger than the degree, and each power of θ is a functional at the stages (``order.functionals``).
-Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.6.
+polynomials in θ: B_kᵀ 𝒜^[u] is 1/γ(u) for k = ρ(u) and zero for every other k. So the order is at
+most the degree, and each power of θ is a functional at the stages (``order.functionals``; Hairer,
+Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.6).
 
-At θ = 0 the output is x. It is continuous if b(1) = b. Its slope h Σ b_i'(θ) k_i is continuous, for
-all step sizes, if it is h f(x_0) at θ = 0 and h f(x_1) at θ = 1; two further stages, at x_0 and
-x_1, decide that.
+The output is continuous if b(1) = b. Its slope h Σ b_i'(θ) k_i is continuous, for all step sizes,
+if it is h f(x_0) at θ = 0 and h f(x_1) at θ = 1; two further stages, at x_0 and x_1, decide that.
 """
 
 from __future__ import annotations
@@ -42,13 +41,12 @@ class DenseWitness(Frozen):
 
 
 class DenseOrder(Shown, Frozen):
-    """The order of dense output.
+    """The order of dense output, for all θ.
 
     Attributes:
-        order: every condition up to it holds, for all θ; within ``tolerance`` if there is one.
-        witness: a failing condition of the next order; None if the search stopped or it is
-            undecided.
-        undecided: why the next order is undecided; empty otherwise.
+        order: within ``tolerance`` if there is one.
+        witness: a failing condition of the next order; None if not searched or undecided.
+        undecided: why the next order is undecided, or empty.
         tolerance: the rounding of the coefficients; None for exact ones.
 
     >>> from garkcli import analyse
@@ -74,7 +72,6 @@ class DenseOrder(Shown, Frozen):
 def dense_order(
     method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseOrder:
-    """Returns the largest order ≤ ``limit`` of dense output, for every θ."""
     known = dense if isinstance(method, Tableau) else method.further.dense or dense
     functionals = [Functional(known.coefficients(k), k) for k in range(1, dense.degree + 1)]
     # the next power has no coefficients, and its order should have one
@@ -113,19 +110,13 @@ def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:
 
 
 class Slopes(Frozen):
-    """Whether the slope of dense output is continuous from step to step, on autonomous problems.
-
-    Attributes:
-        at_start: whether it is f(x_0) at θ = 0; None if undecided.
-        at_end: whether it is f(x_1) at θ = 1; None if undecided.
-    """
+    """Whether the slopes at θ = 0 and 1 are f(x_0) and f(x_1), if autonomous; None if undecided."""
 
     at_start: bool | None
     at_end: bool | None
 
     @property
     def are_continuous(self) -> bool | None:
-        """Whether both ends are right, so pieces of any step sizes fit; None if undecided."""
         both = {self.at_start, self.at_end}
         if both == {True}:
             return True
@@ -133,14 +124,11 @@ class Slopes(Frozen):
 
 
 def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
-    """Whether the slopes of dense output at both ends of a step are f(x_0) and f(x_1): yes if only
-    stages at x_0 or x_1 have weights in them, no if an elementary weight differs.
-    """
+    """Right if stages at x_0 or x_1 alone have weights in it, wrong if an elementary weight is."""
     return slopes_where(method, dense, lambda known, _: slopes_at_ends(known), with_ends)
 
 
 Ends: TypeAlias = tuple[Weights, Weights]
-"""Weights that vanish on every problem if a slope is right at the beginning, and at the end."""
 
 
 def slopes_where(
@@ -149,8 +137,9 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Returns whether the weights of both ends vanish on every problem. ``ends`` returns these
-    weights for dense output and a tableau; ``change`` transforms the tableau first.
+    """Whether the weights that ``ends`` returns for each end vanish on every problem.
+
+    ``change`` transforms the tableau first.
     """
     whole: Tableau | Near
     if isinstance(method, Tableau):
@@ -205,7 +194,7 @@ def _beside(rows: Weights, ends: Vector) -> Weights:
 
 
 def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
-    """Whether a functional is zero on every problem; None if undecided."""
+    """Whether it is zero on every problem; None if undecided."""
     tableau, grain = (method, ZERO) if isinstance(method, Tableau) else (method.near, method.grain)
     if all(_cancels(tableau, grain, functional.weights, l) for l in range(tableau.size)):
         return True
@@ -218,7 +207,6 @@ def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
 
 
 def _cancels(tableau: Tableau, grain: fmpq, weights: Weights, l: int) -> bool:
-    """Whether the weights of a colour cancel at stages with equal rows."""
     k = tableau.colours[l].space
     blocks = [block for (j, _), block in tableau.blocks.items() if j == k]
     places: list[Vector] = []

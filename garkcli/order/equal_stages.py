@@ -27,7 +27,6 @@ def sums_over(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
 
 
 def equal_stages(tableau: Tableau, tolerance: fmpq) -> list[list[list[int]]]:
-    """For each space the classes of equal stages, the coarsest stable partition."""
     numbers = range(len(tableau.spaces))
     classes = [[list(range(space.stages))] for space in tableau.spaces]
     while True:
@@ -40,8 +39,6 @@ def equal_stages(tableau: Tableau, tolerance: fmpq) -> list[list[list[int]]]:
 def _split(
     tableau: Tableau, k: int, classes: list[list[list[int]]], tolerance: fmpq
 ) -> list[list[int]]:
-    """The classes of one space, split by the sums that their stages have over all classes."""
-
     def are_equal(seen: list[Any], sight: list[Any]) -> bool:
         if not tolerance:
             return seen == sight

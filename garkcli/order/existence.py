@@ -40,17 +40,14 @@ FEW = 50
 NOTHING = 1e-250
 """Bound on remainders that are zero apart from the rounding of floats."""
 MOST_TREES = 2_000
-"""Most conditions that are combined to exclude an order."""
 DIGITS = (4, 7, 10, 14)
 """Decimal places of a written proof; the first that suffices is used."""
 
 
 class Existence(Frozen):
-    """A proof that a box has a method of some order.
+    """A method near ``shifts``, in the box of ``widths`` around them; both in units of the radii.
 
-    ``shifts`` give a method near the existing one and ``widths`` the distance of each number from
-    it, both in units of the radii. ``W``, of shape (numbers, trees), says how the numbers move
-    together.
+    ``W``, of shape (numbers, trees), says how the numbers move together.
     """
 
     trees: tuple[Tree, ...]
@@ -60,8 +57,6 @@ class Existence(Frozen):
 
 
 class _Around:
-    """The conditions of all trees up to an order around a method of the box."""
-
     def __init__(self, search: Recovery, order: int, shifts: Sequence[fmpq]) -> None:
         box = search.box
         near = Box(box.numbers, tuple(t * SHARE for t in box.radii), box.make)
@@ -85,9 +80,9 @@ class _Around:
 
 
 def is_proved_to_exist(search: Recovery, order: int) -> bool:
-    """Whether Brouwer's theorem proves that a method of the box meets the conditions of all trees
-    up to an order. False is no statement; dependent conditions, as with simplifying conditions,
-    have no proof.
+    """Whether Brouwer's theorem proves that the box has a method of an order; False says nothing.
+
+    Dependent conditions, as with simplifying conditions, have no proof.
     """
     place, box = search.settled, search.box
     tableau = place.exact("method")
@@ -100,7 +95,7 @@ def is_proved_to_exist(search: Recovery, order: int) -> bool:
 
 
 def prove_existence(search: Recovery, order: int) -> Existence | None:
-    """The proof of existence in few digits, to be checked by others; None if there is none."""
+    """A proof in few digits, to be checked by others; None if there is none."""
     if not is_proved_to_exist(search, order):
         return None
     with ctx.workprec(search.bits):
@@ -127,7 +122,6 @@ def _is_met(tableau: Tableau, tree: Tree) -> bool:
 
 
 def has_zero(rows: Forms, is_free: np.typing.NDArray[np.bool_]) -> bool:
-    """Whether all forms have a common zero, moving only the free numbers."""
     G = _free(rows, is_free)
     if not np.linalg.norm(G, axis=1).all():
         return False
@@ -148,7 +142,6 @@ def _W(G: Floats) -> Floats:  # noqa: N802 -- the letter of the proof
 
 
 def _is_proof(centres: Sequence[arb], remainders: Floats, G: Floats, W: Any) -> bool:
-    """Whether the map sends the cube into itself."""
     if not centres:
         return True
     exact = arb_mat([[_ball(x) for x in row] for row in W])
@@ -172,9 +165,7 @@ def _towards_zero(x: fmpq, unit: fmpq) -> fmpq:
 
 
 def exclusion(search: Recovery, order: int) -> tuple[tuple[Tree, fmpq], ...] | None:
-    """Factors of the conditions b·ψ(u) = 1/ρ(u) of trees up to an order whose weighted sum is
-    nonzero in the whole box; None if none are found.
-    """
+    """Trees with factors of b·ψ(u) − 1/ρ(u) whose sum is nonzero in the whole box, or None."""
     place = search.origin
     tableau = place.exact("method")
     admissible = coupling_graph(tableau)

@@ -1,14 +1,12 @@
 """Weights at the stages besides b, compared with the values they should give, tree by tree.
 
-A functional has weights for each colour. At one order at most its elementary weights should be
-those of the exact solution, 1/γ(u), and at all others they should vanish: examples are b − b̂, the
-coefficients of one power of θ in dense output, and a slope. As with b this is decided on spanning
-trees (``order.certificate``), or for rounded coefficients on all trees (``order.rounded``).
+The elementary weights of a functional should be 1/γ(u) at one order at most, and vanish at all
+others: b − b̂, the coefficients of one power of θ in dense output, a slope. As with b, spanning
+trees (``order.certificate``) decide it, or all trees for rounded numbers (``order.rounded``).
 
-The error estimate h Σ (b_i − b̂_i) k_i of a method and its embedded weights b̂ has the B-series
-coefficients (b − b̂)_lᵀ 𝒜^[u] / σ(u); they vanish up to the smaller of the two orders, and the
-first that do not are its leading term. Hairer, Nørsett & Wanner, *Solving Ordinary Differential
-Equations I*, II.4.
+The error estimate h Σ (b_i − b̂_i) k_i has the B-series coefficients (b − b̂)_lᵀ 𝒜^[u] / σ(u); they
+vanish up to the smaller of the two orders, and the first that do not are its leading term. Hairer,
+Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.4.
 """
 
 from __future__ import annotations
@@ -36,12 +34,7 @@ MOST_TREES = 50_000
 
 
 class Functional(Frozen):
-    """Weights at the stages, and the values they should give.
-
-    Attributes:
-        exact_at: the order at which their elementary weights should be 1/γ(u); at all others, and
-            always if it is None, they should be zero.
-    """
+    """Weights whose elementary weights should be 1/γ(u) at order ``exact_at``, and 0 elsewhere."""
 
     weights: Weights
     exact_at: int | None = None
@@ -51,15 +44,11 @@ class Functional(Frozen):
 
 
 class FailedCondition(Frozen):
-    """A functional, by its index, with a tree for which it is wrong."""
-
     number: int
     witness: Witness
 
 
 class TooManyTrees(Exception):
-    """An order has more trees than are examined one by one."""
-
     def __init__(self, order: int) -> None:
         super().__init__(f"{order}: more than {MOST_TREES} trees")
         self.order = order
@@ -71,11 +60,9 @@ def first_failure(
     orders: Iterable[int],
     spans: StageSpans | None = None,
 ) -> FailedCondition | None:
-    """The first condition that is not met, exactly or within rounding, order by order; None if all
-    are met.
+    """The first condition, by order, that fails exactly or within rounding; None if all are met.
 
-    Raises:
-        Undecided: for a rounded method an order has more than ``MOST_TREES`` trees.
+    Raises TooManyTrees if an order of a rounded method has more than ``MOST_TREES`` trees.
     """
     if isinstance(method, Tableau):
         return _first_exact(method, functionals, orders, spans)
@@ -118,9 +105,8 @@ class Estimator(Frozen):
 
     Attributes:
         sums: Σ (b_i − b̂_i) of each colour, zero if both satisfy the condition of order 1.
-        order: of the first trees at which the estimate is nonzero, so that it is O(h^order); None
-            if none was found.
-        constants: the norms of its coefficients at that order; None if there are too many trees.
+        order: the estimate is O(h^order), no better; None if undecided.
+        constants: the norms of its coefficients at that order; None for too many trees.
     """
 
     sums: Vector
@@ -132,8 +118,8 @@ class Estimator(Frozen):
 class KnownOrders(Frozen):
     """The known orders of b and b̂ before their difference is examined.
 
-    Up to ``least`` the estimate vanishes. If they ``differ``, one is known to be larger, and the
-    next order occurs in the estimate. ``limit`` is the largest order of trees to examine.
+    The estimate vanishes up to ``least``; if they ``differ``, it has the next order. ``limit`` is
+    the largest order of trees to examine.
     """
 
     least: int
@@ -144,9 +130,6 @@ class KnownOrders(Frozen):
 def estimator(
     method: AnyTableau, embedded: Weights, orders: KnownOrders, spans: StageSpans | None = None
 ) -> Estimator:
-    """Returns the error estimate of embedded weights, which has to exceed rounding. ``orders`` are
-    those of b and b̂.
-    """
     tableau = printed(method)
     rows = _differences(tableau, embedded)
     known, grain, bits = rows, ZERO, ctx.prec
@@ -183,7 +166,6 @@ def _differences(tableau: Tableau, embedded: Weights) -> list[Vector]:
 def _leading(
     method: AnyTableau, difference: Functional, orders: range, spans: StageSpans | None
 ) -> int | None:
-    """The first order of trees at which the estimate does not vanish; None if undecided."""
     try:
         failure = first_failure(method, [difference], orders, spans)
     except TooManyTrees:

@@ -2,8 +2,8 @@
 
 A stage value over ℚ(θ) of degree d is a vector of s d rational numbers: entry i d + e is the
 coefficient of θᵉ at stage i. ψ of a tree is affine in each branch (``docs/certificate.md``), so
-hulls that are closed under the recursion for ψ contain it for all trees. To check that takes no
-list of trees and no theory of number fields.
+hulls that are closed under the recursion for ψ contain it for all trees. A check needs no list of
+trees and no theory of number fields.
 """
 
 from __future__ import annotations
@@ -22,9 +22,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Hull(Frozen):
-    """The affine space of all base + Σ_k λ_k direction_k. ``base`` is zero at all pivots;
-    ``directions`` are in reduced echelon form, each with its pivot.
-    """
+    """All base + Σ_k λ_k direction_k, in reduced echelon form; ``base`` is zero at all pivots."""
 
     base: tuple[fmpq, ...]
     directions: tuple[tuple[int, tuple[fmpq, ...]], ...] = ()
@@ -45,7 +43,6 @@ class Hull(Frozen):
 
     @property
     def points(self) -> list[tuple[fmpq, ...]]:
-        """Points whose affine hull it is."""
         moved = (
             tuple(x + y for x, y in zip(self.base, row, strict=True)) for _, row in self.directions
         )
@@ -53,11 +50,9 @@ class Hull(Frozen):
 
 
 class Hulls(Frozen):
-    """The hulls for all trees up to an order p.
+    """``trees[k][l]`` holds ψ of the trees of order k + 1 ≤ p with root colour l, and
 
-    ``trees[k][l]`` holds ψ of the trees of order k + 1 with root colour l, k < p,
-    ``branches[j][l]`` holds A^{l,m} (j ψ(u)) for all trees u of order j, j < p; None if there are
-    none.
+    ``branches[j][l]`` A^{l,m} (j ψ(u)) for all trees u of order j < p; None if there are none.
     """
 
     trees: tuple[tuple[Hull | None, ...], ...]

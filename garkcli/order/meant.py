@@ -20,18 +20,15 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 AnyTableau: TypeAlias = "Tableau | RoundedTableau"
-"""An exact tableau, or a rounded one with all methods that it may mean."""
 Radii: TypeAlias = "Callable[[Sequence[tuple[Expression, Number]]], Sequence[fmpq]]"
 """The radii of printed numbers, from how they are written."""
 ByRadii: TypeAlias = "Callable[[Radii], tuple[Box, Further]]"
-"""The box of a file and its further weights, for given radii."""
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
-    """Returns the tableau itself, or the rounded tableau within its tolerance, which is computed
-    once.
+    """The tableau itself, or the rounded tableau within its tolerance, computed once.
 
-    ``tolerance`` is None or 0 for exact coefficients; ``further`` None ignores its further weights.
+    ``tolerance`` is None or 0 for exact coefficients; without ``further`` weights they are ignored.
     """
     if not tolerance:
         return tableau
@@ -58,7 +55,6 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
 
 
 def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
-    """The tableau with the rounding of its print; None if exact or unknown."""
     box: ByRadii | None = tableau.__dict__.get("digits")
     if box is None:
         return None
@@ -71,16 +67,14 @@ def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
 
 
 def remember_digits(tableau: Tableau, box: ByRadii) -> None:
-    """Stores how a tableau depends on its printed numbers, for other radii."""
+    """Stores how a tableau depends on its printed numbers."""
     tableau.__dict__["digits"] = box
 
 
 def remember(
     tableau: Tableau, tolerance: fmpq | None, box: Callable[[], tuple[Box, Further]]
 ) -> None:
-    """Stores which numbers of a tableau are rounded and how it depends on them; without this
-    ``meant`` treats each nonzero coefficient as a printed number.
-    """
+    """Stores which numbers are rounded; without it ``meant`` takes each coefficient as printed."""
     tableau.__dict__["box"] = tolerance, box
 
 
@@ -95,9 +89,7 @@ def remembered_digits(tableau: Tableau) -> ByRadii:
 
 
 def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
-    """Stores the method that a conjugate or pair is made of: it is as uncertain as the numbers of
-    that method. ``which`` is ``conjugate`` or ``pair``.
-    """
+    """Stores the base of a ``conjugate`` or ``pair``, which is as uncertain as its numbers."""
     tableau.__dict__["made of"] = base, which
 
 
@@ -107,7 +99,6 @@ def keep(method: RoundedTableau) -> None:
 
 
 def with_further(method: AnyTableau) -> RoundedTableau | None:
-    """A method with its further weights if any number is rounded, else None."""
     if not isinstance(method, Tableau):
         return method
     of_tolerance, box = method.__dict__.get("box", (None, None))
@@ -125,31 +116,26 @@ def with_further(method: AnyTableau) -> RoundedTableau | None:
 
 
 def as_embedded(method: AnyTableau, weights: Weights) -> AnyTableau:
-    """A method with its embedded weights as b, rounded if these or A are."""
     rounded = with_further(method)
     found = None if rounded is None else rounded.with_embedded()
     return with_weights(printed(method), weights) if found is None else found
 
 
 def as_dense(method: AnyTableau) -> AnyTableau:
-    """A method with the rounding that its dense output depends on."""
     rounded = with_further(method)
     found = None if rounded is None else rounded.with_dense()
     return printed(method) if found is None else found
 
 
 def as_meant(method: GarkMethod) -> AnyTableau:
-    """The tableau of a method, rounded if it has a tolerance."""
     return meant(method.tableau, method.tolerance, method.further)
 
 
 def derived(method: AnyTableau, which: str | None) -> AnyTableau:
-    """Returns the symplectic conjugate or the symplectic pair of a method, or the method itself;
-    rounding carries over.
+    """The symplectic conjugate or pair of a method, or the method itself; rounding carries over.
 
-    ``which`` is ``conjugate`` or ``pair``, or the claim about their order; for a rounded method
-    also ``embedded-order``. Anything else means the method. Raises ZeroWeight if it divides by a
-    weight 0.
+    ``which`` is ``conjugate`` or ``pair``, a claim about their order, or for a rounded method
+    ``embedded-order``; else it is the method. Raises ZeroWeight.
     """
     which = (which or "").removesuffix("-order")
     if which == "embedded" and not isinstance(method, Tableau):

@@ -2,9 +2,8 @@
 
 The shifts x, in units of the radii, are the least ones that meet rows with slopes J: they are in
 the span of the rows, on which P projects. If one of them costs nothing, |x|² falls by x_k²/P_kk,
-number k is x_k/P_kk off, and the others are left with x − (x_k/P_kk) P e_k, apart from k itself. A
-number is a suspect if it leaves next to nothing to all others, and no other number does: rounding
-moves them all.
+number k is x_k/P_kk off, and the others are left with x − (x_k/P_kk) P e_k. A number is a suspect
+if it alone leaves next to nothing to all others: rounding moves them all.
 """
 
 from __future__ import annotations
@@ -33,11 +32,11 @@ NEXT_TO_NOTHING = 0.1
 
 
 class EntryAddress(Frozen):
-    """An entry of a method.
+    """An entry of a method; indices are from 0.
 
-    ``letter`` is a, b, c, ``embedded`` or ``dense``. All indices count from 0: ``l`` and ``m`` are
-    the colours of a block, ``i`` and ``j`` row and column. In vectors ``m`` is None, and ``i`` the
-    power of θ minus one for dense output or else None.
+    ``letter`` is a, b, c, ``embedded`` or ``dense``; ``l`` and ``m`` are the colours of a block,
+    ``i`` and ``j`` row and column. In vectors ``m`` is None, and ``i``
+    the power of θ minus one for dense output, else None.
     """
 
     letter: str
@@ -55,8 +54,7 @@ class Nearness(Frozen):
         entry: an entry with this number; None if no number is off.
         suspect: an entry whose printed number alone is far off; None if there is none.
         is_full: whether the conditions are met fully, not to second order only.
-        is_proved: whether a method of the order is proved to exist within the radii; False is no
-            statement.
+        is_proved: whether a method of the order is proved to exist; False says nothing.
     """
 
     distance: fmpq
@@ -82,21 +80,20 @@ def nearness(search: Recovery, order: int) -> Nearness:
 
 
 def _two_digits(x: float) -> fmpq:
-    """A size rounded to hundredths, after millionths: floats end in noise."""
+    """Hundredths, after millionths: floats end in noise."""
     millionths = fmpq(round(x * 10**6), 10**6)
     unit = fmpq(1, 100)
     return unit * (millionths / unit + fmpq(1, 2)).floor()
 
 
 def _suspect(search: Recovery, shifts: Floats) -> int | None:
-    """The number that alone is far off; None if there is none."""
     if not any(search.wanted.values()):
         return None
     return far_alone(orthonormal(search.place.rows(search.wanted).slopes), shifts)
 
 
 def far_alone(basis: Floats, shifts: Floats) -> int | None:
-    """The number that alone is far off, by the slopes of the rows; None without any."""
+    """The number that alone is far off, in an orthonormal basis of the slopes; None without any."""
     if len(basis) < FEWEST_ROWS:
         return None
     projector = basis.T @ basis
@@ -142,7 +139,6 @@ def _entry_of(search: Recovery, k: int) -> EntryAddress:
 
 
 def _weight(search: Recovery, row: int, l: int, j: int) -> EntryAddress:
-    """The entry of b, or of a further row of weights."""
     if not row:
         return EntryAddress("b", l, None, None, j)
     if search.printed_further.embedded is not None:

@@ -17,7 +17,7 @@ class SimplifyingCondition(Frozen):
     """A simplifying condition of one colour or block.
 
     Attributes:
-        letter: B, C or D; or ``even``: b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
+        letter: ``even`` is b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
         number: n of B(n), k of C(k), D(k) and ``even``.
         m: the second colour of the block A^{l,m}; ``l`` for B.
     """
@@ -29,13 +29,10 @@ class SimplifyingCondition(Frozen):
 
 
 class PairCriterion(Frozen):
-    """The result of the criterion for a tableau.
+    """The order that the criterion gives, with the further conditions of the next one that fail.
 
     If nodes are row sums and edges are closed under reversal, the pair has at least this order;
     exactly this order if all weights are positive and no colour is linear.
-
-    ``missing`` are the further conditions of order n + 1 that do not hold; it is empty at the
-    limit.
     """
 
     order: int
@@ -60,9 +57,7 @@ def added(order: int) -> Iterator[tuple[Literal["B", "C", "D", "even"], int]]:
 def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriterion:
     r"""The largest order of the pair that the criterion proves, up to ``limit``.
 
-    Args:
-        method: exact, or rounded: then a condition holds if rounding explains its defect.
-        limit: the order at which to stop.
+    In a rounded method a condition holds if rounding explains its defect.
 
     >>> from garkcli import loads
     >>> ssprk3 = loads("A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]\nb: [1/6, 1/6, 2/3]").tableau
@@ -80,7 +75,6 @@ def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriter
 def missing_of_block(
     tableau: Tableau, edge: tuple[int, int], order: int
 ) -> list[SimplifyingCondition]:
-    """The conditions of a block that an order of the pair needs and that do not hold."""
     defects, (l, m) = defects_of(tableau), edge
     needed = [
         SimplifyingCondition(letter, number, l, m)

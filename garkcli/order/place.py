@@ -28,27 +28,24 @@ from garkcli.tableau.tableau import Tableau
 
 MOST_TREES = 50_000
 MOST_ROWS = 60
-"""Most rows that one order adds at a time."""
 COARSENING = 16.0
 """Factor on the radii for conditions that are met to second order only."""
 
 Derive: TypeAlias = Callable[[Tableau], Tableau]
-"""Transforms the tableau of the box: to its own colours, the conjugate, the pair, …"""
 
 
 @contextmanager
 def arithmetic(bits: int) -> Iterator[None]:
-    """Computes with balls of ``bits`` bits inside; floats that overflow leave questions open."""
+    """Floats that overflow leave questions open."""
     with ctx.workprec(bits), np.errstate(all="ignore"):
         yield
 
 
 class BoxPlace:
-    """A method of the box, and the tableaus around it.
+    """A method of the box by the ``shifts`` of its numbers, in units of their radii.
 
-    ``shifts`` are those of its numbers in units of their radii. ``slack`` is the part of its reach
-    up to which a row counts as met: 0 if Newton's method converged; otherwise rows are met to
-    second order only, as where varieties cross.
+    ``slack`` is the part of its reach up to which a row counts as met: 0 if Newton's method
+    converged; else rows are met to second order only, as where varieties cross.
     """
 
     def __init__(self, search: SearchedBox, shifts: Sequence[fmpq]) -> None:
@@ -73,7 +70,6 @@ class BoxPlace:
 
     @property
     def distance(self) -> float:
-        """The largest shift of a number, in units of its radius."""
         return max((abs(to_float(x)) for x in self.shifts), default=0.0)
 
     @property
@@ -91,7 +87,6 @@ class BoxPlace:
 
     @property
     def grain(self) -> fmpq:
-        """The size below which numbers computed from this method count as zero."""
         if not self.slack:
             return self.search.grain
         return max(self.search.grain, exactly(COARSENING * self.slack * self.search.radius))
@@ -107,7 +102,7 @@ class BoxPlace:
         return self._exact[name]
 
     def defects(self, name: str) -> FormDefects:
-        """The defects of a derived tableau, as forms around this method."""
+        """Forms around this method."""
         if name not in self._defects:
             with arithmetic(self.search.bits):
                 made = self.search.targets[name](self._made.made)
@@ -115,7 +110,6 @@ class BoxPlace:
         return self._defects[name]
 
     def in_balls(self, name: str) -> Tableau:
-        """A derived tableau with the numbers within the radii as balls."""
         with arithmetic(self.search.bits):
             return self.defects(name).tableau.in_balls
 
@@ -124,7 +118,7 @@ class BoxPlace:
             return joined([self.defects(name).rows(x) for name, x in system.items() if x])
 
     def values(self, system: System) -> list[arb]:
-        """The centres of the rows of a system, faster than the rows."""
+        """The centres of the rows, without their slopes."""
         with arithmetic(self.search.bits):
             found: list[arb] = []
             for name, chosen in system.items():
@@ -166,8 +160,9 @@ class BoxPlace:
         return self._beyond_slack(name, members, share)
 
     def _bush_missed(self, name: str, order: int) -> Tree | None:
-        """A quadrature condition that no method of the box meets, one vertex with leaves of one
-        colour; None if there is none. Methods of high order seldom integrate better.
+        """A quadrature condition that no method of the box meets, or None.
+
+        Its tree has leaves of one colour. Methods of high order seldom integrate better.
         """
         tableau = self.exact(name)
         for l in twin_roots(tableau):
@@ -228,9 +223,7 @@ class BoxPlace:
 
 
 class SearchedBox:
-    """A box with the tableaus made of it, and the precision of work in it. ``box`` has colours for
-    the further weights, ``further`` these as printed.
-    """
+    """A box, with colours for its further weights; ``further`` has these as printed."""
 
     def __init__(self, box: Box, further: Further = NOTHING) -> None:
         self.box = box

@@ -1,10 +1,10 @@
 """Computes the method that a rounded one is taken to be, to any number of digits.
 
-Among the methods of the box that meet the rows of the search it is nearest to the print: the shifts
-x, in units of their radii and at most 1, have the least sum of squares. With rows F and slopes J at
-x, the next x is the least one with F(x) + J·(x' − x) = 0. Smaller radii gain more digits a step; if
-the rows determine the method it is Newton's method. The arithmetic is in balls; slopes are
-differences over steps far below the last digit.
+Of the methods of the box that meet the rows of the search it is nearest to the print: the shifts x,
+in units of their radii and at most 1, have the least sum of squares. With rows F and slopes J at x,
+the next x' is the least one with F(x) + J·(x' − x) = 0. Smaller radii gain more digits a step; rows
+that determine the method give Newton's method. Slopes are differences over steps far below the last
+digit; all is in balls.
 """
 
 from __future__ import annotations
@@ -28,12 +28,11 @@ SPARE_DIGITS = 12
 AT_AN_END = 1 - 1e-6
 """A shift that is held at an end is released if it would be below this."""
 MOST_STEPS = 60
-"""Most steps, plus one for each bit; steps without progress end the search earlier."""
+"""Steps besides one for each bit; without progress the search ends earlier."""
 
 
 def polished(search: Recovery, digits: int) -> BoxPlace:
-    """Returns the method nearest to the print that meets all rows of the search, to ``digits``
-    digits after the point.
+    """The method nearest to the print that meets all rows, to ``digits`` digits after the point.
 
     Raises MethodError if rows are met to second order only, or the steps do not converge.
     """
@@ -61,7 +60,6 @@ def polished(search: Recovery, digits: int) -> BoxPlace:
 
 
 def _finest(search: Recovery) -> int:
-    """Bits after the point of the smallest radius."""
     return max((int(t.q.bit_length() - t.p.bit_length()) + 1 for t in search.box.radii), default=0)
 
 
@@ -72,9 +70,7 @@ def _unknown() -> MethodError:
 
 
 class _Polishing:
-    """The iteration to the nearest method that meets some rows. ``search`` has enough bits for the
-    slopes; ``bits`` is the precision of the shifts.
-    """
+    """``search`` has enough bits for the slopes; ``bits`` is the precision of the shifts."""
 
     def __init__(self, search: Recovery, system: System, bits: int) -> None:
         self.search = search
@@ -132,7 +128,9 @@ class _Polishing:
         self, slopes: arb_mat, values: Sequence[arb], x: Sequence[fmpq]
     ) -> tuple[list[arb], bool]:
         """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether the rows leave others
-        free than those at an end, which are released if they pull inwards.
+        free.
+
+        Numbers at an end are released if they pull inwards.
         """
         count = len(x)
         rows = slopes.tolist()
@@ -167,7 +165,6 @@ class _Polishing:
         raise _unknown()
 
     def _checked(self, place: BoxPlace) -> BoxPlace:
-        """The method, if it meets all rows, including dependent ones."""
         small = arb(2) ** -(3 * self.bits // 4)
         if not place.is_inside or not all(abs(x) < small for x in self._values(place)):
             raise _unknown()
@@ -175,7 +172,7 @@ class _Polishing:
 
 
 def _independent(rows: Sequence[Sequence[arb]], grain: arb) -> list[int]:
-    """Independent rows, by elimination with the largest rest first."""
+    """The largest rest is eliminated first."""
     rest = {i: arb_mat([list(row)]) for i, row in enumerate(rows) if row}
     chosen: list[int] = []
     while rest:

@@ -1,13 +1,10 @@
-"""The orders of a predictor.
+"""The orders of a predictor Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with h = r h_old.
 
-    Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with h = r h_old.
-
-The slopes k_j of the last step and K_j of this one are those of the 2s stages of one method, that
-takes both steps: its blocks are A, 1 bᵀ and r A, in units of h_old. The stage is y + h Σ_j a_ij
-K_j, so that the prediction is off by O(h^(q+1)) on every problem where the weights (p_i, q_i − a_i)
-vanish at all trees of at most q vertices: the order of the prediction is the largest q. What a tree
-u gives is a polynomial in r of degree d + |u| − 1 at most, d the degree of the weights, which is
-zero where it is zero at as many ratios and one more.
+The slopes k_j of the last step and K_j of this one are those of the 2s stages of a method for both
+steps, with blocks A, 1 bᵀ and r A in units of h_old. The stage is y + h Σ_j a_ij K_j, so that the
+prediction is off by O(h^(q+1)) on every problem if the weights (p_i, q_i − a_i) vanish at all trees
+of at most q vertices: its order is the largest q. At a tree u they give a polynomial in r of degree
+d + |u| − 1 at most, d the degree of the weights: as many ratios and one more decide it.
 
 I. Higueras, T. Roldán, *Starting algorithms for some DIRK methods*, Numerical Algorithms 23, 2000;
 M. P. Laburta, *Starting algorithms for IRK methods*, J. Comput. Appl. Math. 83, 1997.
@@ -39,13 +36,9 @@ class Missed(Frozen):
 
 
 class StageOrder(Frozen):
-    """The order of the prediction of one stage.
+    """The orders of the prediction of one stage, and the conditions that fail one order above.
 
-    Attributes:
-        order: for every ratio of step sizes.
-        equal_steps: for steps of one size.
-        missed: the condition that fails one order above ``order``; None if the search stopped.
-        missed_equal: the condition that fails one order above ``equal_steps``, likewise.
+    ``order`` is for every ratio of step sizes, ``equal_steps`` for ratio 1.
     """
 
     stage: int
@@ -56,22 +49,17 @@ class StageOrder(Frozen):
 
 
 class PredictorOrders(Frozen):
-    """The orders of the predictions of all implicit stages."""
-
     stages: tuple[StageOrder, ...]
 
     @property
     def order(self) -> int:
-        """The least order of a stage, for every ratio of step sizes."""
         return min(x.order for x in self.stages)
 
     @property
     def equal_steps(self) -> int:
-        """The least one for steps of one size."""
         return min(x.equal_steps for x in self.stages)
 
     def first_missed(self, *, equal_steps: bool) -> tuple[int, Missed] | None:
-        """The first stage of least order, from 0, and the condition that it misses."""
         for x in self.stages:
             missed = x.missed_equal if equal_steps else x.missed
             order = x.equal_steps if equal_steps else x.order
@@ -86,11 +74,7 @@ def implicit_stages(tableau: Tableau) -> list[int]:
 
 
 def check_predictor(tableau: Tableau, predictor: Predictor) -> None:
-    """Refuses a predictor that has nothing to predict, or uses slopes that are not known yet.
-
-    Raises:
-        MethodError: that is the case.
-    """
+    """Raises MethodError if nothing is to be predicted, or slopes are used too early."""
     implicit = implicit_stages(tableau)
     if not implicit:
         message = "predictor: every stage is explicit, so none has to be predicted"
@@ -107,7 +91,6 @@ def check_predictor(tableau: Tableau, predictor: Predictor) -> None:
 
 
 def _needed(A: Matrix) -> list[set[int]]:
-    """For each stage those that have to be known with it, itself among them."""
     needed = [{i, *(j for j, a in enumerate(row) if a)} for i, row in enumerate(A)]
     for _ in A:
         needed = [set().union(*(needed[j] for j in found)) for found in needed]
@@ -137,12 +120,7 @@ def ratios(predictor: Predictor, order: int) -> Sequence[fmpq]:
 
 
 def predictor_orders(tableau: Tableau, predictor: Predictor, limit: int) -> PredictorOrders:
-    """The order of the prediction of each implicit stage.
-
-    Args:
-        tableau: of one colour, exact.
-        predictor: its weights.
-        limit: the order at which to stop.
+    """The order of the prediction of each implicit stage of an exact tableau of one colour.
 
     >>> from garkcli.tableau.forms import gark
     >>> from garkcli.tableau.tableau import butcher

@@ -1,7 +1,6 @@
 """Recovered methods of the catalogue, stored as starting points of a search.
 
-For the printed numbers of a method the file has the shift of each and the conditions that the
-method then meets. A search checks these conditions like its own.
+A search checks the conditions that the file claims of the shifted numbers like its own.
 """
 
 from __future__ import annotations
@@ -25,10 +24,10 @@ FILE = Path(__file__).with_name("recovered.json")
 
 
 class Recovered(Frozen):
-    """A method of a box.
+    """A method of a box, by the ``shifts`` of its numbers in units of their radii.
 
-    ``shifts`` are those of its numbers in units of their radii, ``shape`` has the simplifying and
-    similar conditions that it meets, ``system`` the order conditions that determined it.
+    ``shape`` has the simplifying and similar conditions that it meets, ``system`` the order
+    conditions that determined it.
     """
 
     shifts: tuple[fmpq, ...]
@@ -37,21 +36,18 @@ class Recovered(Frozen):
 
 
 def key_of(box: Box) -> str:
-    """A hash of the printed numbers and their radii."""
     text = "\n".join(f"{x} {t}" for x, t in zip(box.numbers, box.radii, strict=True))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
 
 
 def recovered_of(box: Box, known: Callable[[Tree], Tree]) -> Recovered | None:
-    """Returns the stored method of a box, or None. ``known`` is a tree with the kinds of vertices
-    of the method.
-    """
+    """The stored method of a box; ``known`` gives the vertices of a tree their kinds."""
     data = _all().get(key_of(box)) if box.numbers else None
     return _read(data, known) if data and "shifts" in data else None
 
 
 def as_data(shifts: Sequence[fmpq], shape: System, system: System) -> dict[str, Any]:
-    """The stored form of a method; the denominators of its shifts are powers of 2."""
+    # the denominators of shifts are powers of 2
     bits = max((int(x.q).bit_length() - 1 for x in shifts), default=0)
     return {
         "bits": bits,
@@ -69,7 +65,6 @@ def _text(label: Label) -> str:
 
 
 def kept() -> dict[str, dict[str, Any]]:
-    """All stored methods, by the keys of their boxes."""
     if not FILE.exists():
         return {}
     methods: dict[str, dict[str, Any]] = json.loads(FILE.read_text(encoding="ascii"))

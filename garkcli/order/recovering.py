@@ -1,10 +1,9 @@
-"""Finds one method within the rounding of a printed one that meets as many conditions as its digits
-suggest.
+"""Finds one method within the rounding of a print that meets the conditions its digits suggest.
 
 Conditions that hold within the radii of the printed numbers, one by one, need not hold together.
-So Newton's method on affine rows searches for one that meets them, to hundreds of digits: first the
-conditions of its shape (B, C stage by stage, D, symplecticity, equal rows), then its order
-conditions. If there is none, a combination of the rows that is nonzero in the whole box proves it.
+So Newton's method on affine rows searches for a method that meets them, to hundreds of digits:
+first the conditions of its shape (B, C stage by stage, D, symplecticity, equal rows), then its
+order conditions. A combination of the rows that is nonzero in the whole box excludes all.
 """
 
 from __future__ import annotations
@@ -41,8 +40,9 @@ LOWEST_FLOOR = 1e-16
 
 
 class RecoveryFailure(Frozen, eq=False):
-    """Why no method of the box meets some rows. ``is_proved`` says that there is none; ``labels``
-    are the rows that exclude each other, those with the largest weight first.
+    """Why no method of the box meets some rows; ``is_proved`` if there is none.
+
+    ``labels`` are the rows that exclude each other, those with the largest weight first.
     """
 
     is_proved: bool
@@ -54,8 +54,6 @@ class RecoveryFailure(Frozen, eq=False):
 
 
 class Recovery(SearchedBox):
-    """The search for one method of a box."""
-
     def __init__(self, box: Box, further: Further = NOTHING) -> None:
         super().__init__(box, further)
         self.place = self.origin
@@ -95,7 +93,6 @@ class Recovery(SearchedBox):
 
     @property
     def wanted(self) -> System:
-        """All rows that the method meets by the search."""
         return _both(self.shape, self.system)
 
     def largest_in(self, name: str) -> fmpq:
@@ -114,7 +111,7 @@ class Recovery(SearchedBox):
         return other
 
     def aside(self) -> Recovery:
-        """A copy of the search that moves a method of its own."""
+        """A copy that moves a method of its own."""
         other = copy(self)
         for name in ("_orders", "_places", "_reached", "powers"):
             setattr(other, name, dict(getattr(self, name)))
@@ -130,7 +127,6 @@ class Recovery(SearchedBox):
         return other
 
     def missed_at(self, place: BoxPlace) -> dict[str, list[Tree]]:
-        """The trees up to the orders reached that a method misses, by tableaus."""
         other = copy(self)
         other.place = place
         return other._missed(self._reached)
@@ -154,9 +150,9 @@ class Recovery(SearchedBox):
         return order == reached + 1 and failure is not None and failure.is_proved
 
     def note(self, name: str, order: int, missed: Tree) -> bool:
-        """Records the order of a tableau whose printed digits meet all conditions up to it, and a
-        tree of the next order that no method of the box meets. Returns False, without a record, if
-        the method found so far misses these conditions.
+        """Records the order that printed digits reach, and a ``missed`` tree of the next order.
+
+        Returns False if the method found so far does not have that order.
         """
         if self.place is not self.origin and name not in self._reached:
             with np.errstate(all="ignore"):
@@ -198,7 +194,6 @@ class Recovery(SearchedBox):
             self.place, self.shape = self.origin, {}
 
     def _start_at_recovered(self) -> bool:
-        """Moves to the stored method of an earlier search, if it still has its shape."""
         found = recovered_of(self.box, self.origin.exact("method").known)
         if found is None:
             return False
@@ -211,7 +206,6 @@ class Recovery(SearchedBox):
         return True
 
     def recover_shape(self) -> None:
-        """Moves to a method with the simplifying conditions that the digits suggest."""
         chosen = candidates(self.origin)
         for _ in range(12):
             if not chosen:
@@ -227,7 +221,6 @@ class Recovery(SearchedBox):
             chosen = less(self.origin, chosen)
 
     def _recover_weak(self) -> None:
-        """Moves to a method with the weak stage order that the digits suggest."""
         found: Chosen = {}
         for k in range(1, MOST_WEAK + 1):
             fresh = {x: [0] for x in weak_rows(self.place, k)}
@@ -253,9 +246,7 @@ class Recovery(SearchedBox):
     def recover_order(
         self, name: str, limit: int
     ) -> tuple[int, RecoveryFailure | None, list[Tree]]:
-        """Moves to a method of the largest order that the earlier results leave possible. Returns
-        the order, why the next one fails, and the trees that it misses; None and none at the limit.
-        """
+        """The largest order that earlier results allow, why the next fails, the trees missed."""
         at_once, alone = self.explained(name, limit)
         if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:
             return limit, None, []
@@ -269,9 +260,7 @@ class Recovery(SearchedBox):
         return limit, None, []
 
     def explained(self, name: str, limit: int) -> tuple[int, Tree | None]:
-        """The largest order up to which the radii explain each residual, and a tree of the next one
-        whose condition no method of the box meets.
-        """
+        """The order up to which radii explain each residual, and a tree of the next at fault."""
         for order in range(1, limit + 1):
             for tree in self.place.missed(name, order):
                 if not self.origin.may_meet(name, tree):
@@ -288,7 +277,6 @@ class Recovery(SearchedBox):
         return failure
 
     def _reach(self, orders: Mapping[str, int]) -> RecoveryFailure | None:
-        """Moves to a method with some orders, or returns why there is none."""
         for _ in range(8):
             missed = self._missed(orders)
             if not missed:
@@ -306,7 +294,6 @@ class Recovery(SearchedBox):
         return {name: trees for name, trees in found.items() if trees}
 
     def _meet(self, missed: Mapping[str, Sequence[Tree]]) -> RecoveryFailure | None:
-        """Moves to a method that meets the conditions of more trees; returns why there is none."""
         fresh: System = {
             name: {of_tree(u, self.share(name, u.order)): [0] for u in trees}
             for name, trees in missed.items()
@@ -381,8 +368,9 @@ class Recovery(SearchedBox):
         return None
 
     def _newton(self, system: System, place: BoxPlace) -> BoxPlace | None:
-        """A method of the box at which all rows vanish; None if none is found. Equal digits move
-        together first, as they do in most methods, which leaves fewer numbers.
+        """A method of the box at which all rows vanish, or None.
+
+        Equal digits move together first, as in most methods, which leaves fewer numbers.
         """
         self._runs += 1
         if self._runs > MOST_RUNS:
@@ -402,7 +390,6 @@ class Recovery(SearchedBox):
 
     @cached_property
     def _groups(self) -> list[list[int]]:
-        """Groups of numbers that move together: equal digits, and then each number alone."""
         first: dict[object, int] = {}
         printed = zip(self.box.numbers, self.box.radii, strict=True)
         tied = [
@@ -413,9 +400,9 @@ class Recovery(SearchedBox):
         return [alone] if tied == alone else [tied, alone]
 
     def _iterate(self, system: System, place: BoxPlace, groups: Sequence[int]) -> BoxPlace | None:
-        """A method at which all rows vanish, by Newton's method, or one of the box where they
-        vanish to second order; None if neither is found. The first steps go to the method nearest
-        to the print, to first order.
+        """A method at which all rows vanish, or of the box where they do to second order, or None.
+
+        The first steps go to the method nearest to the print, to first order.
         """
         floor, cut = bounded.FLOOR, max(bounded.FLOOR, 30 * self.radius)
         best: arb | None = None

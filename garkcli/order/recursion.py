@@ -1,9 +1,8 @@
 """Computes a value for all trees of an order from those of smaller orders, without listing trees.
 
-A tree is its root with a forest on it. A forest is its smallest branch beside the forest of the
-others, and a branch is a tree seen through a block A. So one value for all forests of an order, and
-one for all branches, follow from those of the orders below. The value depends on the question:
-spanning members, with or without bounds, or a sum.
+A tree is its root with a forest on it, a forest its smallest branch beside the others, and a branch
+is a tree seen through a block A. So one value for all forests of an order, and one for
+all branches, follow from those of the orders below: spanning members, or a sum.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ class OrderByOrder(ABC, Generic[Value]):
     """One value for the branches and one for the forests of each order, in every stage space.
 
     Each is computed once, on demand; after a timeout the next call continues. ``vertices`` has the
-    value of the empty forest, which makes a single vertex, for each stage space.
+    value of the empty forest for each stage space.
     """
 
     def __init__(self, tableau: Tableau, vertices: Iterable[Value]) -> None:
@@ -67,13 +66,13 @@ class OrderByOrder(ABC, Generic[Value]):
         return self._branches[k, order]
 
     def forests(self, k: int, order: int) -> Value:
-        """The value of all forests of an order, of branches that the stages of space k see."""
+        """The forests of an order, of branches that the stages of space k see."""
         if (k, order) not in self._forests:
             self._forests[k, order] = self._new_forests(k, order)
         return self._forests[k, order]
 
     def several(self, k: int, order: int) -> Value:
-        """The value of all forests of at least two branches."""
+        """The forests of at least two branches."""
         if (k, order) not in self._several:
             self._several[k, order] = self._new_several(k, order)
         return self._several[k, order]
@@ -85,29 +84,29 @@ class OrderByOrder(ABC, Generic[Value]):
 
     @abstractmethod
     def _image(self, k: int, m: int, order: int, trees: Value) -> Value:
-        """The value of branches in space k, from that of the trees of an order with root colour m:
-        order · A ψ, or order (order − 1) ⋯ A ψ if its vertices count more.
+        """From trees of an order with root colour m: branches order · A ψ in space k.
+
+        The factor is order (order − 1) ⋯ if vertices count more.
         """
 
     @abstractmethod
     def _joined(self, k: int, parts: Iterable[Value]) -> Value:
-        """The value of the union of some parts, in space k."""
+        """The union of some parts, in space k."""
 
     @abstractmethod
     def _new_forests(self, k: int, order: int) -> Value:
-        """The value of the forests of an order, from smaller ones and the branches up to it."""
+        """The forests of an order, from smaller ones and the branches up to it."""
 
     @abstractmethod
     def _new_several(self, k: int, order: int) -> Value:
-        """The value of the forests of at least two branches."""
+        """The forests of at least two branches."""
 
 
 class ForestVector(Frozen):
     """A forest, and its contribution to the stage vector of a tree.
 
     ``vector`` is the product of the branches' contributions times ``scale``, a common denominator,
-    or 1 if entries have inverses. ``exact`` is the counterpart in the exact solution: 1, or 0 if it
-    has no such branches.
+    or 1 if entries have inverses. ``exact`` is 1, or 0 if the exact solution has no such branches.
     """
 
     vector: Sequence[Any]
@@ -124,8 +123,9 @@ Forests: TypeAlias = Sequence[ForestVector]
 
 
 class Spans(OrderByOrder[Forests]):
-    """Members that span the contributions of all branches and all forests. ``maps`` are the blocks
-    of the tableau times ``scale``, a common denominator.
+    """Members that span the contributions of all branches and all forests.
+
+    ``maps`` are the blocks of the tableau times ``scale``, a common denominator.
     """
 
     def __init__(
@@ -140,9 +140,7 @@ class Spans(OrderByOrder[Forests]):
         self._scale = scale
 
     def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, ForestVector]]:
-        """Returns forests that span those of all trees with conditions of an order, with their root
-        colours. ``roots`` are those of ``Tableau.roots``.
-        """
+        """Root colours and forests that span those of all trees with conditions of an order."""
         for l, late in roots.items():
             for forest in self.of_trees(l, order - late):
                 yield l, forest
@@ -165,7 +163,6 @@ class Spans(OrderByOrder[Forests]):
         return self._joined(k, self._products(k, order))
 
     def _products(self, k: int, order: int) -> Iterator[Forests]:
-        """Products of the smallest branch and the forest of the others, a batch for each branch."""
         for branches, rests in self._splits(k, order):
             for branch in branches:
                 batch = []
@@ -178,5 +175,4 @@ class Spans(OrderByOrder[Forests]):
                 yield batch
 
     def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
-        """The joint contribution of two branches, in space k."""
         return self.tableau.spaces[k].product(u, v)  # type: ignore[arg-type]

@@ -8,17 +8,16 @@ from garkcli.frozen import Frozen, replace
 from garkcli.tableau.tableau import Tableau
 
 GAIN = 2
-"""Without a claimed order, an entry is named if it restores so many. Many published methods are one
-entry away from the next order; none of the catalogue is one away from the order after that.
+"""Without a claim, an entry is named if it restores so many orders.
+
+Many published methods are one entry away from the next order, none of the catalogue from two.
 """
 HIGHEST_LOW = 4
 """Without a claim no entry is sought above this order, which a wrong one hardly leaves."""
 
 
 class RepairedEntry(Frozen):
-    """One entry of a method: the block's colours ``l, m``, or ``m`` None for the weights b^{l}; the
-    indices ``i, j``, or ``i`` None for weights. All count from 0.
-    """
+    """One entry, by indices from 0: ``m`` and ``i`` are None for the weights b^{l}."""
 
     l: int
     m: int | None
@@ -43,8 +42,6 @@ class RepairedEntry(Frozen):
 
 
 class Repair(RepairedEntry):
-    """An entry whose change alone restores the claimed order."""
-
     new: Number
     is_embedded: bool = False
 

@@ -1,8 +1,8 @@
 """Tableaus whose coefficients are rounded, and their order.
 
-Each number of a file may be off by a radius of its own. All verdicts on a rounded method are about
-one method within these radii (``order.recovering``). An order fails if it is proved that no such
-method has it; else it is undecided.
+Each number of a file may be off by a radius of its own. All verdicts are about one method within
+these radii (``order.recovering``). An order fails if provably no such method has it; else it is
+undecided.
 """
 
 from __future__ import annotations
@@ -36,9 +36,7 @@ from garkcli.upward import Shown
 
 
 class Near(Frozen, eq=False):
-    """A method that is known to many bits. ``near`` is its tableau to that precision on point
-    stages; numbers computed from it count as zero below ``grain``.
-    """
+    """A method ``near`` on point stages, to many bits; numbers below ``grain`` count as zero."""
 
     near: Tableau
     grain: fmpq
@@ -47,9 +45,8 @@ class Near(Frozen, eq=False):
 class RoundedTableau(Frozen, eq=False):
     """A rounded tableau, with the method that it is taken to mean.
 
-    Attributes:
-        tolerance: the rounding of its coefficients, or of most.
-        name: its name among the tableaus derived from the method.
+    ``tolerance`` is the rounding of most coefficients at least, ``name`` its name among the
+    tableaus derived from the method.
     """
 
     tableau: Tableau
@@ -59,8 +56,10 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def of(tableau: Tableau, tolerance: fmpq, box: Box, further: Further) -> RoundedTableau:
-        """The rounded tableau of a box. If a construction joins stages with equal printed numbers,
-        but not for all methods of the box, each coefficient counts as a printed number.
+        """The rounded tableau of a box.
+
+        If a construction joins stages with equal printed numbers, but not in all methods of the
+        box, each coefficient counts as a printed number.
         """
         search = Recovery(box, further)
         made = search.origin.defects("method").tableau.made, search.origin.exact("method")
@@ -70,15 +69,14 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def within(tableau: Tableau, tolerance: fmpq, further: Further = NOTHING) -> RoundedTableau:
-        """A rounded tableau with every nonzero coefficient off by at most ``tolerance``."""
         return _around(tableau, further, tolerance, lambda _: tolerance)
 
     @staticmethod
     def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
-        """Returns a rounded tableau with every coefficient off by the unit of its last digit.
+        """Each coefficient is off by the unit of its last digit; ``units`` are those of printed
+        ones.
 
-        ``units`` has the radius of each printed value; other values are made of printed ones and
-        get the largest.
+        Other values are made of printed ones and get the largest.
         """
         largest = max(units.values(), default=fmpq(0))
         return _around(tableau, NOTHING, largest, lambda x: units.get(x, largest))
@@ -106,7 +104,6 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def grain(self) -> fmpq:
-        """The size below which numbers computed from ``near`` count as zero."""
         return self.search.settled.grain
 
     @property
@@ -132,13 +129,9 @@ class RoundedTableau(Frozen, eq=False):
         return is_rounded and self.search.origin.may_meet(self.name, tree)
 
     def conjugate(self) -> RoundedTableau:
-        """The symplectic conjugate. Raises ZeroWeight if a weight that it divides by is 0."""
         return self.derive("conjugate", conjugate)
 
     def pair(self) -> RoundedTableau:
-        """The symplectic pair (Q, P). Raises ZeroWeight if a weight that a conjugate divides by is
-        0.
-        """
         return self.derive("pair", pair)
 
     def with_time(self) -> RoundedTableau | None:
@@ -150,7 +143,7 @@ class RoundedTableau(Frozen, eq=False):
         return self.derive("with time", _with_time)
 
     def with_embedded(self) -> RoundedTableau | None:
-        """The method with the embedded weights as b; None if no rounded number is in it."""
+        """With the embedded weights as b; None if no rounded number is in it."""
         self.search.settled  # noqa: B018 -- it adds the tableau
         tolerance = self.search.largest_in("embedded")
         if not tolerance:
@@ -159,30 +152,31 @@ class RoundedTableau(Frozen, eq=False):
         return RoundedTableau(printed, tolerance, self.search, "embedded")
 
     def with_dense(self) -> RoundedTableau | None:
-        """The method with the rounding of dense output; None if no rounded number is in it."""
+        """With the rounding of dense output; None if no rounded number is in it."""
         powers = range(1, len(self.search.printed_further.powers) + 1)
         self.search.settled  # noqa: B018 -- it adds the tableaus
         tolerance = max(self.search.largest_in(f"power {power}") for power in powers)
         return replace(self, tolerance=tolerance) if tolerance else None
 
     def aside(self) -> RoundedTableau:
-        """The tableau with a search of its own: further orders move another method."""
+        """With a search of its own: further orders move another method."""
         return replace(self, search=self.search.aside())
 
     def of_orders(self) -> RoundedTableau:
-        """The tableau for questions about orders alone, which take less time."""
+        """For questions about orders alone, which take less time."""
         return replace(self, search=self.search.of_orders())
 
     def one_by_one(self, limit: int) -> RoundedOrder:
-        """The order up to which the rounding explains each condition by itself, which is faster:
-        one method need not meet all. Below the limit it has a witness.
+        """The order up to which rounding explains each condition alone: one method need not meet
+        all.
+
+        Below the limit it has a witness.
         """
         order, tree = self.search.explained(self.name, limit)
         witness = None if tree is None else _witness(self, tree)
         return RoundedOrder(order, self.tolerance, witness, rounded=self)
 
     def derive(self, kind: str, make: Derive) -> RoundedTableau:
-        """The tableau that ``make`` makes of it, rounded by the same printed numbers."""
         name, search = f"{kind} of {self.name}", self.search
         derived = make(self.tableau)
         base = search.targets[self.name]
@@ -256,7 +250,7 @@ class RoundedOrder(Shown, FrozenBut):
 
     @cached_property
     def sizes(self) -> tuple[arb, ...]:
-        """For each order 1, 2, … a bound on |residual| for the printed digits."""
+        """A bound on |residual| for the printed digits at each order 1, 2, …"""
         zeros = (arb(0),) * min(self.exact, self.order)
         if self.rounded is None or self.order <= self.exact:
             return zeros
@@ -285,8 +279,9 @@ class RoundedOrder(Shown, FrozenBut):
 def find_order_within(
     rounded: RoundedTableau, limit: int = DEFAULT_LIMIT, exact: Order | None = None
 ) -> RoundedOrder:
-    """The largest r ≤ ``limit`` for which one method within the rounding meets all conditions of
-    order ≤ r, together with all it was asked to meet before.
+    """The largest r ≤ ``limit`` for which one method within the rounding has order r.
+
+    It also meets all that it was asked to meet before.
     """
     exact = exact or find_order(rounded.tableau, limit)
     limit = min(limit, rounded.tableau.exact_to or limit)
@@ -309,9 +304,7 @@ def find_order_within(
 def _most_telling(
     rounded: RoundedTableau, order: int, failure: RecoveryFailure, missed: Sequence[Tree]
 ) -> Tree:
-    """A tree of a failing order: one whose condition no method of the box meets, or the one with
-    the largest weight in the proof that none meets all.
-    """
+    """A tree that no method of the box meets, or the heaviest in the proof that none meets all."""
     alone = next((u for u in missed if not rounded.explains(u)), None)
     if alone is not None:
         return alone

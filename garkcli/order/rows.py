@@ -18,14 +18,12 @@ class Label(Frozen):
     """A group of conditions: one kind, block or colour, and number.
 
     Attributes:
-        kind: B, C, D, symplectic, symmetric, palindrome, node, stiff, diagonal, damping, weak, or
+        kind: B, C, D, symplectic, symmetric, palindrome, node, stiff, diagonal, damping, weak or
             tree.
-        l: a colour.
-        m: a colour that it sees, for kinds of blocks.
+        m: a colour that ``l`` sees, for kinds of blocks.
         k: the number of a simplifying condition; the value of nodes; the stage of ``symplectic``,
             ``symmetric``, ``stiff`` and ``diagonal``; for ``damping`` the degree of the
             denominator; for a tree its required weight times γ(u), 1 or 0.
-        tree: the tree of an order condition.
         path: the colours of a word b A ⋯ A, the last with the stages of l.
     """
 
@@ -42,14 +40,12 @@ def of_tree(tree: Tree, share: int = 1) -> Label:
 
 
 Chosen: TypeAlias = "dict[Label, list[int]]"
-"""The rows that are chosen of each label, by index."""
+"""The indices of the rows that are chosen of each label."""
 System: TypeAlias = "Mapping[str, Chosen]"
 """Rows by the name of their tableau."""
 
 
 class FormDefects:
-    """The conditions on a tableau of forms, left side minus right side."""
-
     def __init__(self, tableau: FormTableau) -> None:
         self.tableau = tableau
         self._powers = [[tableau.one(l)] for l in range(len(tableau.b))]
@@ -133,8 +129,10 @@ class FormDefects:
         return self._words[path]
 
     def _damping(self, x: Label) -> Forms:
-        """The coefficients of z^k in the numerator of R of colour l alone, from the degree of the
-        denominator on: R(∞) = 0 if they vanish. Empty if all stages are explicit.
+        """Coefficients of z^k in the numerator of R of l alone, k from the degree of the
+        denominator.
+
+        R(∞) = 0 if they vanish. Empty if all stages are explicit.
         """
         denominator, series = self._fraction(x.l)
         if not x.k:
@@ -147,13 +145,14 @@ class FormDefects:
         )
 
     def degree(self, l: int) -> int:
-        """The degree of the denominator of R of colour l alone, for all numbers of the box."""
+        """The degree of the denominator of R of l alone, for all numbers of the box."""
         denominator, _ = self._fraction(l)
         return max(k for k in range(len(denominator)) if not may_vanish(denominator, k))
 
     def _fraction(self, l: int) -> tuple[Forms, Forms]:
-        """The coefficients of det(I − zA) up to z^s, by Newton's identities from traces of powers
-        of A, and those of R as a power series, with b A^(k−1) 𝟙.
+        """The coefficients of det(I − zA) up to z^s, and those of R as a power series.
+
+        They are by Newton's identities from traces of powers of A, and with b A^(k−1) 𝟙.
         """
         block, stages = self.tableau.block(l, l), len(self.tableau.b[l])
         unit = part(self.tableau.one(l), [0])

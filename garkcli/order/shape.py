@@ -92,7 +92,6 @@ def candidates(origin: BoxPlace) -> Chosen:
 
 
 def _equalities(origin: BoxPlace, edges: Sequence[Edge]) -> Iterator[Label]:
-    """Rows of numbers that may be equal: a stage equal to the step, a constant diagonal."""
     printed = origin.exact("method")
     for l, m in edges:
         for i in range(len(printed.block(l, m) or ())):
@@ -111,7 +110,7 @@ def _of_diagonal(label: Label, defects: FormDefects) -> range:
 
 
 def _symplectic(defects: FormDefects) -> list[Label]:
-    """Symplecticity, row by row; empty if a block has no opposite."""
+    """Empty if a block has no opposite."""
     made = defects.tableau.made
     labels = []
     for l, m in made.edges():
@@ -125,7 +124,6 @@ def _symplectic(defects: FormDefects) -> list[Label]:
 
 
 def _symmetric(defects: FormDefects) -> list[Label]:
-    """Self-adjointness under reversal of the stages, row by row."""
     b = defects.tableau.b
     labels = [Label("palindrome", l) for l in range(len(b))]
     for l, m in defects.tableau.made.edges():
@@ -143,9 +141,7 @@ def _tall(tableau: Tableau, l: int) -> Iterator[Tree]:
 
 
 def less(origin: BoxPlace, chosen: Chosen) -> Chosen:
-    """The rows without those that the others exclude, to first order: the one with the largest
-    residual in a compromise, and those that build on it.
-    """
+    """The rows without the worst in a compromise, to first order, and those that build on it."""
     rows = origin.rows({"method": chosen})
     c, G, _ = scaled(rows)
     places = [(label, i) for label, which in chosen.items() for i in which]
@@ -175,8 +171,10 @@ def less(origin: BoxPlace, chosen: Chosen) -> Chosen:
 
 
 def weak_rows(place: BoxPlace, k: int) -> list[Label]:
-    """The conditions of weak stage order k, for as many words b A ⋯ A of each last colour as there
-    are stages: longer ones are combinations, for one colour by Cayley-Hamilton.
+    """The conditions of weak stage order k, for as many words b A ⋯ A of each last colour as
+    stages.
+
+    Longer ones are combinations, for one colour by Cayley-Hamilton.
     """
     made = place.defects("method").tableau.made
     edges = list(made.edges())

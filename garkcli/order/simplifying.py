@@ -1,8 +1,7 @@
 """The simplifying conditions B, C, D of the paper, the order they guarantee, and symplecticity.
 
-Each is a statement about elements of stage spaces, so it is decided exactly without the nodes
-themselves: its defect is an element or a functional of a stage space, zero if the condition holds;
-its entries are balls if coefficients are rounded.
+A defect is an element or a functional of a stage space, zero if the condition holds, so it is
+decided exactly without the nodes; its entries are balls if coefficients are rounded.
 """
 
 from __future__ import annotations
@@ -21,12 +20,10 @@ from garkcli.tableau.tableau import Edge, Tableau
 
 
 def is_symplectic(method: AnyTableau) -> bool:
-    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs,
-    exactly or within rounding.
+    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs.
 
-    For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the
-    conjugates of its position blocks, with equal weights if positions and momenta share stages.
-    Nothing is divided by a weight.
+    A GARK tableau is then its own conjugate; momentum blocks of a partitioned one are conjugates of
+    its position blocks, with equal weights if they share stages. No weight is a divisor.
     """
     defects = defects_of(method)
     with defects.precision():
@@ -34,9 +31,7 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """The defects of a tableau; if it is rounded, of the method that it is taken to mean. Raises
-    MethodError if it is no GARK method.
-    """
+    """For the method that a rounded tableau is taken to mean; MethodError if it is not GARK."""
     tableau = method if isinstance(method, Tableau) else method.tableau
     tableau.demand_fields("a simplifying condition", with_flow=True)
     if isinstance(method, Tableau):
@@ -47,7 +42,6 @@ def defects_of(method: AnyTableau) -> Defects:
 
 
 Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"
-"""A number for each block; None if the block does not exist."""
 
 
 class Simplifying(FrozenBut):
@@ -145,8 +139,9 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """Returns B, C and D of a tableau, up to ``limit``, or only those in ``letters``. A rounded
-    tableau meets a condition if rounding explains every entry of its defect.
+    """B, C and D, or only ``letters``, up to ``limit``.
+
+    A rounded tableau meets a condition if rounding explains every entry of its defect.
     """
     defects = defects_of(method)
     tableau = defects.tableau
@@ -155,12 +150,10 @@ def simplifying(
 
     @cache
     def largest(defect: Callable[..., Any], *block: int) -> int:
-        """The largest k, up to the limit, before the first with a defect."""
         vanishing = (defects.vanish(defect(*block, k)) for k in range(1, limit + 1))
         return next((k for k, vanishes in enumerate(vanishing) if not vanishes), limit)
 
     def of_blocks(letter: str, defect: Callable[..., Any], first: Sequence[int]) -> Table:
-        """The table of a condition; colours that share a ``first`` are computed once."""
         if letter not in letters:
             return ()
         return tuple(
@@ -177,9 +170,7 @@ def simplifying(
 
 
 class _Alike(Frozen):
-    """For each colour the first one with the same stages and nodes, and with the same weights too.
-    Their conditions are equal; in an additive method all colours agree.
-    """
+    """For each colour the first with equal stages and nodes, and weights too: equal conditions."""
 
     nodes: tuple[int, ...]
     weights: tuple[int, ...]
@@ -208,7 +199,6 @@ def consistent_blocks(method: AnyTableau) -> dict[Edge, bool]:
 
 
 def inconsistent_blocks(method: AnyTableau | None) -> tuple[Edge, ...]:
-    """Returns the blocks with A^{l,m} 𝟙 ≠ c^{l}; none if there is no method."""
     if method is None:
         return ()
     return tuple(edge for edge, holds in consistent_blocks(method).items() if not holds)

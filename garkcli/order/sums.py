@@ -12,13 +12,9 @@ from garkcli.tableau.tableau import Edge
 
 
 class WrongSum(Frozen):
-    """A wrong sum of weights or of a row.
+    """A wrong sum of the weights b^{l}, where ``m`` and ``i`` are None, or of row i of a block.
 
-    ``l, m`` are the block's colours and ``i`` its row; of the weights b^{l} both ``m`` and ``i``
-    are None. All count from 0.
-
-    Attributes:
-        wanted: the required sum, 1 or the node.
+    ``wanted`` is 1 or the node; all count from 0.
     """
 
     l: int
@@ -34,7 +30,6 @@ class WrongSum(Frozen):
 
 
 def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
-    """The rows of blocks of point stages that do not sum to their nodes."""
     tableau = defects.tableau
     for l, m in edges:
         block = tableau.block(l, m)
@@ -47,7 +42,7 @@ def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
 
 
 def wrong_weights(defects: Defects, is_embedded: bool = False) -> Iterator[WrongSum]:
-    """The weights that do not sum to 1 beyond rounding, shared ones once."""
+    """Shared weights occur once."""
     seen = []
     for l, colour in enumerate(defects.tableau.colours):
         is_of_points = isinstance(defects.tableau.space(l), PointSpace)

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 MOST_NUMBERS = 300
 MOST_SUSPECTS = 8
-"""Most candidates of first order that are tried."""
 LEAST = 1e-24
 """Smaller squared slopes of a number, relative to all others, are rounding errors of zero."""
 MAX_STEPS = 6
@@ -49,8 +48,9 @@ LONGEST = 1e9
 
 
 def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) -> dict[Repair, int]:
-    """The single entries whose change would give the method an order, the others staying within
-    their rounding; smallest change first, none below rounding. Returns the order that each gives.
+    """Single entries whose change gives an order, the others within rounding; with these orders.
+
+    The smallest change is first, and none is below rounding.
     """
     search = rounded.search
     changes = _changes(rounded, order, limit, lambda k, change: _repair(search, k, change))
@@ -60,9 +60,7 @@ def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) ->
 def suspected_numbers(
     rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT
 ) -> list[SuspectedNumber]:
-    """The single printed numbers whose change would give the method an order, as in ``suspects``,
-    also where a number is part of several entries.
-    """
+    """As ``suspects``, also where a number is part of several entries."""
     numbers = rounded.search.box.numbers
 
     def changed(k: int, change: fmpq) -> tuple[fmpq, fmpq]:
@@ -77,16 +75,12 @@ def suspected_numbers(
 
 
 class SuspectedNumber(Frozen):
-    """A printed number, the value that gives a method an order, and that order."""
-
     old: fmpq
     new: fmpq
     order: int
 
 
 class _ChangedNumber(Frozen, Generic[T]):
-    """A suspected number in the form of its caller, and the order that its new value gives."""
-
     made: T
     order: int
 
@@ -94,9 +88,7 @@ class _ChangedNumber(Frozen, Generic[T]):
 def _changes(
     rounded: RoundedTableau, order: int, limit: int, made_of: Callable[[int, fmpq], T | None]
 ) -> list[_ChangedNumber[T]]:
-    """The suspected numbers, each made by ``made_of`` of its index and its change, with the order
-    that the change gives; numbers for which it returns None are left out.
-    """
+    """Suspected numbers that ``made_of`` makes of index and change, without None."""
     search = rounded.search
     limit = min(limit, rounded.tableau.exact_to or limit)
     if order > limit or len(search.box.numbers) > MOST_NUMBERS:
@@ -136,8 +128,8 @@ def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) ->
 class _Candidate(Frozen):
     """A number whose change lets all conditions be met to first order.
 
-    ``shift`` is its error in units of its radius, ``doubt`` the uncertainty of that. ``is_sure``
-    says that all conditions are met together, not each alone.
+    ``shift`` and its uncertainty ``doubt`` are in units of the radius. ``is_sure``: all
+    conditions are met together, not each alone.
     """
 
     number: int
@@ -151,7 +143,7 @@ _Rank: TypeAlias = tuple[bool, int]
 
 
 def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_Rank, _Candidate]]:
-    """The numbers that may be wrong: sure ones first, then by order and change."""
+    """Sure ones are first, then by order and change."""
     best: dict[int, tuple[_Rank, _Candidate]] = {}
     among = None
     for q in range(order, limit + 1):
@@ -186,9 +178,7 @@ def _candidates(
 
 
 def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candidate | None:
-    """The error of number k alone, by Newton's method; the others stay within their radii to first
-    order. None if there is no solution.
-    """
+    """The error of number k alone, the others within their radii to first order; or None."""
     shift, unit = fmpq(0), to_float(search.box.radii[k])
     before = np.inf
     for _ in range(MAX_STEPS):
@@ -224,7 +214,6 @@ def without(rows: Floats, direction: Floats) -> Floats:
 
 
 def _around(search: Recovery, candidate: _Candidate) -> Recovery | None:
-    """The search with one number moved to another value."""
     k, box = candidate.number, search.box
     numbers, radii = list(box.numbers), list(box.radii)
     number = numbers[k]
@@ -240,7 +229,6 @@ def _around(search: Recovery, candidate: _Candidate) -> Recovery | None:
 
 
 def _in_few_digits(wide: Recovery, k: int, search: Recovery) -> fmpq:
-    """The value of number k in the method found, in few digits."""
     printed, near = search.box.numbers[k], wide.box.numbers[k]
     assert isinstance(printed, fmpq)
     assert isinstance(near, fmpq)

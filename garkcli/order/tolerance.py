@@ -1,6 +1,7 @@
-"""Whether exact numbers, vectors and functionals are within a tolerance of zero; never decided by
-floats. Elements of a stage space are measured by their values at the nodes, functionals and
-bilinear forms by their coefficients there: the entries of a printed tableau.
+"""Whether exact numbers are within a tolerance of zero; never decided by floats.
+
+Elements of a stage space are measured by their values at the nodes, functionals and bilinear forms
+by their coefficients there: the entries of a printed tableau.
 """
 
 from __future__ import annotations
@@ -24,8 +25,10 @@ def unnatural(order: int) -> fmpq:
 
 
 def small(order: int) -> fmpq:
-    """The size below which a residual of that order may be due to a few digits: a thousandth of the
-    error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes, (s!)⁴ / ((2s+1) ((2s)!)²).
+    """Largest residual that a few digits may explain.
+
+    A thousandth of the error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes,
+    (s!)⁴ / ((2s+1) ((2s)!)²).
     """
     s = order // 2
     return UNNATURAL * fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)

@@ -18,32 +18,25 @@ from garkcli.tableau.tableau import Tableau
 
 
 class ResidualSizes(Frozen, eq=False):
-    """Residuals of one order: an upper bound, and the largest one of a tree."""
-
     bound: arb
     reached: arb
 
 
 class BallVectors(list[Row]):
-    """Stage vectors in balls, one per row."""
-
     @cached_property
     def matrix(self) -> arb_mat:
-        """The rows as a matrix, which many products use."""
         return arb_mat(self)
 
 
 class TreeResiduals(StageVectors[BallVectors]):
     """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of every admissible tree in balls, order after order.
 
-    One row per tree; vectors are shared between orders. Trees share their branches, as in the tree
-    table: u = stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
+    Trees share branches: u = stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
 
         b_lᵀ 𝒜^[u] = (b_l ⊙ 𝒜^[stem])ᵀ (A 𝒜^[branch]),
 
-    and the weights of all trees of a segment are entries of one matrix product. The vectors of the
-    order itself are not needed. All arithmetic is ball arithmetic: nothing here depends on the
-    rounding of floats.
+    and the weights of all trees of a segment are entries of one matrix product, without the vectors
+    of the order itself.
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
@@ -99,7 +92,7 @@ class TreeResiduals(StageVectors[BallVectors]):
                 yield values[i] - required[gamma], required[gamma], u
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:
-        """b_lᵀ 𝒜^[u] for every stem with every branch, with the longer list outside."""
+        """b_lᵀ 𝒜^[u] for every stem with every branch, the longer list outside."""
         b = self.enclosure.b[segment.root].entries()
         stems = self.stems(table, segment)
         if len(stems) < len(segment.branches):  # the weights and A go where they are fewer
