@@ -17,9 +17,7 @@ MAX_USING = 62
 
 
 class Block(Frozen):
-    """Some trees of one order, consecutive in the table unless they were selected. ``columns`` hold
-    the trees, whose parents' ids are those of ``lower``, the table of the orders below.
-    """
+    """Some trees of one order; their parents' ids are those of ``lower``, the table below it."""
 
     columns: Columns
     lower: TreeTable
@@ -51,9 +49,8 @@ def iter_blocks(
 ) -> Iterator[Block]:
     """All trees of one order, in the order of the table, in blocks of at most ``block_size`` trees.
 
-    Only the lower orders are held in memory. ``roots``: the root colours, from 0, all by default;
-    ``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` when the lower
-    orders are too many, ``ValueError`` for a block size below 1.
+    Only lower orders are in memory. ``roots`` are root colours, from 0; ``edges`` and ``linear`` as
+    in :class:`Admissible`. Raises :class:`TableTooLarge` if the lower orders are too many.
 
     >>> sum(len(block) for block in iter_blocks(2, 5))
     214
@@ -67,7 +64,6 @@ def blocks_of(
     block_size: int = BLOCK_SIZE,
     roots: Collection[int] | None = None,
 ) -> Iterator[Block]:
-    """The trees of one order that ``admissible`` describes, in blocks."""
     if block_size < 1:
         raise ValueError(f"a block holds at least one tree, not {block_size}")
     wanted = [root for root in range(admissible.colours) if roots is None or root in roots]
@@ -96,9 +92,8 @@ def select(
 ) -> Iterator[Block]:
     """The trees of one order with a given root colour, or with given colours; colours count from 0.
 
-    ``only``: no vertex has another colour than these (the others are not generated); ``using``:
-    each of these colours occurs. Blocks are never empty. Raises ``ValueError`` for a colour that
-    does not exist, and the errors of :func:`iter_blocks`, when the first block is requested.
+    ``only``: no vertex has another colour; ``using``: each of these occurs. Blocks are never empty.
+    Raises ``ValueError`` for a colour that does not exist, else as :func:`iter_blocks`.
 
     >>> [u for block in select(2, 3, root=0, using=[1]) for u in block.notation()]
     ['[[]_1,[]_2]_1', '[[]_2,[]_2]_1', '[[[]_2]_1]_1', '[[[]_1]_2]_1', '[[[]_2]_2]_1']
@@ -144,7 +139,6 @@ def _used(trees: Columns, bits: Column, known: Column) -> Column:
 
 
 def _used_by_all(table: TreeTable, bits: Column) -> Column:
-    """A bit for each colour that occurs, for every tree of a table."""
     used = np.zeros(len(table), np.int64)
     for order in range(1, table.max_order + 1):
         ids = np.flatnonzero(table.order == order)

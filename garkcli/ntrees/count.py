@@ -1,16 +1,13 @@
 """Counts N-trees of any order exactly, without generating a tree.
 
-The trees of order n with root l are the forests of order n - 1 that may be on l, or n - w where a
-vertex counts w orders. Forests are counted from trees by the Euler transform: for a forest whose
-trees have the counts t(1), t(2), …
+The trees of order n with root l are the forests of order n - 1 that may be on l, or n - w if a
+vertex counts w orders. The Euler transform counts forests from the counts t(1), t(2), … of trees:
 
     n f(n) = Σ_{k=1..n} c(k) f(n - k),      c(k) = Σ_{d | k} d t(d),      f(0) = 1.
 
-Of these f(n) forests, t(n) are one branch.
-
-The t(n) that c(n) needs is a sum of f(n - 1), so the convolution is one of sequences that are still
-growing. It is taken in blocks, of half the orders, a quarter, and so on, each a product of
-polynomials: O(M(n) log n) with M(n) the time of a product.
+Of these f(n) forests, t(n) are one branch. As the t(n) that c(n) needs is a sum of f(n - 1), the
+convolution is one of sequences that are still growing. It is taken in blocks, of half the orders, a
+quarter, and so on, each a product of polynomials: O(M(n) log n) with M(n) the time of a product.
 
 Source: Harary and Palmer, *Graphical Enumeration* (1973), chapter 3; Butcher, *B-Series* (2021),
 chapter 2; van der Hoeven, "Relax, but don't be too lazy", J. Symb. Comput. 34 (2002) 479.
@@ -32,7 +29,7 @@ from garkcli.ntrees.tree import Tree
 SHORT = 48
 """Blocks of so many orders are done one by one: products of shorter polynomials gain nothing."""
 Edges: TypeAlias = "Sequence[Sequence[bool]]"
-"""``edges[l][m]``: whether a vertex of colour l may carry a root of colour m."""
+"""Whether a vertex of colour l may carry a root of colour m, as ``edges[l][m]``."""
 
 
 Colours: TypeAlias = tuple[int, ...]
@@ -41,9 +38,8 @@ Colours: TypeAlias = tuple[int, ...]
 class Admissible(Frozen):
     """A class of N-trees: the colours, the edges between them, and the kinds of vertices.
 
-    ``branches[l]`` are the colours, in increasing order, that may be on a vertex of colour l, and
-    ``kinds[l]`` says how many of them, and how many orders the vertex counts. A vertex of a linear
-    vector field carries at most one branch.
+    ``branches[l]`` are the colours, ascending, that may be on a vertex of colour l, and
+    ``kinds[l]`` says how many of them, and how many orders the vertex counts.
     """
 
     colours: int
@@ -54,11 +50,9 @@ class Admissible(Frozen):
     def of(
         cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> Admissible:
-        """The class of trees with some linear colours, checked; without ``edges`` every edge is
-        allowed.
+        """The class with some linear colours, by default with every edge.
 
-        Raises ``TreeError`` when ``edges`` is not a colours × colours matrix or a colour does not
-        exist.
+        Raises ``TreeError`` if ``edges`` has not a row for each colour, or a colour does not exist.
         """
         if colours < 1:
             message = f"an N-tree needs at least one colour, not {colours}"
@@ -86,7 +80,6 @@ class Admissible(Frozen):
             raise TreeError(message, "their order can be decided all the same", code="wrong-value")
 
     def is_linear(self, colour: int) -> bool:
-        """Whether a colour has a linear vector field: a vertex carries at most one branch."""
         return self.kinds[colour] == LINEAR
 
     def tree(self, root: int, branches: Iterable[Tree] = ()) -> Tree:
@@ -101,12 +94,10 @@ class Admissible(Frozen):
 
 
 Counts: TypeAlias = tuple[int, ...]
-"""Numbers of trees, one for each root colour."""
 
 
 def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
-    """``counts[n - 1][l]``: the number of admissible trees of order n ≤ ``order`` with root colour
-    l.
+    """Admissible trees of order n ≤ ``order`` with root colour l, as ``counts[n - 1][l]``.
 
     >>> counts_upto(Admissible.of(2, [[False, True], [True, True]]), 3)
     [(1, 1), (1, 2), (3, 6)]
@@ -121,9 +112,7 @@ def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
 def count_by_root(
     colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
 ) -> Counts:
-    """The number of N-trees of one order for each root colour.
-
-    ``edges`` and ``linear`` as in :class:`Admissible`; raises ``TreeError`` for an order below 1.
+    """The number of N-trees of one order for each root colour; TreeError for an order below 1.
 
     >>> count_by_root(2, 4)
     (26, 26)
@@ -162,8 +151,6 @@ def _grown(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[i
 
 
 class _Growing:
-    """The forests on a colour, f(0), f(1), …, as far as they are counted."""
-
     def __init__(self, order: int, branches: Counter[int], kind: VertexKind) -> None:
         self.branches = branches
         self.kind = kind
@@ -187,7 +174,6 @@ class _Growing:
         return self.f[rest] - self.t[rest] if self.has_several else fmpz(0)
 
     def see(self, n: int, growing: dict[int, _Growing]) -> None:
-        """Records the trees of order n, each a root on a smaller forest."""
         t = fmpz(0)
         for leader, many in self.branches.items():
             t += many * growing[leader].trees(n)
@@ -197,7 +183,7 @@ class _Growing:
                 self.c[multiple] += n * t
 
     def grow(self, n: int, start: int) -> None:
-        """Counts the forests of n vertices; contributions of blocks before ``start`` are known."""
+        """Contributions of blocks before ``start`` are known."""
         if not self.has_several:
             self.f.append(self.t[n])
             return
@@ -217,8 +203,8 @@ class _Growing:
         """Adds the contributions of the blocks before ``end`` to the sums of later orders.
 
         ``end`` is the middle of one interval [start, stop) among those that halve [0, 2^k block).
-        Every pair of orders i and j = n - i has one interval where max(i, j) lies in the first half
-        and n in the second; so it is counted once. Unless the interval begins at 0, j is below its
+        Every pair of orders i and j = n - i has one interval with max(i, j) in the first half and n
+        in the second, so it is counted once. Unless the interval begins at 0, j is below its
         length, hence below ``start``.
         """
         done = end // block

@@ -21,8 +21,7 @@ PALETTE = (
 )
 """Fills and the ink legible on them, distinguishable with every kind of colour vision.
 
-Source: Okabe and Ito, *Color Universal Design* (2008). From the ninth colour on the fills repeat;
-the numbers do not.
+Source: Okabe and Ito, *Color Universal Design* (2008).
 """
 
 DOT = "●"
@@ -31,7 +30,7 @@ _WITH_ROOT = {"─": "┬", "┴": "┼", "╰": "├"}
 
 
 class Vertex(NamedTuple):
-    """A placed vertex: ``x`` in leaf widths from the left, ``y`` the distance from the root."""
+    """``x`` is in leaf widths from the left, ``y`` the distance from the root."""
 
     x: float
     y: int
@@ -43,8 +42,9 @@ Lines: TypeAlias = "Sequence[str]"
 
 
 def layout(tree: Tree) -> list[Vertex]:
-    """Places every vertex, the root first, parents before branches; ``parent`` is an index, -1 for
-    the root. Leaves are one unit apart; a vertex is halfway between its first and last branches.
+    """Places every vertex, the root first, parents before branches; the root has parent -1.
+
+    Leaves are one unit apart; a vertex is halfway between its first and last branches.
 
     >>> from garkcli.ntrees.tree import Tree
     >>> layout(Tree(0, [Tree(1), Tree(1)]))[0]
@@ -73,10 +73,7 @@ def layout(tree: Tree) -> list[Vertex]:
 
 
 def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
-    r"""Lines of text, from top to bottom: a chain on one line, another tree upright if it fits into
-    ``width``, else lying on its side.
-
-    A vertex is a dot followed by its colour, from 1; ``colours=False`` leaves the number out.
+    r"""Lines from top to bottom: a chain on one line, others upright if ``width`` allows, or lying.
 
     >>> from garkcli.ntrees.tree import Tree
     >>> print("\n".join(draw_text(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))))
@@ -138,7 +135,6 @@ def _upright(tree: Tree, colours: bool) -> tuple[list[str], int]:
 
 
 def _fork(dots: Sequence[int], root: int) -> str:
-    """The line that joins branches at the columns ``dots`` to the root below."""
     first = dots[0]
     last = dots[-1]
     indent = " " * first
@@ -154,7 +150,7 @@ def _fork(dots: Sequence[int], root: int) -> str:
 
 
 def _lying(tree: Tree, colours: bool) -> list[str]:
-    """The root at the top left, one vertex per line: as wide as the tree is deep."""
+    """The root is at the top left, one vertex per line: as wide as the tree is deep."""
     lines = [_label(tree, colours)]
     branches = written_order(tree)
     for k, u in enumerate(branches):
@@ -173,10 +169,7 @@ def paint(colour: int) -> tuple[str, str]:
 
 
 def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
-    r"""A ``tikzpicture`` of plain nodes with coordinates in units of ``scale`` cm; needs ``tikz``
-    only.
-
-    Without ``colours`` the vertices are plain black dots, at half the scale.
+    r"""A ``tikzpicture`` in units of ``scale`` cm, or half of that if dots have no colours.
 
     >>> from garkcli.ntrees.tree import Tree
     >>> print(tikz(Tree(0)).splitlines()[0])
@@ -233,7 +226,6 @@ Pixels: TypeAlias = list[float]
 
 
 def draw_svg(tree: Tree) -> str:
-    """A picture of one tree, as notebooks show it; its colours count from 1."""
     return draw_svg_sheet([tree])
 
 
@@ -242,10 +234,8 @@ def draw_svg_sheet(
 ) -> str:
     """An SVG document with the trees in rows of ``columns``, each above its caption, σ and γ.
 
-    By default a row has six trees, or three if there are few, so that a phone shows them. The dots
-    carry the colours' numbers, from 1, and fills of ``PALETTE``; if colour 1 is the only one they
-    are plain. ``captions``: a line of text for each tree; ``ValueError`` if their numbers differ.
-    ``title`` is for screen readers, by default the tree or the number of trees.
+    By default a row has six trees, or three if there are few, for phones. Dots are plain if colour
+    1 is the only one. ``title`` is for screen readers, by default the tree or their number.
     """
     from html import escape  # brings a table of entities along
 
@@ -305,7 +295,7 @@ def _grid(
 
 
 def _svg_tree(vertices: Vertices, middle: float, ground: float, has_colours: bool) -> list[str]:
-    """Edges first, so that the dots lie on them; the drawing is centred at ``middle``."""
+    # edges first, so that the dots lie on them
     left = middle - max(v.x for v in vertices) * STEP_X / 2
     xs = [left + v.x * STEP_X for v in vertices]
     ys = [ground - v.y * STEP_Y for v in vertices]
@@ -349,7 +339,6 @@ def _svg_caption(lines: Lines, middle: float, top: float) -> list[str]:
 
 
 def _pixels(**lengths: float) -> str:
-    """Attributes of an element, to a tenth of a pixel."""
     written = []
     for name, length in lengths.items():
         tenths = f"{length:.1f}"

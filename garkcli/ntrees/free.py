@@ -1,7 +1,6 @@
-"""Free N-trees: rooted trees whose root may move along the edges.
+"""Free N-trees: rooted trees whose root may move along the edges, represented by one rooting.
 
-A free tree is the set of its rootings. It is represented by the rooting at its centroid, where no
-branch has more than half of the vertices.
+It is the rooting at the centroid, where no branch has more than half of the vertices.
 """
 
 from __future__ import annotations
@@ -17,12 +16,11 @@ from garkcli.ntrees.count import Admissible
 from garkcli.ntrees.tree import Tree
 
 Part: TypeAlias = Literal["y", "q", "p"]
-"""The part that a colour drives: all unknowns (GARK), or positions or momenta (symplectic pair)."""
+"""The unknowns that a colour drives: all (GARK), or positions or momenta (symplectic pair)."""
 Nature: TypeAlias = tuple[int, Part]
 """The term of a colour, and the part that it drives."""
 Forest: TypeAlias = tuple[Tree, ...]
 _Kind: TypeAlias = tuple[int, int]
-"""The order and the colour of a branch."""
 _PARTNER: dict[Part, Part] = {"y": "y", "q": "p", "p": "q"}
 
 
@@ -33,12 +31,8 @@ class Structure(Frozen):
     drives. Below a vertex of term l hangs ``(m, "q")``, V^m, through A^{l,m} or ``(m, "p")``, F^m,
     through Â^{l,m}. With the root moved across that edge the upper vertex hangs below as ``(l,
     "p")`` or ``(l, "q")``, so an edge needs both vector fields: the stages of H^{l} see V^m only if
-    there is a force F^l to use it.
-
-    Attributes:
-        colours: for each colour of the tableau its term, any number, and its part.
-        quadratic: terms H^{l} of degree two, whose vector fields are linear: two edges at a vertex
-            at most.
+    there is a force F^l to use it. ``quadratic`` terms have linear vector fields: two edges at a
+    vertex at most.
 
     >>> Structure(((0, "q"), (1, "p"))).admissible.branches
     ((1,), (0,))
@@ -67,13 +61,13 @@ class Structure(Frozen):
 
     @classmethod
     def self_conjugate(cls, colours: int) -> Structure:
-        """A symplectic GARK tableau: b^l_i b^m_j = b^l_i a^{l,m}_{ij} + b^m_j a^{m,l}_{ji}."""
+        """b^l_i b^m_j = b^l_i a^{l,m}_{ij} + b^m_j a^{m,l}_{ji}."""
         natures: list[Nature] = [(l, "y") for l in range(colours)]
         return cls(tuple(natures))
 
     @property
     def is_directed(self) -> bool:
-        """Whether the edges have a direction: from l to m for A^{l,m}, back for Â^{l,m}."""
+        """Whether edges have a direction: from l to m for A^{l,m}, back for Â^{l,m}."""
         return any(part != "y" for _, part in self.colours)
 
     @cached_property
@@ -90,7 +84,6 @@ class Structure(Frozen):
 
     @cached_property
     def admissible(self) -> Admissible:
-        """The rooted trees with an order condition."""
         everything = range(len(self.colours))
         edges: list[list[bool]] = []
         linear: list[int] = []
@@ -108,12 +101,11 @@ class Structure(Frozen):
         return self._number.get((term, _PARTNER[part]))
 
     def is_forward(self, colour: int) -> bool:
-        """Whether an edge down to this colour goes through A, not through the conjugate Â."""
+        """Whether an edge down to this colour goes through A, not Â."""
         _, part = self.colours[colour]
         return part != "p"
 
     def lead(self, tree: Tree) -> Tree:
-        """The tree with the first of the colours that its root may have."""
         term, _ = self.colours[tree.root]
         leader = self.leaders[term]
         if leader == tree.root:
@@ -121,16 +113,14 @@ class Structure(Frozen):
         return Tree(leader, tree.branches)
 
     def twins(self, tree: Tree) -> Iterator[Tree]:
-        """The tree with every colour of its root: V^l and F^l share stages and weights."""
+        """Every colour of the root: V^l and F^l share stages and weights."""
         term, _ = self.colours[tree.root]
         for colour, (other, _) in enumerate(self.colours):
             if other == term:
                 yield Tree(colour, tree.branches)
 
     def move_root(self, tree: Tree, index: int) -> Tree:
-        """The rooting at the root of one branch: u∘v becomes v∘u. Raises ``ValueError`` when the
-        structure has no such edge.
-        """
+        """The rooting at the root of a branch, u∘v becomes v∘u; ValueError without such an edge."""
         branch = tree.branches[index]
         colour = self._turned(tree.root, branch.root)
         if colour is None:
@@ -152,7 +142,6 @@ class Structure(Frozen):
             )
 
     def is_admissible(self, tree: Tree) -> bool:
-        """Whether every edge exists and no linear vector field has two branches."""
         below = self.admissible.branches[tree.root]
         is_linear = self.admissible.is_linear(tree.root)
         if is_linear and len(tree.branches) > 1:
@@ -162,9 +151,7 @@ class Structure(Frozen):
         return all(map(self.is_admissible, tree.branches))
 
     def centred(self, tree: Tree) -> Tree:
-        """The rooting at the centroid, one for each free tree. Of two centroids it is the tail of
-        the edge between them, or the half that comes first.
-        """
+        """The rooting at the centroid; of two the tail of their edge, or the first half."""
         here = self.lead(tree)
         while _twice_largest(here) > here.order:
             here = self.move_root(here, len(here.branches) - 1)
@@ -181,17 +168,13 @@ class Structure(Frozen):
 
 
 def _twice_largest(tree: Tree) -> int:
-    """Twice the order of the largest branch: that of the tree if both its ends are centroids. 0 for
-    a single vertex.
-    """
+    """Twice the order of the largest branch: that of the tree if both its ends are centroids."""
     if not tree.branches:
         return 0
     return 2 * tree.branches[-1].order
 
 
 class Grower(Frozen):
-    """Lists the free trees of a structure by their centroids, each once."""
-
     structure: Structure
 
     @cached_property
@@ -199,7 +182,6 @@ class Grower(Frozen):
         return {}
 
     def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
-        """The free trees with one centroid, rooted there, sorted."""
         is_linear = self.structure.admissible.is_linear(root)
         edges = 2 if is_linear else order
         total = order - 1
@@ -207,7 +189,6 @@ class Grower(Frozen):
             yield Tree(root, branches)
 
     def two_centroids(self, root: int, order: int) -> Iterator[Tree]:
-        """The free trees with two centroids, two halves that differ."""
         if order % 2:
             return
         is_directed = self.structure.is_directed
@@ -224,7 +205,6 @@ class Grower(Frozen):
                     yield Tree(root, (*u.branches, v))
 
     def planted(self, root: int, order: int) -> Forest:
-        """The rooted trees that may be a branch of a vertex, or half of a tree, sorted."""
         key = (order, root)
         if key not in self._planted:
             is_linear = self.structure.admissible.is_linear(root)
@@ -235,7 +215,6 @@ class Grower(Frozen):
         return self._planted[key]
 
     def _forests(self, root: int, total: int, largest: int, edges: int) -> Iterator[Forest]:
-        """The branches of a root: ``total`` vertices, at most ``edges`` and ``largest``."""
         colours = self.structure.admissible.branches[root]
         for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):
             choices = []
@@ -250,7 +229,6 @@ class Grower(Frozen):
 def _outlines(
     total: int, bound: _Kind, colours: Sequence[int], edges: int
 ) -> Iterator[tuple[_Kind, ...]]:
-    """Orders and colours of the branches, each at most ``bound``, in lexicographic order."""
     if total == 0:
         yield ()
         return

@@ -18,12 +18,8 @@ _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
 class VertexKind(Frozen):
     """The kind of the vertices of a colour.
 
-    Attributes:
-        arity: the possible numbers of branches.
-        weight: the orders that a vertex counts: so often the exact solution is integrated at it.
-        is_exact: whether the exact solution has such vertices; if not, elementary weights with one
-            should be 0.
-        is_field: whether the colour is a vector field, and not an argument of one.
+    ``weight`` counts the integrations of the exact solution at a vertex. If it has no such vertices
+    (``is_exact``) elementary weights should be 0. ``is_field`` is False for arguments of a field.
     """
 
     arity: Arity = ANY
@@ -35,8 +31,7 @@ class VertexKind(Frozen):
         return min(branches, SEVERAL) in self.arity
 
     def integrated(self, order: int) -> int:
-        """ρ (ρ − 1) ⋯, with as many factors as the weight: the factor of a root in the density of a
-        tree of order ρ.
+        """ρ (ρ − 1) ⋯ with ``weight`` factors: that of a root in the density of a tree of order ρ.
 
         >>> VertexKind().integrated(4), VertexKind(weight=2).integrated(4)
         (4, 12)
@@ -45,11 +40,6 @@ class VertexKind(Frozen):
 
     @property
     def of_linear_field(self) -> VertexKind:
-        """The kind for a linear vector field.
-
-        >>> VertexKind().of_linear_field == LINEAR
-        True
-        """
         return VertexKind(self.arity - {SEVERAL}, self.weight, self.is_exact)
 
     @cached_property
@@ -60,17 +50,11 @@ class VertexKind(Frozen):
 
     @property
     def branches(self) -> str:
-        """The possible numbers of branches, in words.
-
-        >>> LINEAR.branches, VertexKind(frozenset({0, 2})).branches
-        ('no branch or one branch', 'no branch or several branches')
-        """
         return " or ".join(_WORDS[n] for n in sorted(self.arity))
 
 
 PLAIN = VertexKind()
 LINEAR = VertexKind(frozenset({0, 1}))
-"""A linear vector field."""
 LEAF = VertexKind(frozenset({0}))
 """A constant vector field, such as ṫ = 1 of time."""
 ONE_BRANCH = VertexKind(frozenset({1}))

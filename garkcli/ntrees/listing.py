@@ -12,14 +12,12 @@ from garkcli.ntrees.tree import Tree
 FEW = 20_000
 """The largest number of trees that are made one by one: before that numpy is not yet imported."""
 BLOCK_SIZE = 1 << 14
-"""Trees of a block."""
 
 
 def trees_of(
     admissible: Admissible, order: int, roots: Collection[int] | None = None
 ) -> Iterator[Tree]:
-    """The trees of an order in the order of the tree table; ``roots`` are the root colours, from 0,
-    all by default.
+    """The trees of an order as in the tree table; ``roots`` are root colours, from 0.
 
     >>> [u.density for u in trees_of(Admissible.of(1), 4)]
     [4, 8, 12, 24]
@@ -36,8 +34,6 @@ def trees_of(
 
 
 def listed(admissible: Admissible, order: int, roots: Collection[int]) -> Iterator[Tree]:
-    """The trees of an order, each made of smaller ones: a root and a forest."""
-
     @cache
     def trees(root: int, n: int) -> list[Tree]:
         kind = admissible.kinds[root]

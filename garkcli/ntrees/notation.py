@@ -1,8 +1,7 @@
 """Reads and writes trees in bracket notation, and their order conditions in text and LaTeX.
 
-A tree is its branches in brackets, then its root's colour: ``[[]_2,[]_2]_1``. Text counts colours
-from 1, code from 0; this module converts. Larger branches are written first, as the paper does in
-its Table 1.
+A tree is its branches in brackets, larger ones first, then its root's colour: ``[[]_2,[]_2]_1``.
+Text counts colours from 1, code from 0; this module converts.
 """
 
 from __future__ import annotations
@@ -15,11 +14,11 @@ from garkcli.ntrees.tree import Tree
 
 MAX_LENGTH = 20_000
 MAX_VERTICES = 1000
-"""Vertices of a tree in text; σ and γ then have less than the 4300 digits that Python writes."""
+"""Most vertices of a text; σ and γ have less than the 4300 digits that Python writes."""
 MAX_DEPTH = 150
 """Vertices from the root to a leaf; keeps recursion far from Python's limit."""
 MAX_COLOUR = 32_767
-"""The largest colour in text: the columns of the tree table hold no larger one."""
+"""Columns of the tree table hold no larger colour."""
 
 LETTERS = "lmnuvwxyzpqrst"
 """Names of the vertices of a shape, in the paper's order; beyond them primes are added."""
@@ -64,7 +63,7 @@ def parse_tree(text: str) -> Tree:
 
 
 class _Reader:
-    """Parses one tree from left to right, with a stack of open brackets instead of recursion."""
+    """Parses from left to right, with a stack of open brackets instead of recursion."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -107,7 +106,6 @@ class _Reader:
         stack.append([])
 
     def _next(self) -> str:
-        """The next character that is not blank, which becomes the position; empty at the end."""
         blank = _BLANK.match(self.text, self.position)
         if blank:
             self.position = blank.end()
@@ -120,7 +118,7 @@ class _Reader:
         self.position += 1
 
     def _colour(self) -> int:
-        """The colour after a closing bracket, from 0; 0 if colours are omitted."""
+        """The colour, from 0; 0 if colours are omitted."""
         start = self.position
         coloured = self._next() == "_"
         if self.coloured is None:
@@ -150,13 +148,11 @@ class _Reader:
 
 
 def written_order(tree: Tree) -> list[Tree]:
-    """The branches in the order of writing and drawing: larger ones first."""
     return sorted(tree.branches, key=lambda u: -u.order)
 
 
 def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
-    """Bracket notation, the inverse of ``parse_tree``; ``colours=False`` omits the colours, and
-    names replace their numbers.
+    """Bracket notation, the inverse of ``parse_tree``; names of colours replace their numbers.
 
     >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))
     '[[[]_2]_1,[]_2]_1'
@@ -170,7 +166,7 @@ def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
 
 
 def shortest(tree: Tree) -> str:
-    """Bracket notation as ``gark`` prints it for one colour: without colours if all are the first.
+    """Without colours if all are the first.
 
     >>> shortest(Tree(0, [Tree(0)])), shortest(Tree(0, [Tree(1)]))
     ('[[]]', '[[]_2]_1')
@@ -212,9 +208,7 @@ def vertex_letters(tree: Tree) -> tuple[str, ...]:
 def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bool = True) -> str:
     """The order condition b^T 𝒜^[u] = 1/γ(u) of a tree (the paper's eq. bA) in plain text.
 
-    Without ``letters`` the colours are numbers, from 1. With them each vertex has a name of its
-    own, in the order of writing, the root first: the condition of a shape; :func:`vertex_letters`
-    gives the paper's. ``colours=False`` omits them.
+    ``letters`` name the vertices in the order of writing, the root first: the condition of a shape.
 
     >>> u = Tree(0, [Tree(1), Tree(0, [Tree(1)])])
     >>> condition_text(u)
@@ -231,10 +225,7 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bo
 
 
 def condition_latex(tree: Tree, letters: Sequence[str] | None = None, colours: bool = True) -> str:
-    r"""The order condition of a tree in LaTeX, as in the paper's Table 1.
-
-    The vector of ones is the paper's ``\mathbbm{1}``, of package ``bbm``; ``\mathbb`` has no
-    digits.
+    r"""The order condition of a tree as in the paper's Table 1; ``\mathbbm`` is of package bbm.
 
     >>> print(condition_latex(Tree(0, [Tree(1)])))
     {b^{\{1\}}}^T A^{\{1,2\}} \mathbbm{1}^{\{2\}} = \frac12
@@ -268,7 +259,7 @@ class _Formula:
             self.names = iter(letters)
 
     def of(self, tree: Tree) -> tuple[str, str]:
-        """The name of the root, and 𝒜^[u]; raises ``ValueError`` if there are too few letters."""
+        """The name of the root, and 𝒜^[u]; ValueError for too few letters."""
         name = str(tree.root + 1)
         if self.names is not None:
             name = next(self.names, "")

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Vectors = TypeVar("Vectors")
 CHUNK = 1 << 16
-"""Trees whose stage vectors are gathered at once; this bounds the memory of the highest order."""
+"""Trees whose stage vectors are gathered at once, which bounds the memory."""
 
 
 class StageVectors(ABC, Generic[Vectors]):
@@ -35,9 +35,7 @@ class StageVectors(ABC, Generic[Vectors]):
         self._images: dict[tuple[int, int, int], Vectors] = {}
 
     def everything(self, table: TreeTable) -> Iterator[tuple[int, slice, Vectors]]:
-        """The root colour, the ids and the stage vectors of all trees, in pieces; those of the
-        highest order are never held together.
-        """
+        """Root colour, ids and stage vectors of all trees, the highest order in pieces."""
         highest = table.max_order
         kinds = table.admissible.kinds
         for order in range(1, highest + 1):
@@ -51,7 +49,6 @@ class StageVectors(ABC, Generic[Vectors]):
                     yield segment.root, here, vectors
 
     def of(self, table: TreeTable, order: int, l: int) -> Vectors:
-        """The stage vectors of the trees of an order with root colour l; there is at least one."""
         return self._some(table, order, l, is_bare=False)
 
     def _some(self, table: TreeTable, order: int, l: int, is_bare: bool) -> Vectors:
@@ -67,7 +64,6 @@ class StageVectors(ABC, Generic[Vectors]):
         return self._vectors[key]
 
     def branches(self, table: TreeTable, segment: Segment) -> Vectors:
-        """A 𝒜^[branch] of all branches of a segment."""
         space, m = self.rows[segment.root], segment.branch_root
         key = space, segment.branch_order, m
         if key not in self._images:
@@ -75,7 +71,6 @@ class StageVectors(ABC, Generic[Vectors]):
         return self._images[key]
 
     def stems(self, table: TreeTable, segment: Segment) -> Vectors:
-        """𝒜^[stem] of all stems of a segment."""
         order, root = segment.order - segment.branch_order, segment.root
         is_bare = segment.stems.start not in table.ids(order, root)
         return self._some(table, order, root, is_bare)
@@ -90,7 +85,6 @@ class StageVectors(ABC, Generic[Vectors]):
             yield here, self._product(space, left, right)
 
     def _part(self, vectors: Any, places: Column) -> Vectors:
-        """A copy of the vectors at some places."""
         part: Vectors = vectors[places]
         return part
 
@@ -119,11 +113,9 @@ def elementary_weights(
 ) -> Floats:
     """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au, bA).
 
-    ``rows[l]`` is the stage space of colour l (two colours may share one), ``weights[l]`` the
-    vector b_l of shape (s,) with s the dimension of that space, and ``blocks[space, m]`` the matrix
-    A of shape (s_space, s_rows[m]) that a vertex whose colour has that space applies to a branch of
-    colour m. Raises ``ValueError`` if a block that the trees need is missing or has the wrong
-    shape.
+    ``rows[l]`` is the stage space of colour l, ``weights[l]`` of shape (s,) the vector b_l, and
+    ``blocks[space, m]`` the matrix A of shape (s_space, s_rows[m]) for branches of colour m. Raises
+    ``ValueError`` if a block that the trees need is missing or has the wrong shape.
 
     >>> from garkcli.ntrees.table import TreeTable
     >>> midpoint = {(0, 0): np.array([[0.5]])}
@@ -163,8 +155,6 @@ def _check(
 
 
 class _FloatVectors(StageVectors["Floats"]):
-    """Stage vectors in floats, one row per tree."""
-
     def __init__(
         self, table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]
     ) -> None:

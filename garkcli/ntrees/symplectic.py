@@ -54,13 +54,12 @@ from garkcli.ntrees.free import Grower, Structure
 from garkcli.ntrees.tree import Tree
 
 Kind: TypeAlias = Literal["pair", "self-conjugate", "semi-separable", "separable", "nystrom"]
-"""Symplectic methods with a name; :class:`Structure` covers all of them."""
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 def structure_of(kind: Kind, colours: int = 2) -> Structure:
-    """The structure of a kind of symplectic method.
+    """The structure of a kind of symplectic method; ValueError for a wrong number N of ``colours``.
 
     ==============  =============================================  =============================
     kind            problem                                        colours of the trees, from 0
@@ -71,13 +70,6 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
     separable       H = H^{1}(p) + H^{2}(q)                        V¹, F²
     nystrom         separable with H^{1} quadratic                  V¹, F²
     ==============  =============================================  =============================
-
-    Args:
-        kind: one of ``KINDS``.
-        colours: N, the number of terms; 2 for the last three.
-
-    Raises:
-        ValueError: N below 1, or not 2 for the last three.
     """
     if kind == "pair":
         return Structure.pair(range(colours), range(colours))
@@ -91,9 +83,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
 
 
 class ConditionClass(Frozen):
-    """Order conditions that are equivalent given those of lower order: a free tree. ``centred`` is
-    the free tree, rooted at its centroid.
-    """
+    """Order conditions that are equivalent given those of lower order: a free tree, ``centred``."""
 
     centred: Tree
     structure: Structure
@@ -104,14 +94,12 @@ class ConditionClass(Frozen):
 
     @cached_property
     def representative(self) -> Tree:
-        """The representative of the class: the rooting at the centroid. If a quadratic term does
-        not admit that root, the first rooting with a condition.
-        """
+        """The rooting at the centroid, or if a quadratic term does not admit it the first one."""
         return next(self._admissible_rootings())
 
     @cached_property
     def members(self) -> tuple[Tree, ...]:
-        """All rooted trees of the class, sorted, with every colour of the same stages."""
+        """Every rooted tree of the class, sorted, with every colour of the same stages."""
         twins: list[Tree] = []
         for rooting in set(self._admissible_rootings()):
             twins += self.structure.twins(rooting)
@@ -132,10 +120,9 @@ class ConditionClass(Frozen):
 
 
 def independent_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
-    """The independent conditions of one order, each once, sorted by the trees rooted at the
-    centroid.
+    """The independent conditions of one order, sorted by the trees rooted at the centroid.
 
-    Trees of at most half the order are kept in memory. ``ValueError`` for an order below 1.
+    Trees of at most half the order are in memory. ``ValueError`` for an order below 1.
 
     >>> from garkcli.ntrees.notation import format_tree
     >>> [format_tree(c.representative) for c in independent_classes(Structure.pair([0], [0]), 3)]
@@ -151,8 +138,7 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
 
 
 def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
-    """The free trees u∘u of one order, whose conditions follow from those of lower order; none for
-    a pair.
+    """The free trees u∘u of one order, whose conditions follow from lower ones; none for a pair.
 
     >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
     [<Tree [[]]>]
@@ -200,7 +186,6 @@ def count_classes(structure: Structure, order: int) -> int:
 
 
 def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
-    """The number of pairs of trees with ``total`` vertices together; ``same``: unordered pairs."""
     ordered = 0
     for k in range(1, total):
         ordered += ones[k - 1] * others[total - k - 1]

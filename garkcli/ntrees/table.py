@@ -1,5 +1,5 @@
 """The tree table: all N-trees up to an order as integer columns; an N-tree is the ids of two
-smaller ones.
+others.
 
 Every tree with two vertices or more is uniquely u = stem ∘ branch: the branch is the last one of
 the root, the one with the largest id. For a given stem the admissible branches of one order and
@@ -36,13 +36,10 @@ if TYPE_CHECKING:
 Column: TypeAlias = "np.ndarray[tuple[int], np.dtype[Any]]"
 
 LAST_INT64_ORDER = 20
-"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!; for higher orders the columns σ and γ hold Python
-integers.
-"""
+"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!: higher orders have Python integers."""
 
 
 def exact_dtype(order: int) -> DTypeLike:
-    """The type of the columns σ and γ of trees up to an order, without overflow."""
     return np.int64 if order <= LAST_INT64_ORDER else np.dtype(object)
 
 
@@ -50,9 +47,8 @@ class Columns(Frozen):
     """Trees as columns of equal length, one entry per tree.
 
     ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root
-    colour, from 0; ``order``: ρ(u); ``multiplicity``: the multiplicity of the last branch at the
-    root (0 for a single vertex); ``sigma``: the symmetry σ(u); ``gamma``: the density γ(u). σ and γ
-    are exact: int64 up to order 20, Python integers beyond.
+    colour, from 0; ``order``: ρ(u); ``multiplicity`` is that of the last branch at the root (0 for
+    a single vertex); ``sigma``: σ(u); ``gamma``: γ(u), both exact.
     """
 
     stem: Column
@@ -71,7 +67,6 @@ class Columns(Frozen):
 
     @classmethod
     def vertex(cls, root: int, kind: VertexKind) -> Columns:
-        """The tree of a single vertex of a colour."""
         made = cls.empty(1, np.int64)
         made.stem[:] = -1
         made.branch[:] = -1
@@ -89,7 +84,6 @@ class Columns(Frozen):
         return tuple(getattr(self, name) for name in self.__struct_fields__)
 
     def part(self, which: slice | Column) -> Columns:
-        """The trees of a slice, a mask or an array of positions."""
         return Columns(*[column[which] for column in self.all()])
 
     def write(self, start: int, trees: Columns) -> None:
@@ -106,8 +100,7 @@ class Columns(Frozen):
 class Segment(Frozen):
     """The trees of one order and root colour whose last branch has one order and root colour.
 
-    They are consecutive in the table at ``ids``; ``stems`` and ``branches`` are the id ranges of
-    the parents.
+    ``ids`` are consecutive in the table; ``stems`` and ``branches`` are those of the parents.
     """
 
     order: int
@@ -122,8 +115,7 @@ class Segment(Frozen):
 class Growth:
     """The future trees of one segment, counted at once and made in pieces of any size.
 
-    ``lower``: the columns of at least all trees of lower order; ``kind``: the kind of the root;
-    ``stems``, ``branches``: the ids of the possible parents, each of one order and root colour.
+    ``lower`` has all trees of lower order; ``kind`` is that of the root.
     """
 
     def __init__(
@@ -199,9 +191,7 @@ _VERTEX: Inside = ("", 0, 0)
 
 
 class Texts:
-    """Writes trees as text and caches the text of every parent. ``columns`` are the trees of the
-    table; ``colours``: whether to write colours.
-    """
+    """Writes trees as text and caches the text of every parent in ``columns``, the table."""
 
     def __init__(self, columns: Columns, colours: bool) -> None:
         self.columns = columns
@@ -221,7 +211,7 @@ class Texts:
         return texts
 
     def _remember(self, ids: Column) -> None:
-        """Writes the insides of these trees and of all their ancestors, smaller first."""
+        # smaller ones first
         columns = self.columns
         wanted = generation = np.unique(ids)
         while len(generation):
@@ -259,9 +249,7 @@ class Texts:
 
 
 def _inserted(stem: Inside, text: str, order: int) -> Inside:
-    """Inserts a branch before all smaller ones and after those of its own order. A last branch is
-    never smaller than the others, so there are only two cases.
-    """
+    """Only two cases: a last branch is never smaller than the others."""
     inside, end, largest = stem
     length = len(text)
     if not inside:
@@ -280,18 +268,14 @@ MOST_KEPT = 10_000
 
 
 class TableTooLarge(UsageProblem):
-    """More trees were requested than fit into memory."""
-
     code = "too-many"
 
 
 class TreeTable(Frozen):
-    """All admissible N-trees of order 1, …, ``max_order``, sorted by order, root colour and last
-    branch.
+    """All admissible N-trees of order 1, …, ``max_order``, by order, root colour and last branch.
 
-    A tree's id is its position. The ids of one order and root colour are contiguous: :meth:`ids`.
-    Ids have the order of :class:`Tree`. The bare stems of an order follow its trees. The columns
-    are read-only arrays; see :class:`Columns`.
+    A tree's id is its position, in the order of :class:`Tree`; those of one order and root colour
+    are contiguous. The bare stems of an order follow its trees. Columns are read-only.
     """
 
     admissible: Admissible
@@ -308,14 +292,13 @@ class TreeTable(Frozen):
 
     @cached_property
     def _branches(self) -> dict[int, Tree]:
-        """Branches of requested trees, up to MOST_KEPT."""
         return {}
 
     @classmethod
     def upto(
         cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
-        """The table of N-trees; ``edges`` and ``linear`` as in :class:`Admissible`.
+        """``edges`` and ``linear`` as in :class:`Admissible`.
 
         Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` streams one
         order more, and :mod:`garkcli.ntrees.count` counts any order.
@@ -324,7 +307,6 @@ class TreeTable(Frozen):
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> TreeTable:
-        """The table of the trees that ``admissible`` describes."""
         places = Places.of(admissible, order)
         size = places.size
         if size > MAX_TREES:
@@ -350,7 +332,6 @@ class TreeTable(Frozen):
 
     @cached_property
     def is_exact(self) -> Column:
-        """For each tree whether the exact solution has every vertex."""
         kinds = self.admissible.kinds
         exact = np.array([kind.is_exact for kind in kinds])[self.root]
         if all(kind.is_exact for kind in kinds):
@@ -362,7 +343,6 @@ class TreeTable(Frozen):
 
     @cached_property
     def is_mixed(self) -> Column:
-        """For each tree whether it has vertices of several colours."""
         mixed: Column = np.zeros(len(self), dtype=bool)
         for order in range(2, self.max_order + 1):
             ids = np.flatnonzero((self.order == order) & (self.stem >= 0))
@@ -377,40 +357,32 @@ class TreeTable(Frozen):
 
     @property
     def branch(self) -> Column:
-        """The id of the last branch; -1 for a single vertex."""
         return self.columns.branch
 
     @property
     def root(self) -> Column:
-        """The root colour, from 0."""
         return self.columns.root
 
     @property
     def order(self) -> Column:
-        """ρ(u), the sum of the weights of the vertices."""
         return self.columns.order
 
     @property
     def multiplicity(self) -> Column:
-        """The multiplicity of the last branch at the root."""
         return self.columns.multiplicity
 
     @property
     def sigma(self) -> Column:
-        """The symmetry σ(u), exact."""
         return self.columns.sigma
 
     @property
     def gamma(self) -> Column:
-        """The density γ(u), exact."""
         return self.columns.gamma
 
     def ids(self, order: int, root: int | None = None) -> range:
-        """The ids of the trees of one order, with any root colour or one (from 0)."""
         return self.places.trees(order, root)
 
     def tree(self, tree_id: int) -> Tree:
-        """The tree with an id; raises ``IndexError`` if there is none."""
         if not 0 <= tree_id < len(self):
             raise IndexError(f"no tree {tree_id} in a table of {len(self)} trees")
         stem = self.columns.stem
@@ -428,14 +400,13 @@ class TreeTable(Frozen):
         return self.admissible.tree(int(self.columns.root[u]), branches)
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
-        """Bracket text of many trees, built from the texts of their parents."""
         which = ids
         if not isinstance(which, np.ndarray):
             which = np.fromiter(which, np.int64)
         return self.texts(self.columns.part(which), colours)
 
     def texts(self, trees: Columns, colours: bool = True) -> list[str]:
-        """Bracket text of trees whose parents are in this table, such as those of a block."""
+        """The parents of the trees are in this table, as those of a block."""
         if colours not in self._texts:
             self._texts[colours] = Texts(self.columns, colours)
         return self._texts[colours].of(trees)
@@ -455,8 +426,6 @@ def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
 
 
 class Places(Frozen):
-    """The ids of the trees of a table by order and root colour."""
-
     # [order - 1][root]: the first id of the trees, then of the bare stems; one more entry for the
     # end
     starts: tuple[tuple[int, ...], ...]
@@ -502,8 +471,6 @@ def _count_bare(admissible: Admissible, counts: Sequence[Counts], order: int, ro
 
 
 class _Root(Frozen):
-    """Makes the trees of one order and root colour; the lower orders are in the columns."""
-
     admissible: Admissible
     places: Places
     lower: Columns
@@ -511,9 +478,7 @@ class _Root(Frozen):
     root: int
 
     def growths(self, ids: range, arity: Arity) -> Iterator[tuple[Segment, Growth]]:
-        """Returns the nonempty segments, with what grows their trees. ``ids`` are those of the
-        trees without a single vertex, ``arity`` the numbers of branches.
-        """
+        """The nonempty segments of ``ids``, without single vertices, and their growths."""
         kind = self.admissible.kinds[self.root]
         start = ids.start
         for branch_order in range(1, self.order - kind.weight + 1):
@@ -544,6 +509,5 @@ class _Root(Frozen):
 def segments_of(
     admissible: Admissible, places: Places, order: int, lower: Columns, root: int
 ) -> Iterator[tuple[Segment, Growth]]:
-    """The nonempty segments of one order and root colour, with what grows their trees."""
     of_root = _Root(admissible, places, lower, order, root)
     return of_root.growths(places.trees(order, root), admissible.kinds[root].arity)

@@ -17,8 +17,7 @@ class Tree(Shown):
     Equality ignores the order of branches.
 
     Attributes:
-        root: the colour l, counted from 0 as ``Tree(root, branches)`` takes it; ``colour`` is the
-            same counted from 1.
+        root: the colour l, counted from 0; ``colour`` is the same counted from 1.
         branches: the trees u_i, in one canonical order.
         kind: the kind of the root.
         order: ρ(u), the sum of the weights of the vertices.
@@ -29,8 +28,7 @@ class Tree(Shown):
     >>> Tree(0, [Tree(0), Tree(1)]).symmetry
     1
 
-    Source: Zanna, section "Order conditions for GARK methods"; Butcher, *B-Series* (2021), chapter
-    2.
+    Source: Zanna, "Order conditions for GARK methods"; Butcher, *B-Series* (2021), chapter 2.
     """
 
     __slots__ = ("__dict__", "branches", "kind", "order", "root")
@@ -45,8 +43,7 @@ class Tree(Shown):
     def sort_key(self) -> tuple[object, ...]:
         """A total order on trees, that of the tree table's ids.
 
-        By order, then root colour, then the orders and root colours of the branches, the last
-        branch first, then the branches themselves.
+        By order, root colour, orders and root colours of branches, the last first, and branches.
         """
         return self._key
 
@@ -101,7 +98,6 @@ class Tree(Shown):
         return hash(self._key)
 
     def __str__(self) -> str:
-        """The bracket text, with colours from 1 unless all are the first."""
         text: str = answered(self, "text")
         return text
 
