@@ -1,10 +1,9 @@
-"""Published methods as method files, in the folder ``data``: one folder for each kind, one file for
-each method.
+"""Published methods as method files, in the folder ``data``: a folder for each kind, a file a
+method.
 
-The name of a method is that of its file without ``.gark.yaml``, in lower case, with hyphens between
-the words. ``paper`` holds the methods of the paper, ``found`` those found by ``gark design``,
-``errata`` tables published with errors, with their actual order. ``index.json`` is made from the
-files by ``python -m garkcli.catalogue``; look-ups and lists use it.
+The name of a method is that of its file without ``.gark.yaml``. ``paper`` holds the methods of the
+paper, ``found`` those found by ``gark design``, ``errata`` tables published with errors, with their
+actual order. ``index.json`` is made by ``python -m garkcli.catalogue``; look-ups and lists use it.
 
 The module is a mapping from names to methods, see ``garkcli.catalogue.mapping``:
 

@@ -1,7 +1,7 @@
-"""``python -m garkcli.catalogue``: updates the index of the package, in a checkout.
+"""``python -m garkcli.catalogue``: updates the index, and the copies in ``methods/``, in a
+checkout.
 
-Only files that have changed are analysed; with ``--all`` every one. The copies in ``methods/`` are
-updated too.
+Only files that have changed are analysed; with ``--all`` every one.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Writes the index and the copies; returns 2 if a file is not a method."""
+    """Returns 2 if a file is not a method."""
     data, index = HERE / "data", HERE / "index.json"
     before = ""
     if "--all" in arguments:

@@ -19,21 +19,17 @@ if TYPE_CHECKING:
 
 
 FOUND, CLAIMED, UNREAD = "found", "claimed", "unread"
-"""Origin of the facts of an entry: found by ``gark check``, claimed in the file, or unknown."""
+"""The facts of an entry are found by ``gark check``, claimed in the file, or unknown."""
 
 
 def all_entries(judges: bool = False) -> Iterator[Entry]:
-    """Yields an entry for each named method. With ``judges``, methods outside the index are
-    analysed.
-    """
+    """With ``judges``, methods outside the index are analysed."""
     for shelf, method in visible(every_shelf()):
         yield entry_on(shelf, method, judges)
 
 
 def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
-    """Returns the entry of one method. Its ``catalogue`` and ``folder`` say where the file is, its
-    ``facts`` where they come from.
-    """
+    """``catalogue`` and ``folder`` say where the file is, ``facts`` where these come from."""
     facts = FOUND
     if isinstance(shelf, Package):
         known = shelf.entries[method.name]
@@ -109,26 +105,20 @@ def _claimed(read: MethodFile, method: Shelved) -> Entry:
 _RANGE = re.compile(r"(>=|<=|=|>|<)?\s*([0-9]{1,4})")
 _SPAN = re.compile(r"([0-9]{1,4})\s*\.\.\s*([0-9]{1,4})")
 _MOST = 10_000
-"""No count of a method is as large as this."""
 _SEARCHED = ("name", "title", "reference")
-"""The fields that are searched for words, besides the aliases."""
+"""Fields that are searched for words, besides the aliases."""
 
 
 class NumberRange(Frozen):
-    """The integers from ``least`` to ``most``."""
-
     least: int
     most: int
 
     def has(self, value: object) -> bool:
-        """Returns whether a value lies in the range; unknown values do not."""
         return isinstance(value, int) and self.least <= value <= self.most
 
 
 def read_range(text: str) -> NumberRange:
-    """Reads a range of integers: ``4``, ``>=4``, ``<4`` or ``2..4``.
-
-    Raises UsageProblem for any other text.
+    """Reads a range of integers, ``4``, ``>=4``, ``<4`` or ``2..4``; else raises UsageProblem.
 
     >>> read_range(">= 4").has(4), read_range("2..4").has(5), read_range("<4").has(3)
     (True, False, True)
@@ -152,11 +142,10 @@ def read_range(text: str) -> NumberRange:
 
 
 class MethodFilter(Frozen):
-    """Conditions on methods, all of which have to hold.
+    """Conditions on methods, all of which have to hold; unknown values match nothing.
 
-    ``values`` are ranges of numbers, truth values or texts by the keys of entries; unknown values
-    match nothing. ``folder`` is one of the catalogue, or empty. Each of ``words`` is in the name,
-    an alias, the title or the reference, or is a name or an alias in another spelling.
+    ``values`` are by the keys of entries, ``folder`` is one of the catalogue, or empty. ``words``
+    are in the name, an alias, the title or the reference, or a name or alias in another spelling.
     """
 
     values: Mapping[str, NumberRange | bool | str]
@@ -181,7 +170,7 @@ class MethodFilter(Frozen):
 
 
 def _plain(text: str) -> str:
-    """Returns a text in lower case without accents, with spaces for hyphens.
+    """Lower case without accents, with spaces for hyphens.
 
     >>> _plain("Störmer-Verlet")
     'stormer verlet'
@@ -191,11 +180,11 @@ def _plain(text: str) -> str:
 
 
 ORDERS = ("name", "order", "stages", "error")
-"""The orders in which lists are sorted: ascending, but with the highest order first."""
+"""Lists are ascending, but with the highest order first."""
 
 
 def sorted_by(entries: Sequence[Entry], column: str) -> list[Entry]:
-    """Returns the entries sorted by a column, unknown values last."""
+    """Unknown values are last."""
 
     def place(entry: Entry) -> tuple[Any, ...]:
         value = _measure(entry, column)

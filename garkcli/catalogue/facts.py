@@ -1,5 +1,4 @@
-"""The facts that the index has of each method, as found by ``gark check``, and the index of the
-package.
+"""The facts of each method in the index, as found by ``gark check``, and the index of the package.
 
 The index is the same, byte by byte, on every machine.
 """
@@ -38,11 +37,10 @@ from garkcli.properties.verdict import Size
 from garkcli.tableau.tableau import Tableau
 
 Entry = dict[str, Any]
-"""The entry of a method in the index."""
 VERSION = 4
-"""The version of the facts; an index of another version is made anew."""
+"""An index of another version is made anew."""
 MOST_TREES = 20_000
-"""The largest number of trees of one order over which error coefficients are summed."""
+"""Most trees of one order over which error coefficients are summed."""
 _DIGITS = 4
 
 
@@ -82,14 +80,11 @@ class NoMethod(GarkError):
 
 
 def digest(text: str) -> str:
-    """Returns the hash of a text, whatever its line ends."""
     return hashlib.sha256(text.replace("\r\n", "\n").encode("utf-8")).hexdigest()[:16]
 
 
 def entry_of(path: str, name: str, file: str, text: str) -> Entry:
-    """Returns the entry of a method file. ``file`` is its path within the catalogue. Raises
-    NoMethod if the file cannot be read or a claim fails.
-    """
+    """``file`` is the path within the catalogue; NoMethod if it cannot be read or a claim fails."""
     outcome = check_file(path)
     analysis = outcome.analysis or outcome.of_other_kind
     if analysis is None or not outcome.ok:
@@ -142,7 +137,6 @@ def head(method: MethodFile, name: str, file: str) -> Entry:
 
 
 def shape(method: MethodFile) -> Entry:
-    """Returns the fields about stages, colours, the kind of method and its coefficients."""
     tableau = method.tableau
     kind = _kind(tableau)
     # of these kinds several colours are one vector field: it and its Jacobian, or its arguments
@@ -177,7 +171,7 @@ def _order(key: str, analysis: AnyAnalysis) -> object:
 
 
 def _error_constant(analysis: AnyAnalysis) -> str | None:
-    """Returns the rounded norm of the principal error; None if it has too many trees."""
+    """The rounded norm of the principal error; None for too many trees."""
     order = analysis.order
     if order.is_lower_bound or count_trees(analysis.tableau.size, order.order + 1) > MOST_TREES:
         return None
@@ -191,9 +185,7 @@ Tell = Callable[[str], None]
 
 
 def method_files(data: Path) -> list[tuple[str, Path]]:
-    """Returns the method files in a folder and their names. Raises NoMethod if two have the same
-    name or a name is not well-formed.
-    """
+    """Names and paths; NoMethod if two have the same name or a name is not well-formed."""
     paths: dict[str, Path] = {}
     for path in data.rglob(f"*{SUFFIX}"):
         name = path.name.removesuffix(SUFFIX)
@@ -208,11 +200,10 @@ def method_files(data: Path) -> list[tuple[str, Path]]:
 
 
 def made(data: Path, before: str, tell: Tell) -> str:
-    """Returns the text of the index.
+    """The text of the index; NoMethod if a file is not a method or a claim fails.
 
     Entries of ``before``, an earlier index or empty, are kept if their files are unchanged;
-    ``tell`` is called with the name of each file that is analysed. Raises NoMethod if a file is not
-    a method or a claim fails.
+    ``tell`` is called with the name of each file that is analysed.
     """
     known = _known(before)
     entries = []
@@ -228,7 +219,6 @@ def made(data: Path, before: str, tell: Tell) -> str:
 
 
 def _known(before: str) -> dict[tuple[str, str], Entry]:
-    """Returns the entries of an index by file and hash that have every property."""
     index: dict[str, Any] = json.loads(before) if before else {}
     if index.get("facts") != VERSION:
         return {}
@@ -237,7 +227,7 @@ def _known(before: str) -> dict[tuple[str, str], Entry]:
 
 
 def _text(entries: list[Entry]) -> Iterator[str]:
-    """Yields the JSON with one entry per line, so that diffs are short."""
+    # one entry per line, so that diffs are short
     yield f'{{"facts": {VERSION}, "methods": ['
     for number, entry in enumerate(entries):
         yield ",\n" if number else "\n"
@@ -246,8 +236,7 @@ def _text(entries: list[Entry]) -> Iterator[str]:
 
 
 def recovered(data: Path, before: dict[str, dict[str, Any]], index: str) -> str:
-    """Returns the text of ``order/recovered.json``: for each rounded method of the catalogue the
-    start of a search for its exact coefficients.
+    """The text of ``order/recovered.json``: starts of searches for the rounded methods.
 
     Entries of ``before`` are kept if their files are unchanged. ``index`` is the index made
     together with it, or empty.
@@ -276,7 +265,6 @@ def _recovered_of(path: str, name: str, text: str) -> tuple[str, dict[str, Any]]
 
 
 def update_copies(data: Path, copies: Path) -> Iterator[Path]:
-    """Updates the copies of methods of the catalogue in a folder, and yields those that changed."""
     originals = dict(method_files(data))
     for copy in sorted(copies.rglob(f"*{SUFFIX}")):
         original = originals.get(copy.name.removesuffix(SUFFIX))

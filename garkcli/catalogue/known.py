@@ -21,23 +21,21 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 WINDOW = 1e-5
-"""The largest distance between the fingerprints of a method and a rounded copy."""
+"""Largest distance between the fingerprints of a method and a rounded copy."""
 ROUNDINGS = tuple(fmpq(1, 10**digits) for digits in (15, 14, 13, 12, 11, 10, 9, 8, 7, 6))
-"""The distances that a report may state."""
+"""Distances that a report may state."""
 MOST_STAGES = 100
 LONGEST = 8
-"""The most characters of a rounding that is shown as it is."""
+"""Most characters of a rounding that is shown as it is."""
 _DIGITS = 9
 _ROUNDS = 2
 
 
 class Known(Frozen):
-    """A method of the catalogue that a tableau equals, or nearly equals, up to the order of the
-    stages.
+    """A method of the catalogue that a tableau is, or nearly is, up to the order of the stages.
 
-    ``within`` is the largest distance of entries, None if they are equal. ``step_only`` says that
-    embedded weights differ, ``is_same`` that the distance is within the rounding that both files
-    admit.
+    ``within`` is the largest distance of entries, None if they are equal. ``step_only``: embedded
+    weights differ. ``is_same``: the distance is within the rounding that both files admit.
     """
 
     method: str
@@ -47,11 +45,10 @@ class Known(Frozen):
 
 
 def fingerprint(tableau: Tableau) -> float:
-    """Returns a number that does not depend on the order of stages and colours, or on superfluous
-    stages.
+    """A number that depends neither on the order of stages and colours nor on superfluous stages.
 
     It is Σ b·u of stage vectors u = φ(A u), made twice from 𝟙. With a smooth φ all methods of high
-    order would give nearly one number, so that φ has a peak.
+    order would give nearly one number, so φ has a peak.
 
     >>> from garkcli.methodfile.load import loads
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}").tableau
@@ -80,11 +77,9 @@ def _floats(rows: Sequence[Row]) -> list[list[float]]:
 
 
 def find_known(analysis: Analysis, file: str, text: str) -> Known | None:
-    """Returns the method of the catalogue that an analysis is about, or one next to it; None if
-    there is none.
+    """The method of the catalogue that an analysis is about, or one next to it.
 
-    ``file`` and ``text`` are those that were read: a file of the catalogue is not compared with
-    itself.
+    ``file`` and ``text`` were read: a file of the catalogue is not compared with itself.
     """
     from garkcli.methodfile.shelves import key_of, package
 
@@ -94,7 +89,6 @@ def find_known(analysis: Analysis, file: str, text: str) -> Known | None:
 
 
 def known_of(method: GarkMethod, text: str = "") -> Known | None:
-    """Returns the method of the catalogue equal or next to a method; None if there is none."""
     from garkcli.methodfile.shelves import package
 
     tableau = method.tableau
@@ -120,7 +114,6 @@ def _of_analysis(analysis: Analysis) -> GarkMethod:
 
 
 def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
-    """Returns the first of the given files whose method equals ``method``."""
     from garkcli.comparison.sameness import find_sameness, views_of
     from garkcli.exact.field import ZERO
 
@@ -145,7 +138,7 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
 
 
 def _in_few_digits(rounding: fmpq) -> fmpq:
-    """Returns a rounding; one with many digits, a sum of two, is rounded up."""
+    """One with many digits, a sum of two, is rounded up."""
     return rounding if len(decimal(rounding)) <= LONGEST else rounded_up(arb(rounding))
 
 

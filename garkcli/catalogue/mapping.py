@@ -1,7 +1,6 @@
 """The catalogue as a mapping from names to methods: ``garkcli.catalogue["rk4"]``.
 
-The package ``garkcli.catalogue`` itself is this mapping, so that ``import garkcli.catalogue`` and
-``from garkcli import catalogue`` give the same object.
+The package ``garkcli.catalogue`` is this mapping itself, however it is imported.
 """
 
 from __future__ import annotations
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
 
 
 _WORDS = ("kind", "structure")
-"""The text fields of the index."""
 
 
 class NoSuchMethod(GarkError, KeyError):
@@ -28,8 +26,7 @@ class NoSuchMethod(GarkError, KeyError):
 class Catalogue(ModuleType):
     """Published methods by name; a lookup reads its file.
 
-    The keys are the names, those in the folders of ``GARK_PATH`` first; aliases are accepted too,
-    as on the command line.
+    The keys are the names, those in the folders of ``GARK_PATH`` first; aliases are accepted too.
 
     >>> import garkcli
     >>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue
@@ -81,15 +78,13 @@ class Catalogue(ModuleType):
         return ItemsView(_mapping(self))
 
     def search(self, *words: str, folder: str = "", **wanted: bool | int | str) -> list[str]:
-        """The names of methods that match, as in ``gark list methods``; those of highest order
-        first.
+        """The names of methods that match, as in ``gark list methods``, highest order first.
 
         Args:
             words: each is in the name, an alias, the title or the reference.
             folder: of the catalogue, such as ``"erk"``.
-            wanted: values of what the index knows: numbers or ranges of them as text
-                (``order=">=4"``, ``stages=7``), truths (``symplectic=True``), and words
-                (``kind="ark"``).
+            wanted: values of what the index knows: numbers, ranges (``order=">=4"``), truths
+                (``symplectic=True``) and words (``kind="ark"``).
 
         Raises:
             UsageProblem: nothing is known by a name, or a text is no range.
@@ -132,16 +127,12 @@ def _mapping(catalogue: Catalogue) -> Mapping[str, MethodFile]:
 
 
 def method_names() -> list[str]:
-    """The names of all methods, those in the user's folders first."""
     from garkcli.methodfile.naming import every_shelf, visible
 
     return [method.name for _, method in visible(every_shelf())]
 
 
 def _found(name: object) -> Shelved:
-    """Returns the file of a method. Raises NoSuchMethod if there is none, or if several are
-    possible.
-    """
     from garkcli.methodfile.naming import FAMILY, PREFIX, find_named
 
     if not isinstance(name, str):

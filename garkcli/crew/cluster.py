@@ -1,7 +1,4 @@
-"""Workers of a Dask cluster; the work of a lost worker is done again by others.
-
-Each item has one outcome, however often the cluster did it.
-"""
+"""Workers of a Dask cluster; each item has one outcome, however often the cluster did it."""
 
 from __future__ import annotations
 
@@ -21,23 +18,16 @@ from garkcli.version import __version__
 
 WINDOW = 400
 TIMEOUT = 20
-"""Seconds to wait for a scheduler."""
 _ONE_AT_A_TIME = Lock()
-"""For workers with several threads, which share the precision of python-flint."""
+"""Workers with several threads share the precision of python-flint."""
 
 
 class Cluster(Generic[Item, Outcome]):
-    """The workers of a Dask scheduler, as a context manager.
+    """The workers of a Dask ``scheduler``, such as ``tcp://host:8786``.
 
-    Args:
-        work: computes the outcome of an item; both are pickled.
-        scheduler: its address, such as ``tcp://host:8786``.
-        crashed: makes the outcome of an item that ended several workers, from how they ended.
-
-    Raises:
-        UsageProblem: Dask is not installed, the scheduler does not answer, or a worker has no
-            garkcli of this version.
-        WorkerLost: the scheduler is gone.
+    ``crashed`` makes the outcome of an item that ended several workers. Raises UsageProblem if Dask
+    is not installed, the scheduler does not answer, or a worker has no garkcli of this version;
+    WorkerLost if the scheduler is gone.
     """
 
     def __init__(
@@ -82,11 +72,10 @@ class Cluster(Generic[Item, Outcome]):
 
     @property
     def size(self) -> int:
-        """The number of workers, at least one, as workers may come later."""
+        """At least one, as workers may come later."""
         return max(1, len(self._client.nthreads()))
 
     def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
-        """Yields each outcome with the index of its item as soon as it is there."""
         from dask.distributed import as_completed
 
         running: dict[str, int] = {}
@@ -130,7 +119,6 @@ class Cluster(Generic[Item, Outcome]):
 
 
 def _in_time(pool: Any) -> Iterator[Any]:
-    """The futures of a pool; ``NotDecided`` when the time is over."""
     try:
         yield from pool
     except TimeoutError:
@@ -139,7 +127,7 @@ def _in_time(pool: Any) -> Iterator[Any]:
 
 @contextmanager
 def _without_logs() -> Iterator[None]:
-    """Silences Dask's tracebacks: lost connections are reported in one line."""
+    # lost connections are reported in one line
     handlers = logging.getLogger("distributed").handlers
     levels = [handler.level for handler in handlers]
     for handler in handlers:

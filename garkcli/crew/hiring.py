@@ -18,10 +18,9 @@ def hired(
 ) -> Iterator[Workers[Item, Outcome]]:
     """Returns workers as a context manager; none is left behind.
 
-    ``work`` computes the outcome of an item, ``crashed`` that of an item that ended its worker,
-    from how it ended; both are pickled. ``scheduler`` is the address of a Dask scheduler to use
-    instead of ``jobs`` processes. With a ``limit`` on the time of an item there is at least one
-    worker process. Raises UsageProblem if the cluster cannot be used.
+    ``crashed`` makes the outcome of an item that ended its worker, from how it ended. A
+    ``scheduler`` is used instead of ``jobs`` processes; a ``limit`` needs one process at least.
+    Raises UsageProblem if the cluster cannot be used.
     """
     if scheduler:
         from garkcli.crew.cluster import Cluster

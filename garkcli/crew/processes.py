@@ -28,17 +28,14 @@ MOST_WORKERS = 60
 PATIENCE = 10
 """The limit by the clock, as a multiple of that of processor time."""
 BATCH = 8
-"""The items at hand for a worker, so that it need not wait for the next."""
+"""Most items at hand for a worker, so that it need not wait for the next."""
 
 
 class _Worker(Generic[Item, Outcome]):
-    """A process that does the items it is sent, one after the other.
+    """A process that does the items it is sent, by their indices, one after the other.
 
-    Attributes:
-        items: the indices of its items, the current one first.
-        due: the reading of ``time.monotonic`` at which it may be late.
-        last: the reading at which it is late in any case.
-        most: the processor time at which it is late too.
+    The current one may be late at ``due``, is late at ``last`` on the clock, and after the
+    processor time ``most``.
     """
 
     def __init__(
@@ -71,7 +68,6 @@ class _Worker(Generic[Item, Outcome]):
             self.connection.send(item)
 
     def limit(self, seconds: float) -> None:
-        """Starts the time limit of the current item."""
         now = monotonic()
         self.due, self.last = now + seconds, now + PATIENCE * seconds
         self.most = _worked(self.process) + seconds
@@ -91,11 +87,8 @@ class _Worker(Generic[Item, Outcome]):
 class Crew(Generic[Item, Outcome]):
     """Worker processes, of which a lost one is replaced, and the work left for them.
 
-    Args:
-        work: computes the outcome of an item; both are pickled.
-        size: the largest number of workers; no more than items are started.
-        crashed: makes the outcome of an item that ended its worker, from how it ended.
-        limit: the time limit of an item; only for work of gark itself, not of the calling program.
+    ``crashed`` makes the outcome of an item that ended its worker, from how it ended. A ``limit``
+    is for work of gark itself, not of the calling program.
     """
 
     def __init__(
@@ -133,13 +126,7 @@ class Crew(Generic[Item, Outcome]):
             worker.end()
 
     def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
-        """Yields each outcome with the index of its item as soon as it is there.
-
-        More items may follow when all of these are done.
-
-        Raises:
-            NotDecided: the time limit has passed.
-        """
+        """Yields each outcome with the index of its item; more items may follow."""
         from multiprocessing.connection import wait
 
         self.items = items
@@ -181,7 +168,6 @@ class Crew(Generic[Item, Outcome]):
             self._supply(worker)
 
     def _supply(self, worker: _Worker[Item, Outcome]) -> None:
-        """Sends items ahead to a worker, fewer if there are few for all."""
         most = max(1, min(BATCH, len(self.waiting) // self.size))
         while self.waiting and len(worker.items) < most:
             number = self.waiting.popleft()
@@ -190,12 +176,11 @@ class Crew(Generic[Item, Outcome]):
                 self._begin(worker)
 
     def _begin(self, worker: _Worker[Item, Outcome]) -> None:
-        """Starts the time limit of a worker's item; one that is already done is never late."""
+        # an item that is already done is never late
         if self.limit is not None and worker.items:
             worker.limit(self.limit.seconds(self.items[worker.items[0]]))
 
     def _seconds_left(self) -> float | None:
-        """Seconds until the time limit, or until a worker is late; None for no limit."""
         left = seconds_left()
         if self.limit is None:
             return left
@@ -203,9 +188,6 @@ class Crew(Generic[Item, Outcome]):
         return until_due if left is None else min(left, until_due)
 
     def _end_late(self) -> Iterator[tuple[int, Outcome]]:
-        """Ends workers that are late; the others go on. Raises NotDecided if the time limit has
-        passed.
-        """
         check_time()
         for worker in [x for x in self.workers if x.items and x.is_late()]:
             yield from self._bury(worker, is_late=True)
@@ -213,7 +195,7 @@ class Crew(Generic[Item, Outcome]):
     def _bury(
         self, worker: _Worker[Item, Outcome], is_late: bool = False
     ) -> Iterator[tuple[int, Outcome]]:
-        """Removes a dead or late worker: its item is blamed, the others go back to the queue."""
+        # its item is blamed, the others go back to the queue
         worker.end()
         self.workers.remove(worker)
         items = list(worker.items)
@@ -228,7 +210,7 @@ class Crew(Generic[Item, Outcome]):
 
 
 def _worked(process: BaseProcess) -> float:
-    """The processor time of another process if the system tells it, else the clock."""
+    # the processor time of another process if the system tells it, else the clock
     if sys.platform == "linux" and process.pid is not None:
         with suppress(OSError):
             return time.clock_gettime((~process.pid << 3) | 2)  # as clock_getcpuclockid(3) has it
@@ -236,11 +218,6 @@ def _worked(process: BaseProcess) -> float:
 
 
 def _cause(code: int | None) -> str:
-    """Describes how a process ended.
-
-    >>> _cause(-9), _cause(3)
-    ('by SIGKILL, as the system does where memory is short', 'with exit code 3')
-    """
     import signal
 
     if code is None or code >= 0:
@@ -255,9 +232,7 @@ def _cause(code: int | None) -> str:
 def _serve(
     connection: Connection, work: Callable[[Item], Outcome], not_its_own: Sequence[Connection]
 ) -> None:
-    """The loop of a worker; it ends when the connection closes. An interrupt is left to the process
-    with the terminal, which ends the workers.
-    """
+    # an interrupt is left to the process with the terminal, which ends the workers
     without_handlers()
     register()
     for other in not_its_own:

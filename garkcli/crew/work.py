@@ -21,12 +21,9 @@ class WorkerLost(UsageProblem):
 
 
 class Limit(Frozen, Generic[Item, Outcome]):
-    """The time limit of an item; its process is ended in the middle of a call in C.
+    """The time limit of an item, in processor time if the system tells that of other processes.
 
-    Attributes:
-        seconds: the limit of an item, in processor time if the system tells that of another
-            process.
-        late: makes the outcome of an item that took longer.
+    Its process is ended in the middle of a call in C; ``late`` then makes the outcome.
     """
 
     seconds: Callable[[Item], float]
@@ -34,11 +31,7 @@ class Limit(Frozen, Generic[Item, Outcome]):
 
 
 class Workers(Protocol[Given, Made]):
-    """Workers: this process, several, or a cluster.
-
-    Attributes:
-        size: the number of items done at a time.
-    """
+    """One process, several, or a cluster; ``size`` items are done at a time."""
 
     @property
     def size(self) -> int: ...
@@ -58,8 +51,6 @@ def in_order(workers: Workers[Item, Outcome], items: Sequence[Item]) -> Iterator
 
 
 class Alone(Generic[Item, Outcome]):
-    """Does the work in this process, one item after the other."""
-
     size = 1
 
     def __init__(self, work: Callable[[Item], Outcome]) -> None:

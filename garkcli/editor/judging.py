@@ -25,13 +25,12 @@ SECONDS = 5.0
 ORDERS = ("order", "embedded_order", "conjugate_order", "pair_order")
 COLUMNS = 200
 LATE = "not decided in time; gark check takes longer"
-"""The lens of a file that takes too long."""
 _TOKEN = re.compile(r"[^\s,\[\]{}:]+")
 _KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 
 
 class TextSpan(Frozen):
-    """A part of a line; line and columns count from 0."""
+    """Line and columns count from 0."""
 
     line: int
     start: int
@@ -39,24 +38,18 @@ class TextSpan(Frozen):
 
 
 class Fix(Frozen):
-    """A change of a part of the file."""
-
     title: str
     span: TextSpan
     text: str
 
 
 class EditorView(Frozen):
-    """A remark at its place, with the changes that mend it."""
-
     remark: Remark
     span: TextSpan
     fixes: tuple[Fix, ...] = ()
 
 
 class Judgement(Frozen):
-    """The remarks on a file, the texts of the lens above a line, and the exit code."""
-
     remarks: tuple[EditorView, ...] = ()
     lens: tuple[str, ...] = ()
     line: int = 0
@@ -76,8 +69,9 @@ def is_method(name: str, text: str) -> bool:
 
 
 def judged(text: str, source: str) -> Judgement:
-    """Returns the remarks on a method file and its orders; within SECONDS. A file with unknowns or
-    free parameters has a lens that names them, and no remarks.
+    """The remarks on a method file and its orders, within SECONDS.
+
+    A file with free parameters has a lens that names them, and no remarks.
     """
     line = _line_of_tableau(text)
     try:
@@ -99,7 +93,6 @@ def judged(text: str, source: str) -> Judgement:
 
 
 def _line_of_tableau(text: str) -> int:
-    """Returns the line of the first key that makes a method."""
     for found in _KEY.finditer(text):
         if found[1] in METHOD_FILE.keys and found[1] != "gark":
             return text.count("\n", 0, found.start())
@@ -123,7 +116,6 @@ def span_of(lines: list[str], remark: Remark) -> TextSpan:
 
 
 def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
-    """Yields the word that was meant, or the entry that makes a claim hold."""
     if remark.meant:
         yield Fix(f"Write {remark.meant}", span_of(lines, remark), remark.meant)
     blame = outcome.blame
@@ -140,12 +132,10 @@ def _fixes(outcome: Outcome, remark: Remark, lines: list[str]) -> Iterator[Fix]:
 
 
 def _places_of(key: str, outcome: Outcome) -> list[tuple[int, int]]:
-    """Returns where a file makes a claim that fails."""
     return [(x.line, x.column) for x in outcome.failed_claims if x.claim == key]
 
 
 def _place(text: str, repair: Repair) -> TextSpan | None:
-    """Returns where an entry is written in a file with A and b; None if it is not."""
     node = entry_node(text, repair)
     if not isinstance(node, ScalarNode):
         return None

@@ -1,5 +1,7 @@
-"""The language server. Each check is a process of its own: it never holds the editor up, and ends
-when the file has changed or its time is over.
+"""The language server.
+
+Each check is a process of its own: it never holds the editor up, and ends when the file has changed
+or its time is over.
 """
 
 from __future__ import annotations
@@ -22,7 +24,6 @@ from garkcli.version import __version__
 PAUSE = 0.25
 """Seconds without a change before a file is checked."""
 MOST = SECONDS + 5
-"""Seconds after which a check is ended that does not end itself."""
 SEVERITIES = {
     "error": lsp.DiagnosticSeverity.Error,
     "warning": lsp.DiagnosticSeverity.Warning,
@@ -32,8 +33,6 @@ SEVERITIES = {
 
 
 class Server(LanguageServer):
-    """gark as a language server: the last judgement on each open file, and running checks."""
-
     def __init__(self) -> None:
         super().__init__("gark", __version__)
         self.judgements: dict[str, Judgement] = {}
@@ -78,7 +77,6 @@ class Server(LanguageServer):
         self.refreshing = asyncio.ensure_future(self._refresh())
 
     async def _refresh(self) -> None:
-        """Asks the editor for the lenses anew, if it can be asked."""
         about = self.client_capabilities.workspace
         if about is not None and about.code_lens is not None and about.code_lens.refresh_support:
             with suppress(Exception):  # an editor may refuse
@@ -86,7 +84,6 @@ class Server(LanguageServer):
 
 
 async def judged_apart(text: str, source: str) -> Judgement:
-    """Returns the judgement on a file, from another process."""
     command = [sys.executable, "-m", "garkcli", "lsp", "--once", "-", "--name", source]
     process = await asyncio.create_subprocess_exec(
         *command,

@@ -21,15 +21,12 @@ _VALUE = re.compile(r"([\w-]+):\s*(?:\[[^\]]*)?[\w*-]*$")
 
 
 class Suggestion(Frozen):
-    """A word that may come next, with its meaning and what is written for it."""
-
     word: str
     text: str
     written: str
 
 
 def meaning_at(lines: list[str], line: int, column: int) -> str:
-    """Returns the meaning of the word at a place, as Markdown; empty if it has none."""
     text = lines[line] if line < len(lines) else ""
     found = next((x for x in _WORD.finditer(text) if x.start() <= column <= x.end()), None)
     if found is None:
@@ -60,7 +57,6 @@ def meaning_at(lines: list[str], line: int, column: int) -> str:
 
 
 def choices_at(lines: list[str], line: int, column: int) -> list[Suggestion]:
-    """Returns the keys, families, rules and methods that may come at a place."""
     before = (lines[line] if line < len(lines) else "")[:column]
     value = _VALUE.search(before)
     if value is not None and not _OPEN.search(before):
@@ -87,7 +83,7 @@ def _values(key: str) -> Iterator[Suggestion]:
 
 
 def _keys(above: list[str]) -> Iterator[Suggestion]:
-    """Yields the keys directly below others; those of expect are the claims."""
+    # those of expect are the claims
     if above == ["expect"]:
         yield from (Suggestion(x, claim_meaning(x).text, f"{x}: ") for x in CLAIMS)
     prefix = "".join(f"{key}." for key in above)
@@ -98,7 +94,7 @@ def _keys(above: list[str]) -> Iterator[Suggestion]:
 
 
 def _above(lines: list[str], line: int, before: str) -> list[str]:
-    """Returns the keys around a place: those less indented, and the one whose braces are open."""
+    """The keys around a place: those less indented, and the one whose braces are open."""
     inside = _OPEN.search(before)
     own = _KEY.match(before)
     indent = len(own[1]) if own and inside else len(before) - len(before.lstrip(" -"))
