@@ -1,6 +1,4 @@
-"""Down a family step by step: values for unknowns, and the dimension after each; one of the
-accepted methods, its parameters as text of method files.
-"""
+"""Down a family by values for unknowns, the dimension after each; the texts of one method."""
 
 from __future__ import annotations
 
@@ -20,11 +18,8 @@ from garkcli.frozen import Frozen
 
 
 class Choice(Frozen):
-    """A value for one unknown.
-
-    Attributes:
-        before, after: the dimension of the methods of that order without the choice and with it; −1
-            if there are none, not even with complex values.
+    """A value for one unknown, with the dimension of the methods of that order before and after. It
+    is −1 if there are none, not even with complex values.
     """
 
     name: str
@@ -36,14 +31,7 @@ class Choice(Frozen):
 
 def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Choice]:
     """The dimension after each of several choices, among the methods of the highest order reached.
-
-    Args:
-        design: of the family without the choices.
-        values: of unknowns, as text and as numbers, in the order of the choices.
-
-    Raises:
-        MethodError: no order of methods of the family was decided.
-        NotDecided: a Gröbner basis takes too long.
+    Raises MethodError if no order was decided, NotDecided if a Gröbner basis takes too long.
     """
     reached = [x for x in design.steps if x.ideal is not None and x.may_have_methods]
     if not reached:
@@ -64,15 +52,11 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
 
 MAX_DEGREE = 12
 DIGITS = 20
-"""Decimals that identify a root of a polynomial."""
 
 
 class Chosen(Frozen):
-    """A method of a family.
-
-    Attributes:
-        elements: the free parameters as elements of the field of the solution.
-        embedded: the order of its embedded weights; None if it has none.
+    """A method of a family; ``elements`` are the free parameters in the field of the solution.
+    ``embedded`` is the order of its embedded weights; None if it has none.
     """
 
     elements: dict[str, Number]
@@ -87,7 +71,6 @@ class Chosen(Frozen):
 
 
 def accepted_methods(design: Design) -> Iterator[Chosen]:
-    """The accepted real solutions of the highest order that has any."""
     names = design.family.parameters
     for step in reversed(design.steps):
         accepted = [(found, index) for found in step.found for index in found.accepted]
@@ -106,9 +89,8 @@ def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen
 
 
 def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
-    """Elements of ℚ[u]/modulus at a root of the modulus, in radicals if each has simple ones, else
-    as polynomials in one root. Raises MethodError if no value generates the field, or its degree is
-    beyond method files.
+    """Elements of ℚ[u]/modulus at a root, in simple radicals, or as polynomials in one root. Raises
+    MethodError if no value generates the field, or its degree is beyond method files.
     """
     texts = {}
     for name, value in values.items():
@@ -120,9 +102,6 @@ def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
 
 
 def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
-    """Values as polynomials in one of them that generates their field, written root_of(p, r).
-    Raises MethodError if no value does, or its degree is beyond method files.
-    """
     algebraic = [x for x in values.values() if isinstance(x, Algebraic)]
     field = algebraic[0].field
     candidates = [x for x in algebraic if _powers(x, field).rank() == field.degree]

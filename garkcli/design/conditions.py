@@ -37,14 +37,7 @@ Square: TypeAlias = tuple[Row, ...]
 
 
 class Cleared(Frozen):
-    """A tableau times denominators.
-
-    Attributes:
-        tableau: its entries are rational numbers and rational functions, or exact numbers.
-        blocks: D A.
-        weights: E b, the weights of each colour.
-        D, E: the common denominators.
-    """
+    """A tableau of rational functions or exact numbers, and D A and E b, D and E denominators."""
 
     tableau: Tableau
     blocks: Mapping[Edge, Square]
@@ -79,7 +72,6 @@ class Cleared(Frozen):
 
 
 def cleared(row: Sequence[object], denominator: Entry, ring: Parameters) -> Row:
-    """Numbers times a common denominator of theirs."""
     parts = [fraction(x, ring) for x in row]
     return tuple(times(numerator, denominator // own) for numerator, own in parts)
 
@@ -87,7 +79,6 @@ def cleared(row: Sequence[object], denominator: Entry, ring: Parameters) -> Row:
 def without_denominators(
     rows: Sequence[Sequence[object]], ring: Parameters
 ) -> tuple[Entry, tuple[Row, ...]]:
-    """A common denominator, and the rows times it."""
     denominator = common_denominator(chain.from_iterable(rows), ring)
     return denominator, tuple(cleared(row, denominator, ring) for row in rows)
 
@@ -99,19 +90,15 @@ _Row: TypeAlias = dict[_Place, fmpq]
 
 
 class CoefficientSpan:
-    """The ℚ-span of vectors of polynomials, each as the vector of all its coefficients.
-
-    A span over the rational functions would be smaller, but lose the values of the parameters at
-    which it grows.
+    """The ℚ-span of vectors of polynomials, each as the vector of all its coefficients. A span over
+    the rational functions would lose parameters at which it grows.
     """
 
     def __init__(self) -> None:
         self._rows: dict[_Place, _Row] = {}
 
     def insert(self, vector: Polynomials) -> bool:
-        """Inserts a vector; whether it enlarged the span. Raises NotDecided if the time limit has
-        passed.
-        """
+        """Whether a vector enlarges the span; NotDecided if the time is over."""
         row = self._reduced(_coefficients(vector))
         if not row:
             return False
@@ -160,25 +147,15 @@ def _coefficients(vector: Sequence[fmpq_mpoly]) -> _Row:
 
 
 class FamilyCondition(Frozen):
-    """One order condition of a spanning set.
-
-    Attributes:
-        polynomial: vanishes if and only if the condition holds; free of denominators.
-    """
+    """A condition of a spanning set: it holds if and only if ``polynomial`` vanishes."""
 
     tree: Tree
     polynomial: fmpq_mpoly
 
 
 class FamilyConditions(Spans):
-    """The conditions of a family, order by order.
-
-    Args:
-        tableau: entries are rational numbers and rational functions of the parameters.
-        ring: the parameters.
-
-    Attributes:
-        denominators: polynomials that vanish at no method of the family.
+    """The conditions of a family of rational functions, order by order. ``denominators`` are
+    polynomials that vanish at no method of the family.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
@@ -191,11 +168,8 @@ class FamilyConditions(Spans):
 
     def of_order(self, order: int) -> Iterator[FamilyCondition]:
         """Conditions that generate those of all trees of an order, together with the lower ones.
-
-        Raises:
-            NotDecided: the time limit has passed, and they may be requested again; or stages are
-                not exact solutions to that order.
-            TooManyTerms: they have too many terms.
+        Raises NotDecided if the time is over, and they may be requested again, or if stages are not
+        exact solutions to that order; TooManyTerms.
         """
         if order > (self.tableau.exact_to or order):
             raise NotDecided(is_late=False)
@@ -224,7 +198,6 @@ class FamilyConditions(Spans):
 
 
 def _refuse_long(u: Iterable[object], v: Iterable[object]) -> None:
-    """Raises before products of two rows are computed if the longest is too long."""
     rows = [[x for x in row if isinstance(x, fmpq_mpoly)] for row in (u, v)]
     if all(rows):
         refuse_long(*(max(row, key=len) for row in rows))

@@ -1,5 +1,7 @@
-"""Real points of closed sets as critical points: on each closed set one is nearest to a given
-point, and there the gradients of its equations and of the distance are dependent.
+"""Real points of closed sets as critical points.
+
+On each closed set one is nearest to a given point, and there the gradients of its equations and of
+the distance are dependent.
 """
 
 from __future__ import annotations
@@ -20,25 +22,19 @@ from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
 
 MOST_MINORS = 200
-"""Most minors in one system."""
 MOST_GENERATORS = 200
-"""Most choices of basis elements, as many as the codimension."""
 MOST_POINTS = 60
-"""Most critical points, complex ones included."""
 CENTRES = 3
 """Points to which nearest ones are sought; almost all give finitely many."""
 
 
 def minors(rows: Sequence[Sequence[fmpq_mpoly]], size: int) -> list[fmpq_mpoly]:
-    """All minors of a size that contain the first row.
+    """All minors of a size that contain the first row; NotDecided if they are too many.
 
     >>> ring = Parameters(["x", "y"])
     >>> x, y = ring.context.gens()
     >>> minors([[x, y], [y, x]], 2)
     [x^2 - y^2]
-
-    Raises:
-        NotDecided: there are too many of them.
     """
     first, *others = rows
     width = len(first)
@@ -56,7 +52,6 @@ def slopes(polynomials: Sequence[fmpq_mpoly], size: int) -> list[list[fmpq_mpoly
 
 
 def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
-    """Laplace expansion along the first row."""
     check_time()
     if len(rows) == 1:
         return rows[0][0]
@@ -70,27 +65,19 @@ def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
 
 
 class SmoothPoints(Frozen):
-    """The smooth points of the real zeros of an ideal.
-
-    Attributes:
-        points: at least one on each component.
-        others: polynomials that vanish at all other zeros.
-    """
+    """Smooth points of real zeros, one on each component; ``others`` vanish at all other zeros."""
 
     points: tuple[Solution, ...]
     others: tuple[fmpq_mpoly, ...]
 
 
 def smooth_points(ideal: Ideal) -> SmoothPoints | None:
-    """Smooth points of the real zeros of an ideal whose number of generators c is its codimension,
-    so that no component has another dimension (F. S. Macaulay, 1916); None for other ideals, or if
-    the critical points are not few.
+    """Smooth points of the real zeros of an ideal with as many generators as its codimension.
 
-    At a smooth point some minor of the gradients of the generators is not zero. With an unknown u
-    and u Σ m² = 1 over these minors m the smooth points are a closed set without singularities.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    No component of it has another dimension (F. S. Macaulay, 1916). At a smooth point some minor m
+    of the gradients of the generators is not zero: with an unknown u and u Σ m² = 1 the smooth
+    points are a closed set without singularities. None for other ideals, or if critical points are
+    not few; raises NotDecided.
     """
     if ideal.dimension <= 0:
         return None
@@ -120,9 +107,7 @@ def smooth_points(ideal: Ideal) -> SmoothPoints | None:
 
 
 def _generators(closure: Ideal) -> list[fmpq_mpoly] | None:
-    """Basis elements that generate an ideal, as many as its codimension; None if no choice does.
-    Raises NotDecided if the time limit has passed.
-    """
+    """Basis elements that generate an ideal, as many as its codimension; None if no choice does."""
     ring = closure.ring
     basis = [rational(p, ring) for p in closure.basis]
     count = len(ring.names) - closure.dimension

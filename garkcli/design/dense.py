@@ -2,8 +2,8 @@
 
 With b_i(θ) = Σ_k B_ik θ^k the order q asks B_kᵀ 𝒜^[u] = 1/γ(u) for k = ρ(u) and 0 for every other
 k, for all trees of at most q vertices (``garkcli.order.dense``). As in
-``garkcli.design.conditions`` it is enough to ask it of vectors that span those of all trees; each
-condition is linear in the weights.
+``garkcli.design.conditions`` vectors that span those of all trees decide it; each condition is
+linear in the weights.
 """
 
 from __future__ import annotations
@@ -31,9 +31,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def _dense(asked: Asked, key: str) -> DenseOutput:
-    """The dense output of the method. Raises MethodError if the method has none, or the want is
-    about some colours only.
-    """
+    """Raises MethodError if the method has none, or the want is about some colours only."""
     dense = asked.further.dense
     if dense is None or len(asked.colours) < asked.tableau.size:
         message = f"design: {key} is meant of the dense output of the whole method"
@@ -64,8 +62,8 @@ def _order(asked: Asked) -> WantConditions:
 
 
 def _continuity(asked: Asked) -> WantConditions:
-    """0: b(1) = b. 1: also the slope is f(x_0) at θ = 0 and f(x_1) at θ = 1: the weights cancel in
-    each class of stages that are equal to one another, or to these two values.
+    """0: b(1) = b. 1: also the slope is f(x_0) at θ = 0 and f(x_1) at θ = 1. Weights then cancel in
+    each class of stages equal to one another, or to these two values.
     """
     dense = _dense(asked, "dense-continuity")
     tableau = asked.tableau
@@ -84,9 +82,7 @@ def _continuity(asked: Asked) -> WantConditions:
 
 
 def _known(tableau: Tableau) -> Tableau:
-    """The tableau, if its stages can be compared. Raises MethodError if they have unknowns, or a
-    vector field is of a special kind.
-    """
+    """Raises MethodError if stages cannot be compared: unknowns, or special vector fields."""
     entries: Sequence[object] = [*chain.from_iterable(chain.from_iterable(tableau.blocks.values()))]
     weights: Sequence[object] = [*chain.from_iterable(colour.b for colour in tableau.colours)]
     is_constant = not any(isinstance(x, Parametric) for x in (*entries, *weights))
@@ -98,7 +94,7 @@ def _known(tableau: Tableau) -> Tableau:
 
 
 def _timeless(tableau: Tableau) -> Tableau:
-    """The tableau with zero nodes: on autonomous problems these do not matter."""
+    # on autonomous problems nodes do not matter
     spaces = tuple(PointSpace((ZERO,) * space.stages) for space in tableau.spaces)
     return replace(tableau, spaces=spaces)
 

@@ -88,9 +88,7 @@ class Design(Shown, Frozen):
         return step.is_all and bool(self.family.real)
 
     def parts(self, step: Step) -> list[Part]:
-        """The solution set of a step in parts, with nodes as coordinates, and entries of diagonals
-        if stability is wanted. Raises NotDecided if a Gröbner basis takes too long.
-        """
+        """The solution set of a step in parts; coordinates are nodes, for stability diagonals."""
         ideal, family = step.ideal, self.family
         assert ideal is not None
         if isinstance(ideal, Pieces):
@@ -122,17 +120,16 @@ class Design(Shown, Frozen):
 
 
 SHARE = 0.25
-"""The share of the time for python-flint if msolve is there too: its results are proved."""
+"""The part of the time for python-flint if msolve is there too: its results are proved."""
 PART = 0.25
-"""The share of the remaining time for a real method of a family."""
+"""The part of the remaining time for a real method of a family."""
 STABLE = 0.5
-"""The share of it for the P-stable transfers of a pair."""
+"""The part of it for the P-stable transfers of a pair."""
 CLAIMS: dict[members.Whose, str] = {
     "method": "order",
     "conjugate": "conjugate-order",
     "pair": "pair-order",
 }
-"""The claim of a file for the order of the method, its conjugate, or its pair."""
 
 
 def find_parameters(
@@ -141,16 +138,9 @@ def find_parameters(
     whose: members.Whose = "method",
     seconds: float | None = None,
 ) -> Design:
-    """The values of the parameters for which members of a family have an order.
-
-    Args:
-        family: the methods with unknowns.
-        order: the order wanted; None for the highest that some value has.
-        whose: of the method, its symplectic conjugate, or its symplectic pair.
-        seconds: after them the rest stays undecided; None for no limit.
-
-    Raises:
-        ZeroWeight: a weight is zero for every value, so there is no conjugate.
+    """The values of the parameters for which members of a family have an order. ``order`` None is
+    the highest that some value has; after ``seconds`` the rest stays undecided. Raises ZeroWeight
+    if a weight is zero for every value, so there is no conjugate.
     """
     tableau = members.TABLEAUS[whose](family.tableau)
     with within(seconds):
@@ -161,8 +151,6 @@ def find_parameters(
 
 
 class _Finding(Frozen):
-    """Decides one order after the other for the parameters of a family."""
-
     family: Family
     whose: members.Whose
     conditions: FamilyConditions
@@ -171,9 +159,7 @@ class _Finding(Frozen):
     wanted: int | None = None
 
     def steps(self) -> list[Step]:
-        """One for each order from 1 on, up to the wanted one or to the highest with values; a
-        single undecided one if the file has wants that cannot be decided.
-        """
+        """One for each order up to the wanted one or the highest with values; or one undecided."""
         wanted = self.wanted
         if self.family.unsettled:
             return [Undecided(wanted or 1, None)]
@@ -226,15 +212,7 @@ class _Finding(Frozen):
         return Ideal(ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
     def _step(self, order: int, lower: Ideal | Pieces | None) -> Step:
-        """The parameters with one order more, and with all other wants.
-
-        Args:
-            order: the new order.
-            lower: the ideal of the order below; None if there is none.
-
-        Raises:
-            NotDecided: the time limit has passed.
-        """
+        """The parameters with one order more than ``lower``, and all other wants; NotDecided."""
         start = self._start()
         criterion = self.criterion
         if lower is None:
@@ -270,15 +248,8 @@ class _Finding(Frozen):
         return _reached(order, ideal, start, done[-1].tree if done else None)
 
     def _in_pieces(self, order: int, new: Sequence[FamilyCondition], start: Ideal) -> Step:
-        """The zeros of the conditions of an order in parts, by solving linear equations first.
-
-        Args:
-            order: the new order.
-            new: its conditions.
-            start: the ideal of the equations for all parameters.
-
-        Raises:
-            NotDecided: it takes too many steps.
+        """The zeros of conditions ``new`` of an order in parts, by solving linear equations first.
+        ``start`` has the equations for all parameters. Raises NotDecided after too many steps.
         """
         known = [*self._relations, *self._conditions_below(order)]
         tableau, ring = self.conditions.tableau, self.family.ring
@@ -309,9 +280,7 @@ class _Finding(Frozen):
         return [x.polynomial for k in range(1, order) for x in self._conditions(k)]
 
     def _at_once(self, order: int) -> Step:
-        """Solves all conditions up to an order in one system, by msolve. Raises NotDecided if
-        msolve has no answer in time.
-        """
+        """Solves all conditions up to an order in one system by msolve; NotDecided if it fails."""
         polynomials = (*self._relations, *self._conditions_below(order + 1))
         ideal = self._start().with_zeros_unproved(polynomials)
         if ideal.is_everything:
@@ -319,9 +288,7 @@ class _Finding(Frozen):
         return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
     def _looked_into(self, step: Step, is_last: bool) -> Step:
-        """A step with its polynomials and solutions, and for the last one with the knowledge of
-        real values; undecided if its solutions take too long.
-        """
+        """With polynomials, solutions, and for the last step real values; or undecided."""
         if not isinstance(step, Decided):
             return step
         ideal = step.ideal
@@ -340,7 +307,6 @@ class _Finding(Frozen):
         return step
 
     def _known(self, step: Many) -> Knowledge:
-        """The knowledge of the real values of a family, as far as time allows."""
         ideal, left = step.ideal, seconds_left()
         if isinstance(ideal, Pieces):
             with suppress(NotDecided), within(None if left is None else PART * left):
@@ -355,16 +321,7 @@ class _Finding(Frozen):
         return Knowledge()
 
     def _known_of(self, step: Many, ideal: Ideal, real: Ideal | None = None) -> Knowledge:
-        """The knowledge of the real values of a family with an ideal.
-
-        Args:
-            step: the family.
-            ideal: of its values.
-            real: an ideal with the same real zeros; None for ``ideal`` itself.
-
-        Raises:
-            NotDecided: the time limit has passed.
-        """
+        """The knowledge of real values; ``real`` is an ideal with the real zeros of ``ideal``."""
         if self.criterion is not None and self._has_point(self.criterion, ideal):
             return Knowledge(is_real=True)
         real = without_complex(real or ideal)
@@ -394,10 +351,7 @@ class _Finding(Frozen):
     def _by_smooth_points(
         self, step: Many, ideal: Ideal, real: Ideal, known: Knowledge
     ) -> Knowledge:
-        """The knowledge by critical points: one of them is a method, or all methods are singular
-        points, at which the gradients of the equations are dependent. Raises NotDecided if the time
-        limit has passed.
-        """
+        """By critical points: one of them is a method, or all methods are singular points."""
         smooth = smooth_points(real)
         if smooth is None:
             return known
@@ -411,18 +365,13 @@ class _Finding(Frozen):
         return self._known_of(step, ideal, real.with_zeros(smooth.others))
 
     def _known_of_pieces(self, step: Many, pieces: Pieces) -> Knowledge:
-        """The knowledge of the real values of a family in parts. Raises NotDecided if the time
-        limit has passed.
-        """
         if self.family.stable:
             return self._with_stable(step, Knowledge())
         verdicts = (has_point(self.family, part, self._is_method) for part in pieces.parts)
         return Knowledge(is_real=any(verdicts) or None)
 
     def _with_stable(self, step: Many, known: Knowledge) -> Knowledge:
-        """The knowledge of a family together with its methods of the wanted stability. Raises
-        NotDecided if the time limit has passed, or stability depends on several unknowns.
-        """
+        """With methods of the wanted stability; NotDecided if it depends on several unknowns."""
         tableau = members.TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
         decided: list[stable_parts.StablePart] = []
@@ -452,9 +401,7 @@ class _Finding(Frozen):
         return replace(known, is_real=is_real, stable=stable)
 
     def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Knowledge:
-        """The knowledge of all transfers of a pair, with the ideal of the P-stable ones. Raises
-        NotDecided if the criterion does not solve for the unknowns.
-        """
+        """All transfers, with the ideal of P-stable ones; NotDecided if it is not solved."""
         stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, order)))
         solved, is_real = criterion.solved(stable), None
         if solved is None:
@@ -476,9 +423,7 @@ class _Finding(Frozen):
         return any(self._is_method(x, root) for x, root in roots)
 
     def _solutions_of(self, ideal: Ideal) -> tuple[Found, ...]:
-        """The solutions of an ideal of dimension 0, each with its order by the certificate. Raises
-        NotDecided if the time limit has passed.
-        """
+        """The solutions of an ideal of dimension 0, each with its order by the certificate."""
         finite = []
         for solution in solutions(ideal):
             check_time()
@@ -495,7 +440,6 @@ class _Finding(Frozen):
         return tuple(finite)
 
     def _sorted(self, found: Found) -> Found:
-        """The solution with its accepted real roots sorted by the wanted stability."""
         by_verdict: dict[bool | None, list[int]] = {True: [], False: [], None: []}
         for index in found.accepted:
             verdict = members.is_as_stable(
@@ -540,9 +484,7 @@ def _as_long_as_small(
 
 
 def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
-    """Polynomials and others: the common zeros of the first at which none of the others vanishes
-    are those of an ideal. Raises NotDecided if the time limit has passed.
-    """
+    """Polynomials whose common zeros are an ideal's, if none of the second ones vanishes there."""
     if isinstance(ideal, Pieces):
         return _each_once(ideal.equations), list(ideal.nonzero)
     if ideal.dimension <= 0:
@@ -557,7 +499,6 @@ def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly]
 
 
 def _each_once(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The distinct square-free parts."""
     return list({str(p): p for p in map(without_multiples, polynomials)}.values())
 
 
@@ -573,7 +514,7 @@ def _with_lower(steps: Sequence[Step]) -> list[Step]:
 
 
 def order_of(family: Family, whose: members.Whose, solution: Solution) -> Order | None:
-    """The order of the method with some values, by the certificate; None if there is no method."""
+    """By the certificate; None if there is no method."""
     try:
         return find_order(
             members.TABLEAUS[whose](members.member(family.tableau, family.ring, solution.values))
@@ -583,7 +524,6 @@ def order_of(family: Family, whose: members.Whose, solution: Solution) -> Order 
 
 
 def further_of(family: Family, whose: members.Whose, solution: Solution) -> dict[str, Any]:
-    """``embedded``, ``dense`` and ``predictor`` of ``Found``, if a method has such weights."""
     is_spelled_out = all(isinstance(x, PointSpace) for x in family.tableau.spaces)
     if whose != "method" or not is_spelled_out:
         return {}
@@ -624,8 +564,8 @@ def estimates_nothing(design: Design, step: Step) -> bool:
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """The values of one or two unknowns with each wanted kind of stability, of the highest order
-    that is reached; empty if solutions are examined one by one.
+    """The values of one or two unknowns with each wanted stability, of the highest order reached.
+    Empty if solutions are examined one by one.
     """
     family = design.family
     if any(step.known.stable for step in design.steps):
@@ -637,12 +577,8 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
 
 
 def _sets(family: Family, whose: members.Whose) -> tuple[StableValues, ...]:
-    """The set of each wanted kind of stability; empty if one is no set of values of one or two
-    unknowns.
-
-    Raises:
-        UsageProblem: a stability is not applicable.
-        NotDecided: the time limit has passed.
+    """The set of each wanted stability; empty if one is no set of values of one or two unknowns.
+    Raises UsageProblem for a stability that is not applicable, or NotDecided.
     """
     wanted = [
         x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind

@@ -27,21 +27,15 @@ from garkcli.tableau.tableau import Tableau
 
 
 class LinearForm(Frozen):
-    """A linear form Σ a_i t_i of parameters; the first of them has the coefficient 1.
-
-    Attributes:
-        terms: names with nonzero coefficients.
-    """
+    """Σ a_i t_i of parameters with nonzero a_i; the first is 1."""
 
     terms: tuple[tuple[str, fmpq], ...]
 
     def __str__(self) -> str:
-        """As in method files, such as ``t1 - 2/3*t2``."""
         (first, _), *others = self.terms
         return first + _sum_text(others)
 
     def solved(self, value: str) -> tuple[str, str]:
-        """The first parameter, and its formula if the form equals ``value``."""
         (first, _), *others = self.terms
         return first, value + _sum_text([(name, -a) for name, a in others])
 
@@ -57,13 +51,9 @@ def _sum_text(terms: Sequence[tuple[str, fmpq]]) -> str:
 def fewest(
     family: Family, tableau: Tableau, fields: Sequence[Matrix]
 ) -> tuple[Family, list[LinearForm]]:
-    """The family with the fewest parameters that give all its steps, at least one, and each of them
-    as a form in the old parameters.
-
-    Args:
-        family: its coefficients are polynomials in several parameters and roots of numbers.
-        tableau: of the family or made of it; its step counts.
-        fields: y ↦ L^m y for each colour, rational.
+    """The family with the fewest parameters, at least one, as forms in the old ones. Its
+    coefficients are polynomials in parameters and roots. The step of ``tableau``, which is made of
+    the family, counts; ``fields`` are the maps y ↦ L^m y of each colour, rational.
     """
     names = family.parameters
     pivots, directions = _directions(tableau, family, fields)
@@ -85,7 +75,7 @@ def fewest(
 def step_polynomials(
     tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]
 ) -> tuple[fmpq_mpoly, list[fmpq_mpoly]]:
-    """D and the entries of N of the step N/D: polynomials in z and the parameters."""
+    """D and the entries of N of the step N/D, in z and the parameters."""
     system = stage_system(tableau, fields)
     d = len(fields[0])
     D = characteristic_coefficients(system.W)
@@ -107,7 +97,6 @@ def step_polynomials(
 def _directions(
     tableau: Tableau, family: Family, fields: Sequence[Matrix]
 ) -> tuple[list[int], list[list[fmpq]]]:
-    """Pivots and a basis of the directions along which the step is constant."""
     denominator, numerators = step_polynomials(tableau, family.ring, fields)
     number = len(family.parameters)
     modulo = reducing(["_z", *family.ring.names], family.radicals)

@@ -1,6 +1,4 @@
-"""Gröbner bases over ℚ by python-flint, small ones in this process, large ones in another within
-the time limit, or by msolve if that time is not enough.
-"""
+"""Gröbner bases over ℚ by python-flint, large ones in a process, or by msolve if time is short."""
 
 from __future__ import annotations
 
@@ -17,27 +15,17 @@ from garkcli.exact.apart import apart, first_of
 
 Exponents: TypeAlias = tuple[int, ...]
 FEW_TERMS = 300
-"""Most terms of all polynomials together for work in this process."""
 SMALL = (50, 200, 1500)
 """Most polynomials, terms of one, bits of a coefficient, of a basis made in this process."""
 _Way: TypeAlias = Callable[..., tuple[list[fmpz_mpoly], int]]
 
 
 def is_small(polynomials: Sequence[fmpz_mpoly]) -> bool:
-    """Whether polynomials may be divided by one another in this process."""
     return sum(len(p) for p in polynomials) <= FEW_TERMS
 
 
 def groebner_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
-    """The reduced Gröbner basis of an ideal.
-
-    Args:
-        polynomials: generators, not all zero.
-        context: their ring.
-
-    Raises:
-        NotDecided: the time limit has passed.
-    """
+    """The reduced Gröbner basis of generators that are not all zero; NotDecided if time is over."""
     check_time()
     with suppress(_TooLarge):
         return _basis(polynomials, context, is_bounded=True)
@@ -50,23 +38,12 @@ def grown_basis(
     new: Sequence[fmpz_mpoly],
     context: fmpz_mpoly_ctx,
 ) -> tuple[list[fmpz_mpoly], int]:
-    """The reduced Gröbner basis of an ideal with further polynomials; if there are no zeros, with
-    the fewest first ones that leave none.
+    """The reduced Gröbner basis with ``new`` polynomials, and how many of them are in it.
 
-    Adding one after the other or all at once may be faster, as bases in between may be larger than
-    the last; large bases are tried both ways in parallel.
-
-    Args:
-        known: a Gröbner basis.
-        generators: of the same ideal.
-        new: the further polynomials.
-        context: their ring.
-
-    Returns:
-        the basis, and the number of further polynomials in it.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    Without zeros these are the fewest first ones that leave none. ``known`` is a basis,
+    ``generators`` are of the same ideal. One after the other or all at once may be faster, as bases
+    in between may be larger than the last: large ones are tried both ways in parallel. Raises
+    NotDecided if the time is over.
     """
     check_time()
     for way, first in ((_in_turn, known), (_at_once, generators)):
@@ -95,7 +72,6 @@ def _in_turn(
 def _at_once(
     generators: list[fmpz_mpoly], new: list[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
 ) -> tuple[list[fmpz_mpoly], int]:
-    """All polynomials at once; then the fewest first ones if there are no zeros."""
     basis = _basis([*generators, *new], context, is_bounded)
     k = len(new)
     if _is_everything(basis):
@@ -125,7 +101,6 @@ class _TooLarge(Exception):
 def _basis(
     polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, is_bounded: bool
 ) -> list[fmpz_mpoly]:
-    """The reduced basis. Raises _TooLarge if it is not small, and ``is_bounded``."""
     if is_bounded and not is_small(polynomials):
         raise _TooLarge
     vector: Any = fmpz_mpoly_vec(list(polynomials), context)
@@ -141,16 +116,9 @@ def _basis(
 def reduced(
     polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, is_whole: bool = True
 ) -> list[fmpz_mpoly]:
-    """Other generators, each reduced once by those with smaller leading monomials, the smallest
-    first; for a Gröbner basis the primitive reduced one.
-
-    python-flint's ``autoreduction`` takes a hundred times as long for many polynomials and may not
-    end in lexicographic order.
-
-    Args:
-        polynomials: the generators.
-        context: their ring.
-        is_whole: whether they are a Gröbner basis.
+    """Generators, each reduced once by those with smaller leading monomials, the smallest first.
+    For a Gröbner basis (``is_whole``) the primitive reduced one. python-flint's ``autoreduction``
+    takes a hundred times as long for many polynomials and may not end in lexicographic order.
     """
     done: list[fmpz_mpoly] = []
     known: list[Exponents] = []
@@ -172,7 +140,6 @@ def leading(p: fmpz_mpoly) -> Exponents:
 
 
 def degrevlex(exponents: Exponents) -> tuple[int, ...]:
-    """A key that is larger for larger monomials."""
     return sum(exponents), *(-e for e in reversed(exponents))
 
 
@@ -182,8 +149,7 @@ def divides(a: Exponents, b: Exponents) -> bool:
 
 def unproved_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The Gröbner basis by msolve, verified to be one of an ideal that contains the polynomials.
-    Raises NotDecided if msolve is not installed, has no answer in time, or none that passes the
-    test.
+    Raises NotDecided if msolve is not installed, has no answer in time, or fails the test.
     """
     check_time()
     program = find_msolve()
@@ -210,6 +176,5 @@ def _grown_apart(
 
 
 def _verified(basis: list[fmpz_mpoly], given: list[fmpz_mpoly]) -> list[fmpz_mpoly] | None:
-    """The reduced basis; None if it does not contain the given polynomials."""
     context = given[0].context()
     return reduced(basis, context) if is_basis(basis, given, context) else None

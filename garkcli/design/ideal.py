@@ -17,13 +17,9 @@ from garkcli.exact.polynomial import Polynomial
 
 
 def least_meeting(sets: Collection[frozenset[int]]) -> int:
-    """The size of a smallest set that meets each of these.
+    """The size of a smallest set that meets each of these nonempty sets, by branch and bound.
 
-    Branch and bound: take an element of the smallest set and exclude those before it; disjoint sets
-    give the lower bound. None of the sets may be empty.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    Take an element of the smallest set and exclude those before it; disjoint sets bound it below.
 
     >>> least_meeting([frozenset({1, 2}), frozenset({2, 3}), frozenset({4})])
     2
@@ -61,7 +57,6 @@ def _apart(sets: list[frozenset[int]]) -> int:
 
 
 def _smallest(sets: Collection[frozenset[int]]) -> list[frozenset[int]]:
-    """The sets that contain no other one, the smaller first."""
     kept: list[frozenset[int]] = []
     for one in sorted(set(sets), key=lambda x: (len(x), sorted(x))):
         if not any(other <= one for other in kept):
@@ -74,17 +69,12 @@ UNIT = "_unit"
 
 
 class Ideal:
-    """An ideal of ℚ[t_1, …, t_k], with polynomials that must not vanish.
-
-    Args:
-        ring: the parameters.
-        nonzero: polynomials whose zeros do not count.
+    """An ideal of ℚ[t_1, …, t_k]; zeros of the polynomials ``nonzero`` do not count.
 
     Attributes:
-        nonzero: their irreducible factors, each once.
+        nonzero: irreducible factors of these, each once.
         basis: a reduced Gröbner basis, primitive over ℤ; empty for the zero ideal.
-        is_proved: whether the basis is proved to be of this ideal; otherwise it is of a larger
-            ideal, whose zeros may be only some of the zeros.
+        is_proved: otherwise the basis may be of a larger ideal, whose zeros are only some.
     """
 
     def __init__(self, ring: Parameters, nonzero: Iterable[fmpq_mpoly] = ()) -> None:
@@ -113,18 +103,15 @@ class Ideal:
 
     @property
     def variables(self) -> int:
-        """The number of unknowns of the basis, UNIT included."""
         return int(self._context.nvars())
 
     def _integral(self, polynomial: fmpq_mpoly) -> fmpz_mpoly:
-        """A multiple of a polynomial over ℤ, in the context of the basis."""
         terms = polynomial.to_dict()
         denominator = integral_scale(polynomial)
         tail = (0,) if self.nonzero else ()
         return self._context.from_dict({(*e, *tail): (a * denominator).p for e, a in terms.items()})
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
-        """The ideal with further polynomials. Raises NotDecided if the time limit has passed."""
         check_time()
         return self._with_generators([self._integral(polynomial) for polynomial in polynomials])
 
@@ -141,18 +128,8 @@ class Ideal:
     def with_zeros_in_turn(
         self, polynomials: Iterable[fmpq_mpoly], generators: Iterable[fmpq_mpoly]
     ) -> tuple[Ideal, int]:
-        """The ideal with further polynomials; if it has no zeros, with the fewest first ones that
-        leave none.
-
-        Args:
-            polynomials: the further ones, none of them zero.
-            generators: of this ideal, except that with UNIT.
-
-        Returns:
-            the ideal, and the number of further polynomials in it.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """With ``polynomials`` ≠ 0, the fewest first ones that leave no zeros, and their number.
+        ``generators`` are of this ideal, except that with UNIT.
         """
         new = [self._integral(p) for p in polynomials]
         old = [*self._unit, *(self._integral(p) for p in generators)]
@@ -160,9 +137,7 @@ class Ideal:
         return self._with_basis(basis, self.is_proved), taken
 
     def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
-        """The ideal with x − c for some unknowns x, by their places, and numbers c. Its basis is
-        shortened by substituting them first. Raises NotDecided if the time limit has passed.
-        """
+        """With x − c for unknowns x, by places, and numbers c, substituted in the basis first."""
         new = []
         for place, value in values.items():
             new.append(self._context.gen(place) * value.q - value.p)
@@ -179,10 +154,7 @@ class Ideal:
         return self._with_basis([], self.is_proved)._with_generators(new)
 
     def with_zeros_unproved(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
-        """The ideal with further polynomials by msolve: a larger ideal may result, whose zeros may
-        be only some of the zeros. Raises NotDecided if msolve is not installed, or has no answer in
-        time.
-        """
+        """By msolve: a larger ideal may result, whose zeros are only some; or NotDecided."""
         new = [self._integral(polynomial) for polynomial in polynomials]
         return self._with_basis(
             groebner.unproved_basis([*self.basis, *new], self._context), is_proved=False
@@ -193,25 +165,19 @@ class Ideal:
 
     @property
     def is_everything(self) -> bool:
-        """Whether the ideal has no zeros, not even complex ones."""
         return any(p.is_constant() for p in self.basis)
 
     @property
     def is_trivial(self) -> bool:
-        """Whether the parameters satisfy no equation."""
         return len(self.basis) <= bool(self.nonzero)
 
     @cached_property
     def closure(self) -> Ideal:
-        """The elimination ideal without UNIT: its zeros at which ``nonzero`` does not vanish are
-        those of this one.
+        """The elimination ideal without UNIT, with the zeros at which ``nonzero`` does not vanish.
 
         UNIT gets the weight N, by substituting its N-th power. As soon as no basis element has UNIT
         behind a leading monomial without it, the elements without UNIT are the basis: they alone
         reduce every polynomial without UNIT to 0.
-
-        Raises:
-            NotDecided: the time limit has passed.
         """
         elimination = Ideal(self.ring)
         if self.nonzero and self.dimension == 0:
@@ -232,10 +198,9 @@ class Ideal:
             basis = groebner.groebner_basis(raised, self._context)
 
     def _relations(self, context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
-        """A Gröbner basis of the polynomials without UNIT in an ideal of dimension 0: a monomial
+        """A Gröbner basis of the polynomials without UNIT in an ideal of dimension 0. A monomial
         without it that is a combination of smaller ones modulo the ideal leads a basis element
-        (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993). Raises NotDecided if the time limit
-        has passed.
+        (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993).
         """
         size = len(self.ring.names)
         one = fmpq_mat(self.degree, 1)
@@ -271,9 +236,8 @@ class Ideal:
 
     @property
     def cleared(self) -> list[fmpq_mpoly]:
-        """Polynomials without UNIT with the zeros of the ideal, up to zeros of ``nonzero``: its
-        basis with 1/Π nonzero in place of UNIT, times a power of Π. Raises NotDecided if the time
-        limit has passed.
+        """Polynomials without UNIT with the zeros of the ideal, up to zeros of ``nonzero``. They
+        are its basis with 1/Π nonzero in place of UNIT, times a power of Π.
         """
         context = self.ring.context
         product = context.constant(fmpq(1))
@@ -295,18 +259,14 @@ class Ideal:
 
     @cached_property
     def polynomials(self) -> list[fmpz_mpoly]:
-        """Square-free polynomials without UNIT with the zeros of the ideal, up to zeros of
-        ``nonzero``; they generate the radical if there are finitely many zeros. Raises NotDecided
-        if the time limit has passed.
-        """
+        """Square-free ones without UNIT, with its zeros; of the radical if these are finite."""
         return self.closure.square_free.basis
 
     @property
     def square_free(self) -> Ideal:
-        """An ideal with the same zeros, the radical if there are finitely many: then the
-        square-free polynomials in one unknown each suffice (A. Seidenberg, *Constructions in
-        algebra*, 1974). Otherwise its basis elements are square-free. Raises NotDecided if the time
-        limit has passed.
+        """An ideal with the same zeros, the radical if they are finitely many. Then the square-free
+        polynomials in one unknown each suffice (A. Seidenberg, *Constructions in algebra*, 1974).
+        Otherwise its basis elements are square-free.
         """
         if self.dimension == 0:
             return self._with_generators([self._in_one(k) for k in range(self.variables)])
@@ -319,13 +279,8 @@ class Ideal:
 
     @cached_property
     def dimension(self) -> int:
-        """The dimension of the set of its complex zeros; −1 if there are none.
-
-        It is the largest number of unknowns such that each leading monomial contains one of the
-        others.
-
-        Raises:
-            NotDecided: the time limit has passed.
+        """The dimension of the set of its complex zeros; −1 if there are none. It is the largest
+        number of unknowns such that each leading monomial has one of the others.
         """
         if self.is_everything:
             return -1
@@ -337,9 +292,8 @@ class Ideal:
 
     @property
     def independent(self) -> tuple[int, ...] | None:
-        """Algebraically independent unknowns, as many as the dimension: the first such, by leading
-        monomials; None if every choice contains UNIT. Raises NotDecided if the time limit has
-        passed.
+        """Algebraically independent unknowns, as many as the dimension, by leading monomials. None
+        if every choice contains UNIT.
         """
         size = len(self.ring.names)
         left = {one for one in self._supports if size not in one}
@@ -359,14 +313,12 @@ class Ideal:
 
     @cached_property
     def degree(self) -> int:
-        """The number of complex zeros, with multiplicities, of an ideal of dimension 0."""
+        """The number of complex zeros with multiplicities, in dimension 0."""
         return len(self.monomials)
 
     @cached_property
     def monomials(self) -> list[groebner.Exponents]:
-        """The monomials not divisible by leading ones, the smallest first: a basis of ℚ[t]/ideal,
-        for an ideal of dimension 0. Raises NotDecided if the time limit has passed.
-        """
+        """Monomials not divisible by leading ones, ascending: a basis of ℚ[t]/I in dimension 0."""
         first = [groebner.leading(p) for p in self.basis]
         monomials: list[groebner.Exponents] = []
         level = [(0,) * self.variables]
@@ -383,16 +335,12 @@ class Ideal:
 
     @cached_property
     def multiplications(self) -> list[fmpq_mat]:
-        """The matrix of multiplication by each unknown in ℚ[t]/ideal, in the basis ``monomials``,
-        for an ideal of dimension 0.
+        """Multiplication by each unknown in ℚ[t]/I, in the basis ``monomials``, in dimension 0.
 
         A monomial m on the border is a leading one, whose remainder is in the basis of the ideal,
         or x m' with m' on the border: its remainder is x times that of m', whose monomials are
-        smaller than m'. Done from the smallest monomial on, each remainder costs one product of a
+        smaller than m'. From the smallest monomial on, each remainder costs one product of a
         matrix and a column (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora, 1993).
-
-        Raises:
-            NotDecided: the time limit has passed.
         """
         index = {e: k for k, e in enumerate(self.monomials)}
         size = len(index)
@@ -427,11 +375,7 @@ class Ideal:
 
 
 class _Echelon:
-    """Independent columns in echelon form, each a combination of monomials.
-
-    Args:
-        size: the number of rows.
-    """
+    """Independent columns in echelon form, each a combination of monomials."""
 
     def __init__(self, size: int) -> None:
         self.size = size
@@ -458,13 +402,9 @@ class _Echelon:
 
 
 MOST_ROWS = 50
-"""Characteristic polynomials of larger matrices are computed in another process."""
 
 
 def characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
-    """The characteristic polynomial of a matrix of rational numbers. Raises NotDecided if the time
-    limit has passed.
-    """
     check_time()
     work = methodcaller("charpoly")
     polynomial: fmpq_poly = work(matrix) if matrix.nrows() <= MOST_ROWS else apart(work, matrix)
@@ -472,7 +412,6 @@ def characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
 
 
 def integral_scale(polynomial: fmpq_mpoly) -> fmpz:
-    """The common denominator of the coefficients."""
     return _common([a.q for a in polynomial.coeffs()])
 
 
@@ -484,14 +423,12 @@ def _common(denominators: Iterable[fmpz]) -> fmpz:
 
 
 def rational(p: fmpz_mpoly, ring: Parameters) -> fmpq_mpoly:
-    """A polynomial without UNIT, over ℚ and in the parameters."""
     size = len(ring.names)
     terms = {tuple(map(int, e[:size])): fmpq(a) for e, a in p.to_dict().items()}
     return ring.context.from_dict(terms)
 
 
 def without_multiples(p: Any) -> Any:
-    """The square-free part of a polynomial in several variables."""
     product = p.context().constant(1)
     for factor, _ in p.factor_squarefree()[1]:
         product *= factor
@@ -503,14 +440,12 @@ def _raised(e: groebner.Exponents) -> list[groebner.Exponents]:
 
 
 def lowered(e: groebner.Exponents) -> Iterator[tuple[int, groebner.Exponents]]:
-    """A monomial divided by each of its unknowns, with the places of these."""
     for i, exponent in enumerate(e):
         if exponent:
             yield i, (*e[:i], exponent - 1, *e[i + 1 :])
 
 
 def _tail(p: fmpz_mpoly, index: Mapping[groebner.Exponents, int]) -> fmpq_mat:
-    """The remainder of the leading monomial modulo p, as a column."""
     column = fmpq_mat(len(index), 1)
     scale = -fmpq(p.leading_coefficient())
     for exponents, a in list(p.to_dict().items()):

@@ -31,25 +31,14 @@ TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
     "conjugate": conjugate,
     "pair": pair,
 }
-"""The tableau of the method, its conjugate or its pair, from that of a file."""
 
 
 def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
-    """The tableau with every parameter replaced by its value.
-
-    Args:
-        tableau: entries are rational numbers and rational functions of the parameters.
-        ring: the parameters.
-        values: their values, all in one field.
-
-    Raises:
-        VanishingDenominator: a denominator is zero at the values.
-    """
+    """Raises VanishingDenominator if one is zero at the values, all of one field."""
     return tableau.changed(_At([values[name] for name in ring.names]).number)
 
 
 def further_member(further: Further, ring: Parameters, values: Mapping[str, Number]) -> Further:
-    """Further weights with every parameter replaced by its value, as ``member`` does."""
     return further.changed(_At([values[name] for name in ring.names]).number)
 
 
@@ -58,8 +47,6 @@ def value_of(polynomial: fmpq_mpoly, ring: Parameters, values: Mapping[str, Numb
 
 
 class _At:
-    """Evaluates rational functions at one point."""
-
     def __init__(self, values: list[Number]) -> None:
         self.values = values
         functions = [x for x in cast("list[object]", values) if isinstance(x, Parametric)]
@@ -114,14 +101,8 @@ def restricted(
     parameters: Sequence[str],
     radicals: Sequence[Radical],
 ) -> Family:
-    """The methods of a family whose unknowns are functions of fewer ones.
-
-    Args:
-        family: the methods.
-        ring: of the fewer unknowns.
-        values: each unknown of the family as a function of them, or a number.
-        parameters: the parameters among the fewer ones.
-        radicals: the roots among them, with relations in any ring.
+    """The methods whose unknowns have ``values``: numbers, or functions of fewer unknowns.
+    ``parameters`` and ``radicals`` are among the fewer, with relations in any ring.
     """
 
     def moved(polynomials: Sequence[fmpq_mpoly]) -> tuple[fmpq_mpoly, ...]:
@@ -160,16 +141,14 @@ def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
 
 
 def admitted(family: Family, name: str) -> tuple[Interval, ...]:
-    """The numbers allowed for an unknown by the constraints on it alone."""
+    """The numbers that the constraints on an unknown alone allow."""
     index = family.ring.names.index(name)
     univariate = (p for p in not_negative(family) if unknowns_of(p) == [index])
     return where_not_negative([in_one(p, index) for p in univariate])
 
 
 def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:
-    """Whether a real solution is a method of a family: even roots are not negative, parameters are
-    within their ranges, and the wanted signs hold.
-    """
+    """Whether even roots are not negative, parameters within ranges, and wanted signs right."""
     for radical in family.radicals:
         value = solution.values[radical.name]
         if radical.meant is not None and value_at(value, root) != radical.meant:
@@ -196,9 +175,7 @@ MOST_DEGREE = 6
 def method_at(
     tableau: Tableau, ring: Parameters, solution: Solution, root: RealRoot
 ) -> Tableau | None:
-    """The method of a family at a real root of a solution; None if its field is too large. Raises
-    ZeroDivisionError if a denominator is zero there.
-    """
+    """None if its field is too large; raises ZeroDivisionError if a denominator is zero there."""
     u = number_of(root, MOST_DEGREE)
     if u is None:
         return None
@@ -210,9 +187,7 @@ def method_at(
 
 
 def refuse_levels(family: Family) -> None:
-    """Refuses a family with bounds on objectives, which only a search meets. Raises MethodError if
-    it has one.
-    """
+    """Raises MethodError for bounds on objectives, which only a search meets."""
     for key, bound in family.levels:
         name = key.removeprefix("-")
         message = f"design: {name}: {bound} is met by a search alone"
@@ -220,7 +195,7 @@ def refuse_levels(family: Family) -> None:
 
 
 def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoot) -> bool | None:
-    """Whether a method is as stable as wanted; None if undecided."""
+    """None if undecided."""
     if not family.stable:
         return True
     with suppress(NotDecided):
@@ -235,7 +210,7 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
 
 
 def is_stable(wanted: RequiredStability, tableau: Tableau) -> bool:
-    """Whether a method has a kind of stability; False if it is not applicable."""
+    """False if it is not applicable."""
     if wanted.kind in OSCILLATING:
         oscillator = usual_oscillator(tableau)
         if oscillator is None:

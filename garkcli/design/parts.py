@@ -30,13 +30,8 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 
 class Changes(Frozen):
-    """Unknowns that are replaced by others.
-
-    Attributes:
-        old: the ring of the unknowns.
-        ring: the ring of the new ones, in the same places.
-        instead: replaced old unknowns, by their places, in the new ones.
-        nodes: unknowns that are nodes.
+    """Unknowns that are replaced by others, in the same places of ``ring``. ``instead`` has
+    replaced old ones, by their places, in the new ones; ``nodes`` are those that are nodes.
     """
 
     old: Parameters
@@ -52,7 +47,6 @@ class Changes(Frozen):
         return p.compose(*images, ctx=context)
 
     def values(self) -> dict[str, Mixed]:
-        """The old unknowns as functions of the new ones."""
         values: dict[str, Mixed] = {}
         one = self.ring.constant(fmpq(1))
         for i, name in enumerate(self.old.names):
@@ -62,7 +56,6 @@ class Changes(Frozen):
 
 
 def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
-    """Replaces unknowns by nodes that are sums of several of them."""
     nodes = dict(_nodes(tableau))
     names = list(ring.names)
     instead: dict[int, fmpq_mpoly] = {}
@@ -88,7 +81,6 @@ def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
 
 
 def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
-    """The nodes that are sums of several unknowns, by new names."""
     for l, colour in enumerate(_evaluated(tableau), start=1):
         if not isinstance(tableau.spaces[colour.space], PointSpace):
             continue
@@ -102,7 +94,6 @@ def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
 
 
 def _evaluated(tableau: Tableau) -> list[Colour]:
-    """The colours evaluated at their nodes; the Jacobian of a Rosenbrock method is not."""
     return [colour for colour in tableau.colours if colour.kind != ONE_BRANCH]
 
 
@@ -110,13 +101,9 @@ Values: TypeAlias = dict[str, Mixed]
 
 
 class Part(Frozen):
-    """Solutions with common coordinates.
-
-    Attributes:
-        nonzero: polynomials in the coordinates that vanish at no solution of this part.
-        ideal: of the equations for the coordinates; trivial if they are free. Some of its zeros may
-            be zeros of ``nonzero``.
-        sets: names of ``values`` restricted to sets of numbers.
+    """Solutions with common coordinates: polynomials ``nonzero`` in these vanish nowhere. ``ideal``
+    has the equations for the coordinates, trivial if they are free; some of its zeros may be zeros
+    of ``nonzero``. ``sets`` restrict ``values`` to sets of numbers, by name.
     """
 
     ring: Parameters
@@ -127,7 +114,7 @@ class Part(Frozen):
 
     @property
     def is_free(self) -> bool:
-        """Whether all values of the coordinates are solutions, except zeros of ``nonzero``."""
+        """Whether all coordinates are solutions, except zeros of ``nonzero``."""
         return self.ideal.is_trivial
 
     @property
@@ -143,7 +130,7 @@ class Part(Frozen):
         return cast("Mixed", value_of(polynomial, ring, values))
 
     def at(self, coordinates: Mapping[str, Any]) -> dict[str, Any]:
-        """All unknowns at values of the coordinates: numbers, or functions of others."""
+        """Every unknown at values of the coordinates: numbers, or functions of others."""
         values: dict[str, Any] = {}
         for name, x in self.values.items():
             over, under = fraction(x, self.ring)
@@ -170,14 +157,11 @@ def at_root(name: str, root: RealRoot) -> Solution:
 
 
 MOST_POINTS = 60
-"""Most points of a part of dimension 0, complex ones included, so also the degree of their fields.
-"""
+"""Most points of a part of dimension 0, with complex ones: most of the degree of a field."""
 
 
 def points_of(part: Part) -> Iterator[Solution]:
-    """The solutions of a part of dimension 0, in its coordinates. Raises NotDecided if there are
-    more than ``MOST_POINTS``.
-    """
+    """The solutions of a part of dimension 0; NotDecided beyond ``MOST_POINTS``."""
     if not part.ring.names:
         yield Solution(fmpq_poly([0, 1]), None, {}, 1, (RealRoot.rational(fmpq(0)),))
         return
@@ -189,7 +173,6 @@ def points_of(part: Part) -> Iterator[Solution]:
 
 
 def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
-    """The equation of a part in one coordinate alone; None if there is none."""
     place = part.ring.names.index(name)
     for p in part.equations:
         degrees = p.degrees()
@@ -213,13 +196,7 @@ def values_on(
 
 
 class RationalChart(Frozen):
-    """Points of a part with the same values of those coordinates that are not free.
-
-    Attributes:
-        one: the exact values of these.
-        index: the number of its real root.
-        names: the free coordinates.
-    """
+    """Points of a part with the values ``one`` of coordinates that are not free, at a real root."""
 
     one: Solution
     index: int
@@ -227,11 +204,10 @@ class RationalChart(Frozen):
 
     @property
     def root(self) -> RealRoot:
-        """The real number that generates the field of the values."""
         return self.one.real[self.index]
 
     def point(self, part: Part, free: Sequence[fmpq]) -> Solution | None:
-        """All unknowns at one of the points; None if there is no method."""
+        """Every unknown at one of the points; None if there is no method."""
         values = {**self.one.values, **dict(zip(self.names, free, strict=True))}
         if not all(value_of(p, part.ring, values) for p in part.nonzero):
             return None
@@ -283,7 +259,6 @@ def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
 LARGE = 50
 """Bases with more terms are replaced by generators of the ideal if these are shorter."""
 SHORT = 12
-"""Most terms of those basis elements that are kept beside the generators."""
 
 
 def parts_of(
@@ -292,17 +267,9 @@ def parts_of(
     kept: Sequence[str] = (),
     generators: Callable[[], Iterable[fmpq_mpoly]] | None = None,
 ) -> Iterator[Part]:
-    """The zeros of an ideal in parts.
-
-    Args:
-        ideal: of the equations for all unknowns.
-        changes: unknowns that are replaced by others.
-        kept: unknowns preferred as coordinates.
-        generators: makes generators of the ideal, without its UNIT: in order conditions weights and
-            many entries are linear, in a large basis they are not.
-
-    Raises:
-        NotDecided: a Gröbner basis takes too long.
+    """The zeros of an ideal in parts; NotDecided if a Gröbner basis takes too long. ``kept``
+    unknowns are preferred as coordinates. ``generators`` of the ideal are without UNIT: in order
+    conditions weights and many entries are linear, in a large basis they are not.
     """
     changed = changes or Changes(ideal.ring, ideal.ring, {})
     splitting = _Splitting(changed.ring, tuple(kept))
@@ -318,23 +285,17 @@ def parts_of(
 
 
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
-    """The common zeros of further polynomials in the coordinates of a part, in parts."""
     for smaller in _Splitting(part.ring).all_parts([*part.equations, *zeros], part.nonzero):
         yield replace(smaller, values=part.at(smaller.values), sets=part.sets)
 
 
 MOST_STEPS = 400
-"""Most steps of a splitting without Gröbner bases."""
 
 
 class Pieces(Frozen):
-    """The zeros of polynomials in parts, without an ideal: linear equations are solved first, and
-    the zeros of divisors are further parts.
-
-    Attributes:
-        nonzero: polynomials whose zeros do not count.
-        changes: unknowns that are replaced by others.
-        kept: unknowns preferred as coordinates.
+    """The zeros of ``equations`` in parts, without an ideal; ``nonzero`` vanish nowhere. Linear
+    equations are solved first, and zeros of divisors are further parts. ``kept`` unknowns are
+    preferred as coordinates.
     """
 
     equations: tuple[fmpq_mpoly, ...]
@@ -351,9 +312,7 @@ class Pieces(Frozen):
         changes: Changes,
         kept: Sequence[str] = (),
     ) -> Pieces:
-        """The zeros of polynomials at which others do not vanish. Raises NotDecided if it takes too
-        many steps, or a Gröbner basis that is not small.
-        """
+        """Raises NotDecided if it takes too many steps, or a Gröbner basis that is not small."""
         monic = (p / p.leading_coefficient() for p in equations if p)
         equations, nonzero = tuple({str(p): p for p in monic}.values()), tuple(nonzero)
         kept = (*(kept or changes.nodes),)
@@ -368,17 +327,11 @@ class Pieces(Frozen):
                 raise NotDecided from error
 
     def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Pieces:
-        """The pieces cut down to the common zeros of further polynomials."""
         return Pieces.of([*self.equations, *polynomials], self.nonzero, self.changes, self.kept)
 
     def ideal(self, start: Ideal) -> Ideal:
-        """The ideal of the equations, if they have finitely many zeros and all are simple.
-
-        Args:
-            start: the ideal of ``nonzero``, in the unknowns of the equations.
-
-        Raises:
-            NotDecided: there are several parts, or a zero that is not simple.
+        """The ideal of the equations, if their zeros are finitely many and simple, or NotDecided.
+        ``start`` is the ideal of ``nonzero``, in the unknowns of the equations.
         """
         ring = start.ring
         if self.changes.instead:
@@ -412,7 +365,7 @@ class Pieces(Frozen):
 
     @property
     def is_proved(self) -> bool:
-        """Always true: no part is lost."""
+        # no part is lost
         return True
 
 
@@ -438,8 +391,6 @@ def rank(matrix: Iterable[Sequence[Number]]) -> int:
 
 
 class _Linear(Frozen):
-    """A v + B, a polynomial of degree one in v."""
-
     whole: fmpq_mpoly
     name: str
     A: fmpq_mpoly
@@ -450,11 +401,9 @@ class _Linear(Frozen):
 class _Splitting(Frozen):
     """Takes solution sets apart; polynomials are in the ring of all unknowns.
 
-    Attributes:
-        kept: unknowns preferred as coordinates.
-        is_large: whether only small Gröbner bases are made as long as some unknown is linear.
-        steps: an iterator that ends with the last step allowed, None without a limit; with it the
-            ideals of parts exclude the zeros of ``nonzero``.
+    ``kept`` ones are preferred as coordinates. ``is_large``: as long as some unknown is linear,
+    only small Gröbner bases are made. With a limit of ``steps`` the ideals of parts exclude the
+    zeros of ``nonzero``.
     """
 
     ring: Parameters
@@ -478,13 +427,8 @@ class _Splitting(Frozen):
         values: Values,
         left: Sequence[str],
     ) -> Iterator[Part]:
-        """The common zeros of polynomials at which others do not vanish, in parts.
-
-        Args:
-            polynomials: vanish on all parts.
-            nonzero: irreducible polynomials that vanish nowhere on them.
-            values: all unknowns as functions of those in ``left``.
-            left: names of unknowns that are not yet eliminated.
+        """The common zeros of polynomials at which irreducible ones vanish nowhere, in parts.
+        ``values`` has all unknowns as functions of those in ``left``, not yet eliminated.
         """
         check_time()
         if self.steps is not None and next(self.steps, None) is None:
@@ -560,7 +504,6 @@ class _Splitting(Frozen):
     def _linear(
         self, zeros: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly], left: Sequence[str]
     ) -> _Linear | None:
-        """The simplest expression of an unknown by others; None if none is linear."""
         candidates = []
         for p in zeros:
             degrees = p.degrees()

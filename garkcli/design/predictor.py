@@ -1,8 +1,8 @@
 """Wants on a predictor: its order for every ratio of step sizes, and for steps of one size.
 
 At one ratio the conditions of order q say that weights vanish at all trees of at most q vertices of
-the method that takes two steps (``garkcli.order.predictor``). They are linear in the weights of the
-predictor and polynomials in the ratio: as many ratios as their degree asks for decide all.
+the method that takes two steps (``garkcli.order.predictor``). They are linear in the weights and
+polynomials in the ratio: as many ratios as their degree asks for decide all.
 """
 
 from __future__ import annotations
@@ -31,9 +31,7 @@ def _order_of_equal_steps(asked: Asked) -> WantConditions:
 
 
 def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> WantConditions:
-    """The conditions of all trees at given ratios. Raises MethodError if the method has no
-    predictor.
-    """
+    """The conditions of all trees at given ratios; MethodError without a predictor."""
     predictor, order = asked.further.predictor, cast("int", asked.value)
     if predictor is None:
         message = f"design: {key} is meant of the predictor of a method"

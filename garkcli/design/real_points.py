@@ -3,9 +3,10 @@
 No procedure decides it for all ideals. gark tries:
 
 * real zeros of a polynomial with constant sign are zeros of its derivatives too, so there may be
-none, or finitely many, which are examined one by one; * for one unknown, and for a curve in the
-plane of two, every cell of the line or of the plane; * otherwise rational values of some unknowns
-that leave finitely many solutions, which are examined. That finds a method, or proves nothing.
+  none, or finitely many, which are examined one by one;
+* for one unknown, and for a curve in the plane of two, every cell of the line or of the plane;
+* otherwise rational values of some unknowns that leave finitely many solutions, which are examined.
+  That finds a method, or proves nothing.
 """
 
 from __future__ import annotations
@@ -34,20 +35,15 @@ from garkcli.tableau.family import Family
 
 IsMethod: TypeAlias = Callable[[Solution, RealRoot], bool]
 MOST_TERMS = 60
-"""Most terms of a polynomial that is tested for a constant sign."""
 MOST_POINTS = 60
-"""Most solutions that are examined, complex ones included."""
 SAMPLES = 24
 MOST_LARGE = 4
-"""Most steps with a large Gröbner basis."""
 PARTS = 12
 """Samples are multiples of a range, or of 1, divided by this."""
 
 
 def without_complex(ideal: Ideal) -> Ideal:
-    """An ideal with the same real zeros, without complex zeros of polynomials with constant sign.
-    Raises NotDecided if the time limit has passed.
-    """
+    """With the same real zeros, without complex zeros of polynomials with constant sign."""
     zeros: list[fmpq_mpoly] = []
     for p in ideal.without_unit:
         if len(p) <= MOST_TERMS:
@@ -59,9 +55,7 @@ def without_complex(ideal: Ideal) -> Ideal:
 
 
 def _real_zeros(p: fmpq_mpoly, ring: Parameters) -> list[fmpq_mpoly]:
-    """Polynomials that vanish at the real zeros of p, if p has factors with constant sign: their
-    real zeros are those of their derivatives.
-    """
+    """Polynomials with the real zeros of p: derivatives of its factors with constant sign."""
     zeros_of_factors = []
     is_new = False
     for factor in factors([p]):
@@ -82,17 +76,8 @@ def _real_zeros(p: fmpq_mpoly, ring: Parameters) -> list[fmpq_mpoly]:
 
 
 def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) -> bool | None:
-    """Whether some real zero of an ideal is a method of a family; None if undecided.
-
-    Args:
-        family: of the methods.
-        ideal: in its ring; without a proof that it has all solutions, the answer False is not
-            proved either.
-        real: an ideal with its real zeros, without UNIT.
-        is_method: whether a real zero is a method; False if its stability is undecided.
-
-    Raises:
-        NotDecided: the time limit has passed.
+    """Whether some real zero of an ideal is a method of a family; None if undecided. ``real`` is an
+    ideal with its real zeros, without UNIT. ``is_method`` is False too if stability is undecided.
     """
     search = _MethodSearch(family, ideal, real, is_method)
     if search.finds_one():
@@ -111,11 +96,7 @@ def has_point(family: Family, part: Part, is_method: IsMethod) -> bool:
 
 
 class _MethodSearch:
-    """A search for methods among the real zeros of an ideal.
-
-    Attributes:
-        is_complete: whether all of them were examined.
-    """
+    """Searches the real zeros of an ideal; ``is_complete`` if all of them were examined."""
 
     def __init__(
         self, family: Family, ideal: Ideal | Part, real: Ideal, is_method: IsMethod
@@ -143,7 +124,6 @@ class _MethodSearch:
         return any(map(self.has_method, self._in_plane()))
 
     def has_sample(self) -> bool:
-        """Whether a method is found at rational values of some unknowns."""
         return any(map(self.has_method, self._slices()))
 
     def has_method(self, ideal: Ideal) -> bool:
@@ -161,7 +141,7 @@ class _MethodSearch:
         )
 
     def _slices(self) -> Iterator[Ideal]:
-        """The ideal with rational values for as many unknowns as its dimension."""
+        """With rational values for as many unknowns as the dimension."""
         chosen = self.real.independent
         if chosen is None:
             return

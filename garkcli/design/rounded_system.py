@@ -1,6 +1,4 @@
-"""Systems of polynomials with coefficients that are rounded, or known to many bits: numbers below a
-given size count as zero.
-"""
+"""Systems of polynomials with rounded coefficients: numbers below a given size count as zero."""
 
 from __future__ import annotations
 
@@ -18,13 +16,9 @@ LARGE = 1e6
 
 
 class Solved(Frozen, eq=False):
-    """The end of Newton's method.
-
-    Attributes:
-        point: balls without radius.
-        left: the largest residual of the conditions that are dependent on the others.
-        pivots: rows with the unknowns that they determine.
-        rows: the derivatives in reduced form, each unknown of ``pivots`` in one row only.
+    """The end of Newton's method, at a point of balls without radius. ``left`` is the largest
+    residual of conditions dependent on the others. ``pivots`` are rows with the unknowns that they
+    determine, each of which is in one of the reduced ``rows`` only.
     """
 
     point: tuple[arb, ...]
@@ -38,19 +32,12 @@ class Solved(Frozen, eq=False):
         return [k for k in range(len(self.point)) if k not in bound]
 
     def slopes(self, column: int) -> dict[int, arb]:
-        """The derivatives of a determined unknown in the free ones."""
         row = next(i for i, k in self.pivots if k == column)
         return {k: -self.rows[row][k] for k in self.free}
 
 
 class RoundedSystem:
-    """Equations p(x) = 0, with polynomials p.
-
-    Args:
-        polynomials: none of them zero; scaled so that no coefficient exceeds 1.
-        unknowns: their number.
-        bits: the precision.
-    """
+    """Equations p(x) = 0, with polynomials p ≠ 0 scaled so that no coefficient exceeds 1."""
 
     def __init__(self, polynomials: Sequence[fmpq_mpoly], unknowns: int, bits: int) -> None:
         self.unknowns = unknowns
@@ -64,17 +51,12 @@ class RoundedSystem:
         return all(f.degree <= 1 for f in self._values)
 
     def values(self, x: Sequence[arb]) -> list[arb]:
-        """The scaled polynomials at a point."""
         with ctx.workprec(self.bits):
             return [f.at(x) for f in self._values]
 
     def solve(self, start: Sequence[arb], zero: arb) -> Solved | None:
-        """Newton's method from a point; undetermined unknowns keep their values. None if it
-        diverges.
-
-        Args:
-            start: balls.
-            zero: what counts as zero of derivatives.
+        """Newton's method; undetermined unknowns keep their values. None if it diverges.
+        Derivatives below ``zero`` count as zero.
         """
         with ctx.workprec(self.bits):
             x = [a.mid() for a in start]
@@ -126,8 +108,6 @@ def eliminate(rows: list[list[arb]], columns: int, zero: arb) -> list[tuple[int,
 
 
 class _Function:
-    """A polynomial evaluated at balls."""
-
     def __init__(self, polynomial: fmpq_mpoly, bits: int) -> None:
         with ctx.workprec(bits):
             self.terms = [

@@ -28,13 +28,8 @@ from garkcli.frozen import Frozen
 
 class Solution(Frozen):
     """Solutions that are conjugate over ℚ, one for each root of an irreducible polynomial.
-
-    Attributes:
-        modulus: the minimal polynomial of u, monic.
-        field: ℚ[u]/modulus; None if the solution is rational.
-        values: each unknown as an element of it.
-        multiplicity: the multiplicity of each in the ideal.
-        real: the real roots in ascending order.
+    ``modulus`` is the minimal polynomial of u, monic; ``field`` is ℚ[u]/modulus, None for ℚ;
+    ``real`` has the real roots in ascending order. Each has ``multiplicity`` in the ideal.
     """
 
     modulus: fmpq_poly
@@ -45,7 +40,6 @@ class Solution(Frozen):
 
     @property
     def degree(self) -> int:
-        """The number of solutions, complex ones included."""
         return int(self.modulus.degree())
 
     @cached_property
@@ -67,9 +61,7 @@ def value_at(value: Number, root: RealRoot) -> RealRoot:
 
 
 def solutions(ideal: Ideal) -> list[Solution]:
-    """All solutions of an ideal of dimension 0, those with real roots first. Raises NotDecided if
-    the time limit has passed.
-    """
+    """The solutions of an ideal of dimension 0, those with real roots first."""
     algebra = _Algebra(ideal.closure)
     distinct = algebra.trace_form.rank()
     for c in count():
@@ -121,7 +113,7 @@ class _Algebra:
         return total
 
     def solutions(self, u: fmpq_mat, characteristic: fmpq_poly, f: fmpq_poly) -> Iterator[Solution]:
-        """The solutions, one for each factor of f."""
+        # one for each factor of f
         n = f.degree()
         horner = [fmpq_poly([f[n - k] for k in range(j, -1, -1)]) for j in range(n)]
         powers = [self.one]

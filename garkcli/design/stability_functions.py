@@ -21,15 +21,10 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 Coefficients = tuple[Any, ...]
-"""The coefficients of 1, z, z², …, rational functions of the parameters."""
 
 
 class FamilyFunction(Frozen):
-    """R = P/Q in lowest terms, with Q(0) = 1.
-
-    Attributes:
-        name: ``all``, or the name of the one colour with λ ≠ 0.
-    """
+    """R = P/Q in lowest terms, Q(0) = 1, of ``all`` colours, or of the one named with λ ≠ 0."""
 
     name: str
     numerator: Coefficients
@@ -54,9 +49,7 @@ class FamilyFunction(Frozen):
 
 
 def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction, ...]:
-    """R for all colours together, then for each colour alone if there are several. Empty if colours
-    drive positions or momenta only, or are not coupled.
-    """
+    """R for all colours together, then for each alone; empty if it does not apply."""
     return tuple(function_of(tableau, ring, *direction) for direction in directions(tableau))
 
 

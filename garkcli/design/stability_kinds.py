@@ -1,5 +1,4 @@
-"""Kinds of stability of a family in one or two parameters: what decides, and decisions for one
-value of a single parameter t.
+"""Kinds of stability of a family in one or two parameters, and decisions for one value t.
 
 A-stability depends on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on the roots of Q, I-stability
 on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t; of
@@ -55,8 +54,6 @@ MOST_CONSTANT = 16
 
 
 class Members(Frozen):
-    """The methods of a family in one or two parameters."""
-
     family: Family
     whose: Whose
 
@@ -66,12 +63,7 @@ class Members(Frozen):
         return None
 
     def known(self, t: Point, is_closed: bool) -> bool | None:  # noqa: ARG002 -- slices know some
-        """Whether a value is stable, if known without a computation.
-
-        Args:
-            t: the value.
-            is_closed: whether limits of stable methods are stable.
-        """
+        """None without a computation; ``is_closed``: limits of stable methods are stable."""
         return None
 
     @cached_property
@@ -80,9 +72,7 @@ class Members(Frozen):
         return self._numbers({}, MOST_CONSTANT) if self.family.radicals else {}
 
     def at(self, t: Point) -> Tableau | None:
-        """The method at a value; None if a weight or a denominator is zero. Raises NotDecided if
-        its field is too large.
-        """
+        """None if a weight or denominator is zero; NotDecided if the field is too large."""
         rational = t.exact if isinstance(t, RealRoot) else t
         [name] = self.family.parameters
         if rational is None:
@@ -127,9 +117,7 @@ class Members(Frozen):
             yield from ((x, root) for x in solutions(ideal) for root in x.real)
 
     def flat(self, tableau: Tableau) -> Flat:
-        """The methods in the parameters, or others made of them. Raises NotDecided if the field of
-        the roots among the coefficients is too large.
-        """
+        """Raises NotDecided if the field of the roots among the coefficients is too large."""
         if self.constants is None:
             raise NotDecided
         return Flat(tableau, self.family.ring, self.constants)
@@ -140,12 +128,8 @@ class Members(Frozen):
     def over(
         self, t: Point, critical: tuple[Polynomial, ...] | None, limits: tuple[Interval, ...] | None
     ) -> Slice:
-        """The methods in two parameters at one value of the first.
-
-        Args:
-            t: the value; an irrational one is one more root among the coefficients.
-            critical: as in ``Slice``.
-            limits: as in ``Slice``.
+        """The methods in two parameters at one value of the first. An irrational value is one more
+        root among the coefficients.
         """
         family = self.family
         first, second = family.parameters
@@ -164,11 +148,9 @@ class Members(Frozen):
 class Slice(Members):
     """The methods of a family in two parameters at one value of the first.
 
-    Attributes:
-        critical: polynomials that vanish where curves meet the line; None if a curve contains it.
-        limits: values whose methods are limits of stable ones. Where at most one curve meets the
-            line, and crosses it once, nothing changes along the curve: there these are all stable
-            values.
+    ``critical`` polynomials vanish where curves meet the line; None if a curve contains it. Methods
+    at ``limits`` are limits of stable ones. Where at most one curve meets the line, and crosses it
+    once, nothing changes along the curve: there these are all stable values.
     """
 
     critical: tuple[Polynomial, ...] | None
@@ -186,12 +168,10 @@ class Slice(Members):
 
 
 class StabilityKind(ABC):
-    """A kind of stability of a family: the set of stable x ≥ 0 of each method, which should be
-    everything, and perhaps a condition besides, such as R(∞) = 0.
+    """A method is stable at every x ≥ 0, and perhaps meets another condition, as R(∞) = 0.
 
     Attributes:
-        signs: polynomials in x and the parameters: if one is negative the method is not stable at
-            x.
+        signs: polynomials in x and the parameters: if one is negative the method is unstable at x.
         narrowing: polynomials in the parameters whose zeros decide the condition besides.
         greatest: the bound on x; None if there is none.
         is_closed: whether limits of stable methods are stable.
@@ -227,9 +207,7 @@ class StabilityKind(ABC):
         return all(sign_of(self.step.in_t(p), t) == 0 for p in self.narrowing)
 
     def decide(self, t: Point) -> bool:
-        """Whether the method at a value has it; False if there is no method. Raises NotDecided if
-        the field of the method is too large.
-        """
+        """False if there is no method; NotDecided if its field is too large."""
         tableau = self.members.at(t)
         return tableau is not None and self.holds(tableau)
 
@@ -250,9 +228,7 @@ class StabilityKind(ABC):
 
 
 def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
-    """The linear problem of a kind of stability: y ↦ L^m y for each colour. Raises UsageProblem if
-    the stability is not applicable.
-    """
+    """The linear problem of a stability, y ↦ L^m y for each colour; or UsageProblem."""
     if wanted in OSCILLATING:
         problem = Oscillator.default(terms_of(tableau), fmpq(1))
         check_structure(tableau, problem)
@@ -326,11 +302,8 @@ class AStability(StabilityKind):
 
 
 class Oscillating(StabilityKind):
-    """All powers of the step matrix on an oscillator are bounded; of P-stability det M = 1 besides.
-
-    Attributes:
-        poles: the denominator of the step, in x and the parameters.
-        others: further polynomials whose zeros count.
+    """All powers of the step on an oscillator are bounded; of P-stability det M = 1 besides.
+    ``poles`` is the denominator of the step; zeros of ``others`` count too.
     """
 
     poles: fmpq_mpoly
@@ -338,7 +311,6 @@ class Oscillating(StabilityKind):
 
     @property
     def ends(self) -> list[fmpq]:
-        """The ends of the x."""
         return [x for x in (ZERO, self.greatest) if x is not None]
 
     @property
@@ -355,8 +327,6 @@ class Oscillating(StabilityKind):
 
 
 class IStability(Oscillating):
-    """I- and P-stability for every step size on the oscillator."""
-
     def __init__(self, members: Members, tableau: Tableau, is_conservative: bool = False) -> None:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
@@ -373,11 +343,9 @@ class IStability(Oscillating):
 
 
 def oscillator_curves(step: FamilyStep) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
-    """The curves that decide on the oscillator, in x = z² and t.
-
-    Returns:
-        conditions on the eigenvalues, not negative if these are bounded; and the denominator, the
-            trace, the determinant and the off-diagonal entries, whose zeros count.
+    """The curves that decide on the oscillator, in x = z² and t. First conditions on the
+    eigenvalues, not negative if these are bounded; then D, the trace, the determinant and the
+    off-diagonal entries, whose zeros count.
     """
     D = step.denominator
     (a, b), (c, d) = step.numerators
@@ -427,12 +395,7 @@ def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
 
 
 class TwoSprings(Frozen):
-    """A slow and a fast spring.
-
-    Attributes:
-        fast: the term of the fast spring, counted from 0.
-        greatest: the bound on x = (hω_f)²; None if there is none.
-    """
+    """A slow and a fast spring, by its term; ``greatest`` bounds x = (hω_f)² unless None."""
 
     slow: fmpq
     fast: int
@@ -440,8 +403,8 @@ class TwoSprings(Frozen):
 
 
 class SpringStability(Oscillating):
-    """I- and P-stability on a slow and a fast spring for all fast frequencies: at one slow
-    frequency the step is a function of x = (hω_f)² and the parameters.
+    """I- and P-stability on two springs for all fast frequencies, at one slow one. The step is a
+    function of x = (hω_f)² and the parameters.
     """
 
     def __init__(

@@ -62,16 +62,12 @@ VALUES = [
     fmpq(*x) for x in ((1, 2), (1, 3), (3, 4), (1, 4), (2, 3), (1, 1), (3, 5), (6, 5), (0, 1))
 ]
 MOST_POINTS = 300
-"""Most points of a part tried for a method."""
 
 
 class StablePart(Frozen):
-    """The stable methods of a part.
-
-    Attributes:
-        part: the part with the sets of its coordinates.
-        kinds: for each kind of stability its values of the coordinate on which it depends.
-        attained: for each kind all values of this coordinate in the part.
+    """The stable methods of a part, with sets of its coordinates. For each kind of stability
+    ``kinds`` has stable values of the coordinate on which it depends, ``attained`` all of its
+    values in the part.
     """
 
     part: Part
@@ -98,12 +94,8 @@ class StablePart(Frozen):
 
 
 def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
-    """The stable methods of a part.
-
-    Raises:
-        NotDecided: the step depends on several coordinates, or on one that is not free; or the time
-            limit has passed.
-        UsageProblem: a kind of stability is not applicable.
+    """The stable methods of a part; raises UsageProblem for a stability that is not applicable.
+    Raises NotDecided if the step depends on several coordinates, or on one that is not free.
     """
     if family.radicals:
         raise NotDecided
@@ -149,8 +141,6 @@ def _told_of(values: StableValues, wanted: RequiredStability) -> StableValues:
 
 
 class _PartLine:
-    """A part along the coordinate on which a step depends."""
-
     def __init__(self, family: Family, whose: Whose, part: Part, wanted: RequiredStability) -> None:
         self.family, self.whose, self.part, self.wanted = family, whose, part, wanted
         values: Any = part.values
@@ -170,7 +160,7 @@ class _PartLine:
     def _is_enough(
         self, name: str, D: fmpq_mpoly, numerators: Sequence[fmpq_mpoly], root: fmpq_mpoly | None
     ) -> bool:
-        """Whether N/D depends on one coordinate x alone, on the zeros of ``root`` if given: N(x, y)
+        """Whether N/D depends on one coordinate x alone, on the zeros of ``root`` if given. N(x, y)
         D(x, y') = N(x, y') D(x, y) for some numbers y' in place of the others.
         """
         check_time()
@@ -272,20 +262,14 @@ def point_of(x: RealRoot) -> Interval:
 
 
 class PartMembers(Members):
-    """The methods of a part on a line along one coordinate, or on another line if that has none.
-
-    Attributes:
-        part: the part.
-    """
+    """A part on a line along one coordinate, or on another line if that has no method."""
 
     part: Part
     name: str
     tableau: Tableau
 
     def at(self, t: Point) -> Tableau | None:
-        """A method with a value of the coordinate; None if there is none. Raises NotDecided if no
-        tried point gives one, or its field is too large.
-        """
+        """None if there is no method; NotDecided if no tried point gives one, or a large field."""
         value = number_of(t, MOST_DEGREE) if isinstance(t, RealRoot) else t
         if value is None:
             raise NotDecided
@@ -302,7 +286,6 @@ class PartMembers(Members):
 
     @property
     def in_coordinate(self) -> Family:
-        """The family of the one coordinate."""
         ring = Parameters([self.name])
         for others in points(len(self.part.ring.names) - 1):
             with suppress(ZeroDivisionError, ZeroWeight):
@@ -332,13 +315,13 @@ class PartMembers(Members):
 
     @property
     def poles(self) -> tuple[Polynomial, ...]:
-        """A polynomial in the coordinate that vanishes if no line has a method there."""
+        """It vanishes if no line has a method there."""
         common = common_denominator(self.tableau.entries, self.part.ring)
         return (content_in(common, self.part.ring, self.name),)
 
 
 def content_in(p: fmpq_mpoly, ring: Parameters, name: str) -> Polynomial:
-    """The greatest common divisor of the coefficients of a polynomial in the other unknowns: at its
+    """The greatest common divisor of the coefficients of a polynomial in the other unknowns. At its
     zeros in one unknown the polynomial vanishes for all values of the others.
     """
     place = ring.names.index(name)
@@ -358,9 +341,7 @@ def points(size: int) -> Iterator[tuple[fmpq, ...]]:
 
 
 def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solution, RealRoot]]:
-    """Stable methods of a part whose coordinates are free or have finitely many values, the free
-    ones being short rational numbers; all of them if they are finitely many.
-    """
+    """Stable methods of a part, at short rational numbers if coordinates are free."""
     if not part.dimension:
         for solution_of_all in map(part.extended, points_of(part)):
             for root in solution_of_all.real:
@@ -393,8 +374,8 @@ def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> boo
 
 
 def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
-    """The stable values of one unknown, within its range, of all parts together, for each kind;
-    empty if parts depend on different unknowns, or if a single point and another part with the same
+    """The stable values of one unknown within its range, of all parts together, for each kind.
+    Empty if parts depend on different unknowns, or if a single point and another part with the same
     value differ in stability.
     """
     together = []
@@ -449,13 +430,9 @@ def has_stable_method(family: Family, whose: Whose, parts: Sequence[StablePart])
 
 
 def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValues, ...]]:
-    """The stable values of the free coordinates of a part, for each wanted kind of stability, at
-    all admissible values of the others.
-
-    Raises:
-        NotDecided: the others have infinitely many values, the step depends on more than two free
-            coordinates, or the time limit has passed.
-        UsageProblem: a kind of stability is not applicable.
+    """The stable values of free coordinates for each wanted stability, at all values of the others.
+    Raises NotDecided if the others have infinitely many values, or the step depends on more than
+    two free coordinates; UsageProblem for a stability that is not applicable.
     """
     found = charts(part)
     if not found:
@@ -473,9 +450,7 @@ def on_charts(family: Family, whose: Whose, part: Part) -> list[tuple[StableValu
 
 
 def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
-    """Whether the roots among the coefficients are those that the file means. Raises NotDecided if
-    one depends on free coordinates.
-    """
+    """Whether radicals are those that are meant; NotDecided if one depends on free coordinates."""
     places = [part.ring.names.index(x) for x in chart.names]
     fixed = {**chart.one.values, **dict.fromkeys(chart.names, fmpq(0))}
     for radical in family.radicals:
@@ -492,7 +467,7 @@ def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
 def _on_chart(
     family: Family, whose: Whose, part: Part, chart: RationalChart, wanted: RequiredStability
 ) -> StableValues | None:
-    """The stable values of the free coordinates of a chart; None if none is admissible."""
+    """None if no value is admissible."""
     known = tuple(chart.one.values) if len(chart.one.values) < 2 else (UNIT,)
     ring, root = Parameters([*chart.names, *known]), chart.root
     one = ring.constant(fmpq(1))
@@ -530,7 +505,6 @@ def _on_chart(
 
 
 def has_values_of_all(kinds: Sequence[StableValues]) -> bool | None:
-    """Whether some method has all kinds of stability; None if undecided."""
     verdicts = [x.has_values for x in kinds]
     if False in verdicts:
         return False

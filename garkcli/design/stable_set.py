@@ -17,10 +17,8 @@ A critical t of the line is decided on its own:
 * otherwise by the engine for one method over ℚ(t), with the roots among the coefficients.
 
 Over a critical t of the plane the line is one over ℚ(t), cut where curves meet it; it knows the
-limits from both sides.
-
-An I-stable value is P-stable if all coefficients of 1 − det M in x vanish, an A-stable one L-stable
-if R(∞) = 0. Both often hold at isolated points, which no sampling finds.
+limits from both sides. An I-stable value is P-stable if all coefficients of 1 − det M in x vanish,
+an A-stable one L-stable if R(∞) = 0. Both often hold at isolated points, which no sampling finds.
 """
 
 from __future__ import annotations
@@ -49,7 +47,6 @@ from garkcli.tableau.tableau import Tableau
 NEAR = 32
 """Bits of a rational number beside an irrational one."""
 BEYOND = ("free-parameters", "no-radicals")
-"""Codes of the problems that a family has too many parameters, or roots of them."""
 
 
 def stable_set(
@@ -62,21 +59,12 @@ def stable_set(
 ) -> StableValues:
     """The stable values of the free parameters that satisfy the other wants of the file.
 
-    Args:
-        family: of methods whose step depends on at most two parameters, or linear forms of them,
-            and on numbers.
-        wanted: P- or I-stability on the oscillator with the usual splitting, A- or L-stability with
-            all vector fields equal.
-        whose: of the method, its symplectic conjugate, or its symplectic pair.
-        two_springs: the springs for P- or I-stability; None for the oscillator.
-        colour: A- or L-stability of this colour only, counted from 0.
-        members: its methods; None for those of the family.
+    P- or I-stability is on the oscillator with the usual splitting, or on ``two_springs``, A- or
+    L-stability with all vector fields equal, or one ``colour``. The step depends on at most two
+    parameters, or linear forms of them. ``members`` may be other methods than those of the family.
 
-    Raises:
-        UsageProblem: the stability is not applicable, there are more parameters, or roots of a
-            parameter among the coefficients.
-        ZeroWeight: a weight is zero for every value, so there is no conjugate.
-        NotDecided: the time limit has passed, or a set over an open strip is undecided.
+    Raises UsageProblem if the stability is not applicable, there are more parameters, or roots of
+    one; ZeroWeight if a weight is always zero; NotDecided too if a set over an open strip is open.
     """
     smaller, forms = (
         (family, ()) if members else _fewest(family, wanted, whose, two_springs, colour)
@@ -113,7 +101,6 @@ def _fewest(
     two_springs: stability_kinds.TwoSprings | None,
     colour: int | None,
 ) -> tuple[Family, Sequence[LinearForm]]:
-    """A family with the fewest parameters, as linear forms of the others."""
     tableau = TABLEAUS[whose](family.tableau)
     is_open = all(x == (None, None) for x in family.ranges.values())
     is_without = common_denominator(tableau.entries, family.ring).is_constant()
@@ -125,7 +112,6 @@ def _fewest(
 
 
 def too_many(family: Family) -> UsageProblem:
-    """The error that the set is found for at most two parameters."""
     *_, last = family.parameters
     return UsageProblem(
         f"there are {len(family.parameters)} free parameters, and the set of two is found",
@@ -135,7 +121,6 @@ def too_many(family: Family) -> UsageProblem:
 
 
 def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
-    """The error that the set is not found with roots among the coefficients."""
     message = f"there are roots among the coefficients, beside {family.parameters[0]}"
     cure = "write the method as a family by name, whose nodes are not needed"
     if wanted in OSCILLATING and whose == "pair":
@@ -146,7 +131,6 @@ def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
 def _refuse_radicals(
     members: stability_kinds.Members, wanted: Wanted, two_springs: stability_kinds.TwoSprings | None
 ) -> None:
-    """Raises for a family with roots of its parameter, or of large degrees."""
     family = members.family
     places = map(family.ring.names.index, family.parameters)
     is_number = not any(x.relation.degrees()[k] for k in places for x in family.radicals)
@@ -156,7 +140,7 @@ def _refuse_radicals(
 
 
 def _wishes(family: Family) -> Iterator[tuple[fmpq_mpoly, frozenset[int]]]:
-    """Polynomials in the parameters, each with the signs that the file wants it to have."""
+    """Polynomials with the signs that the file wants."""
     for polynomials, signs in (
         (family.relations, {0}),
         (family.nonzero, {-1, 1}),
@@ -175,8 +159,6 @@ def _is_within(t: Point, ends: tuple[fmpq | None, fmpq | None]) -> bool:
 
 
 class _OnLine:
-    """The set in one parameter for one kind of stability."""
-
     def __init__(self, kind: stability_kinds.StabilityKind, family: Family) -> None:
         self.kind, self.members, in_t = kind, kind.members, kind.step.in_t
         [self.range] = family.ranges.values()
@@ -250,7 +232,6 @@ class _OnLine:
         return any(sign_of(p, t) < 0 for p in chain.from_iterable(self._conditions.values()))
 
     def _known(self, t: Point) -> bool | None:
-        """Whether a value is stable, if what is known already says it."""
         if not self._is_method(t):
             return False
         known = self.members.known(t, self.kind.is_closed)
@@ -272,8 +253,6 @@ _Parts = tuple[StripPart, ...]
 
 
 class _InPlane:
-    """The set in two parameters for one kind of stability."""
-
     def __init__(
         self,
         kind: stability_kinds.StabilityKind,
@@ -307,9 +286,7 @@ class _InPlane:
         return self.on_line(self.members.over(t, critical, limits))
 
     def _parts(self, t: fmpq) -> _Parts:
-        """The stable parts of an open strip, from one t inside. Raises NotDecided if some values
-        are undecided.
-        """
+        """The stable parts of an open strip, from one t inside; or NotDecided."""
         check_time()
         if not _is_within(t, self.range):
             return ()

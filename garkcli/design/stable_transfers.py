@@ -31,18 +31,11 @@ HALF = fmpq(1, 2)
 
 
 def stable_zeros(criterion: PairConditions, ideal: Ideal, order: int) -> list[fmpq_mpoly]:
-    """Polynomials whose common real zeros are the values with a P-stable pair: none if all are
-    P-stable, a constant if none is.
+    """Polynomials whose common real zeros are the values with a P-stable pair of an order.
 
-    Args:
-        criterion: of a family that is wanted P-stable; its weights are positive.
-        ideal: of the values whose pair has the order.
-        order: of the pair.
-
-    Raises:
-        NotDecided: other stability is wanted, or the step may not see some of four stages, or the
-            time limit has passed.
-        UsageProblem: P-stability is not applicable.
+    None if all are P-stable, a constant if none is. Weights are positive; ``ideal`` has the
+    values whose pair has the order. Raises NotDecided if other stability is wanted, or the step
+    may not see some of four stages; UsageProblem if P-stability is not applicable.
     """
     family = criterion.family
     solved = criterion.solved(ideal)
@@ -67,11 +60,8 @@ def stable_zeros(criterion: PairConditions, ideal: Ideal, order: int) -> list[fm
 
 
 class Operator(Frozen):
-    """A linear map between two stage spaces.
-
-    Attributes:
-        matrix: T, shape (s_2, s_1).
-        left, right: the weights of the inner products of its codomain and its domain.
+    """A linear map T between stage spaces, of shape (s_2, s_1), with weights of inner products.
+    ``left`` are those of the codomain, ``right`` of the domain.
     """
 
     matrix: matrices.Matrix
@@ -105,9 +95,8 @@ class Operator(Frozen):
         return matrices.multiply(self.matrix, self.adjoint.matrix)
 
     def doubled(self, degree: int) -> Iterable[Number]:
-        """Numbers that vanish exactly if at most ``degree`` distinct singular values are nonzero,
-        each of them double: the entries of a(T T*) T for the monic a of that degree with half the
-        power sums of T T*.
+        """Numbers that vanish exactly if at most ``degree`` singular values are not 0, all double.
+        They are entries of a(T T*) T for the monic a of that degree with half its power sums.
         """
         T = self if len(self.left) < len(self.right) else self.adjoint
         K, result = T.square, T.matrix
@@ -144,8 +133,8 @@ def operator_of(tableau: Tableau) -> Operator:
 
 
 def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
-    """Equations for double singular values when the step may not see all of them, at most three:
-    zero for parameters, α and β if α is double for S and β for R, as far as the step sees them.
+    """Equations for double singular values, at most three, that the step may not see. They hold for
+    parameters, α and β if α is double for S and β for R, as far as the step sees.
     """
     larger = Parameters(["_alpha", "_beta", *ring.names])
     alpha, beta, *gens = larger.context.gens()

@@ -1,5 +1,7 @@
-"""The values of one or two parameters for which a family is stable: intervals of the first, and
-over each of them, if there is a second, its values, whose ends are functions of the first.
+"""The values of one or two parameters for which a family is stable.
+
+They are intervals of the first, and over each of them, if there is a second, its values, whose ends
+are functions of the first.
 """
 
 from __future__ import annotations
@@ -26,14 +28,7 @@ Wanted: TypeAlias = Literal["p-stable", "i-stable", "a-stable", "l-stable"]
 
 
 class Branch(Frozen, eq=False):
-    """A branch of a curve p(y, t) = 0 as a function of t: one of its roots in y, numbered from
-    below.
-
-    Attributes:
-        curve: p.
-        number: of the root, from 0.
-        count: the number of real roots.
-    """
+    """A branch of p(y, t) = 0 as a function of t: root ``number`` of ``count`` in y, from below."""
 
     curve: fmpq_mpoly
     number: int
@@ -49,7 +44,6 @@ class Branch(Frozen, eq=False):
     __hash__ = None  # type: ignore[assignment]
 
     def formula(self) -> tuple[Polynomial, Polynomial] | None:
-        """Numerator and denominator if the branch is a rational function of t."""
         if self.curve.degrees()[0] > 1:
             return None
         return -projection.in_t(projection.coefficient_of(self.curve, 0)), projection.in_t(
@@ -57,9 +51,7 @@ class Branch(Frozen, eq=False):
         )
 
     def at(self, t: RealRoot) -> RealRoot | None:
-        """The value at a number or at an end of the strip, as a limit; None if roots meet or escape
-        to infinity there.
-        """
+        """As a limit at an end of the strip; None if roots meet or escape to infinity there."""
         degree = self.curve.degrees()[0]
         critical = [
             projection.leading(self.curve),
@@ -86,7 +78,7 @@ class Branch(Frozen, eq=False):
 
 
 def _value(x: Any, at: list[arb]) -> arb:
-    """The value in balls of a polynomial, or of the numerator of a number."""
+    # of a polynomial, or of the numerator of a number
     if isinstance(x, fmpq):
         return arb(x)
     return arb(evaluated(x if isinstance(x, fmpq_mpoly) else x.numerator, at))
@@ -97,12 +89,7 @@ End: TypeAlias = "Branch | RealRoot | None"
 
 
 class StripPart(Frozen):
-    """An interval of y over a strip.
-
-    Attributes:
-        start, end: its ends.
-        has_start, has_end: whether the ends belong to it.
-    """
+    """An interval of y over a strip."""
 
     start: End
     end: End
@@ -120,11 +107,7 @@ class StripPart(Frozen):
 
 
 class Strip(Interval):
-    """An interval of the first parameter, and the values of the second over it.
-
-    Attributes:
-        parts: the values of the second, from below.
-    """
+    """An interval of the first parameter, and the values of the second over it, from below."""
 
     parts: tuple[StripPart, ...] = ()
 
@@ -204,6 +187,5 @@ class StableValues(Shown, Frozen):
 
 
 def has_wishes(family: Family) -> bool:
-    """Whether a file has wants of the parameters besides stability."""
     wanted = (*family.relations, *family.nonzero, *family.positive, *family.not_negative)
     return any(p.total_degree() != 0 for p in wanted)

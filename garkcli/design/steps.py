@@ -25,15 +25,13 @@ class Found(Frozen):
 
     Attributes:
         solution: the values of the parameters, with their conjugates over ℚ.
-        order: the exact order of its method; None if a weight or denominator is zero, so that there
-            is no method.
+        order: the exact order; None if a zero weight or denominator leaves no method.
         accepted: indices of real roots within the ranges of the file and with the wanted stability.
         unstable: indices of roots that lack only the stability.
         open: indices of those whose stability is undecided, as their field is too large.
-        embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
-            None if it has none.
-        dense: the order of the dense output; None if it has none.
-        predictor: the orders of the predictor; None if it has none.
+        embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order.
+        dense: the order of the dense output.
+        predictor: the orders of the predictor.
     """
 
     solution: Solution
@@ -47,11 +45,8 @@ class Found(Frozen):
 
 
 class Zeros(Frozen):
-    """The zeros of an ideal.
-
-    Attributes:
-        ideal: the ideal.
-        polynomials: vanish there; together with those that the report has already, nowhere else.
+    """The zeros of an ideal. ``polynomials`` vanish there; together with those that the report has
+    already, nowhere else.
     """
 
     ideal: Ideal
@@ -66,8 +61,7 @@ class Knowledge(Frozen):
         within: zeros that contain all real values, if those satisfy further equations.
         found: the real ones, if finitely many.
         stable: for each wanted kind of stability the values of the one unknown on which it depends.
-        of_stable: if P-stability of all transfers of a pair is decided, zeros whose real ones are
-            the stable methods, by the equations that these satisfy besides.
+        of_stable: zeros whose real ones are the P-stable transfers of a pair, if decided.
     """
 
     is_real: bool | None = None
@@ -82,9 +76,8 @@ class Step(Frozen):
 
     Attributes:
         order: the order.
-        ideal: the ideal of its conditions and of all lower ones, or its zeros in parts if its basis
-            is large; None if neither was found. An unproved one is by msolve: each zero has the
-            order, but there may be others.
+        ideal: the ideal of its conditions and all lower ones, or its zeros in parts; None if
+            neither was found. Unproved ones are by msolve: others may have the order too.
         kind: the kind of the answer.
     """
 
@@ -113,9 +106,7 @@ class Step(Frozen):
 
     @property
     def is_all(self) -> bool:
-        """Whether it is proved that no other values have the order, complex ones included unless a
-        criterion for real ones was used.
-        """
+        """Whether provably no others have the order; by a criterion for reals, no other reals."""
         return self.ideal is not None and self.ideal.is_proved
 
     def __repr__(self) -> str:
@@ -150,8 +141,7 @@ class NoValue(Decided):
     """No value has the order.
 
     Attributes:
-        witness: the first tree whose condition contradicts those before it; None if the other wants
-            already have no solution.
+        witness: the first tree whose condition contradicts those before it; None if other wants do.
     """
 
     kind = "none"

@@ -21,14 +21,11 @@ Kind: TypeAlias = Literal["flag", "count", "number", "smoothness"]
 
 
 class Asked(Frozen):
-    """A family and a want of it.
+    """A family of rational functions and a want of it.
 
     Attributes:
-        tableau: entries are rational numbers and rational functions of the parameters.
-        ring: the parameters.
         value: a count, a smoothness, or a number, which may have parameters; True for a flag.
         colours: the colours with the want, counted from 0.
-        further: the embedded weights, dense output and predictor.
     """
 
     tableau: Tableau
@@ -39,7 +36,6 @@ class Asked(Frozen):
     radicals: tuple[Radical, ...] = ()
 
     def block(self, l: int, m: int, key: str) -> Matrix:
-        """A^{l,m}. Raises MethodError if the block is empty."""
         block = self.tableau.block(l, m)
         if block is None:
             message = f"design: {key} is for tableaus without empty blocks"
@@ -48,9 +44,7 @@ class Asked(Frozen):
         return block
 
     def diagonal(self, colour: int, key: str) -> tuple[Matrix, Vector]:
-        """A^{l,l} and b^l of a colour. Raises MethodError if the block is empty, or not given stage
-        by stage.
-        """
+        """A^{l,l} and b^l; MethodError if the block is empty, or not given stage by stage."""
         own = self.tableau.colours[colour]
         block = self.tableau.blocks.get((own.space, colour))
         space = self.tableau.spaces[own.space]
@@ -67,8 +61,7 @@ class WantConditions(Frozen):
     Attributes:
         zeros: rational functions that vanish.
         nonzero: polynomials that do not vanish.
-        positive: rational functions that are positive at accepted solutions.
-        not_negative: rational functions that are at least 0 there.
+        positive, not_negative: rational functions with these signs at accepted solutions.
         stable: the kinds of stability of the accepted solutions.
         claims: keys of claims that the methods satisfy, with their values.
         unsettled: keys of wants whose conditions were not known in time.
@@ -90,12 +83,7 @@ class WantConditions(Frozen):
 
 
 class Want(Frozen):
-    """A property that files may want.
-
-    Attributes:
-        kind: the form of its value.
-        meaning: makes the conditions; raises ``NotDecided`` if the time limit has passed.
-    """
+    """A property that files may want; ``meaning`` makes the conditions."""
 
     key: str
     kind: Kind
@@ -104,7 +92,6 @@ class Want(Frozen):
 
 
 def stability(kind: str, asked: Asked, is_embedded: bool = False) -> WantConditions:
-    """A kind of stability, of the whole method or of one colour; decided at each solution."""
     colour = None
     if len(asked.colours) < asked.tableau.size:
         [colour] = asked.colours

@@ -35,7 +35,6 @@ LEVELS = {
     "oscillator-interval": "z with bounded powers of the oscillator's step for hω ≤ z",
 }
 MOST_PRODUCTS = 200
-"""Most products of blocks in the conditions of weak stage order."""
 
 
 def order_meaning(tableau: Tableau, asked: Asked) -> WantConditions:
@@ -49,7 +48,6 @@ def order_meaning(tableau: Tableau, asked: Asked) -> WantConditions:
 
 
 def _pair_order(asked: Asked) -> WantConditions:
-    """The conditions of the pair, by the criterion of docs/pair-order.md if it applies."""
     parameters = asked.ring.names[: len(asked.ring.names) - len(asked.radicals)]
     criterion = pair_conditions(
         Family(
@@ -75,9 +73,7 @@ def _pair_order(asked: Asked) -> WantConditions:
 
 
 def as_embedded(asked: Asked, key: str) -> Tableau:
-    """The method with b̂ in place of b. Raises MethodError if it has no b̂, or the want is about
-    some colours only.
-    """
+    """With b̂ in place of b; MethodError if it has none, or the want is about some colours only."""
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:
         message = f"design: {key} is meant of the embedded weights of the whole method"
@@ -109,7 +105,6 @@ def _symplectic(asked: Asked) -> WantConditions:
 
 
 def _stiffly_accurate(asked: Asked) -> WantConditions:
-    """The last row of A^{l,l} is b^l."""
     zeros = []
     for l in asked.colours:
         A, b = asked.diagonal(l, "stiffly-accurate")
@@ -118,9 +113,8 @@ def _stiffly_accurate(asked: Asked) -> WantConditions:
 
 
 def at_infinity(asked: Asked) -> WantConditions:
-    """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA); the denominator has the degree of almost all
-    methods of the family. E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*,
-    sections IV.3 and IV.6.
+    """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA), of the degree of almost all methods. E. Hairer, G.
+    Wanner, *Solving Ordinary Differential Equations II*, IV.3 and IV.6.
     """
     zeros: list[Any] = []
     nonzero = []
@@ -145,7 +139,6 @@ def at_infinity(asked: Asked) -> WantConditions:
 
 
 def _embedded_at_infinity(asked: Asked) -> WantConditions:
-    """R(∞) with the embedded weights in place of b."""
     return at_infinity(replace(asked, tableau=as_embedded(asked, "embedded-R-infinity")))
 
 
@@ -167,7 +160,6 @@ def _stability_order(asked: Asked) -> WantConditions:
 
 
 def _level(key: str, asked: Asked) -> WantConditions:
-    """A lower bound on an objective of the whole method."""
     if len(asked.colours) < asked.tableau.size or not isinstance(asked.value, fmpq):
         message = f"design: {key} is a rational number, and of the whole method"
         raise MethodError(message, f"write {key}: 3/2", code="wanted-without-meaning")
@@ -203,8 +195,7 @@ def _stage_order(asked: Asked) -> WantConditions:
 
 
 def _weak_stage_order(asked: Asked) -> WantConditions:
-    """b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^{k−1} − (c^{p})^k / k) = 0 for k = 1, …, q and all
-    products of blocks between the colours.
+    """b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^{k−1} − (c^{p})^k / k) = 0 for k = 1, …, q.
 
     Products of as many blocks as there are stages suffice: the functionals from at most n blocks
     span a space that, once it does not grow with n, never grows again. By the node powers c^k and k
@@ -243,11 +234,7 @@ def _weak_stage_order(asked: Asked) -> WantConditions:
 
 
 def _consistent(asked: Asked) -> WantConditions:
-    """A^{l,m} 𝟙 = c^l for every block of the colours l.
-
-    A. Sandu, M. Günther, *A generalized-structure approach to additive Runge–Kutta methods*, SINUM
-    53, 2015.
-    """
+    """A^{l,m} 𝟙 = c^l for every block of the colours l (A. Sandu, M. Günther, SINUM 53, 2015)."""
     defects = Defects(asked.tableau)
     edges = [(l, m) for l, m in asked.tableau.edges() if l in asked.colours]
     return WantConditions(tuple(x for l, m in edges for x in defects.C(l, m, 1)))
@@ -264,7 +251,6 @@ def _nodes_ascending(asked: Asked) -> WantConditions:
 
 
 def _coefficients(asked: Asked) -> tuple[Any, ...]:
-    """The entries of all blocks of the colours, and their weights."""
     blocks = [block for (_, m), block in asked.tableau.blocks.items() if m in asked.colours]
     weights = [asked.tableau.colours[l].b for l in asked.colours]
     return tuple(chain(*chain.from_iterable(blocks), *weights))

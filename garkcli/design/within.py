@@ -1,10 +1,9 @@
 """Values of unknowns next to rounded numbers: of one method within the rounding.
 
-The conditions of a family whose numbers are rounded contradict each other in their last digits. So
-gark first seeks values that meet them up to the rounding. From these it recovers one method, its
-numbers within the tolerance and its unknowns near the values (``order.recovering``). At its
-numbers, known to many bits, it solves the conditions again: then residuals and pivots are clearly
-zero or not.
+Conditions of a family with rounded numbers contradict each other in their last digits. gark first
+seeks values that meet them up to the rounding. From these it recovers one method, its numbers
+within the tolerance and its unknowns near the values (``order.recovering``). At its numbers, known
+to many bits, it solves the conditions again: then residuals and pivots are clearly zero or not.
 """
 
 from __future__ import annotations
@@ -73,15 +72,8 @@ class RoundedConditions:
             yield from (x.tree for x in self._of(k) if x.polynomial.is_constant())
 
     def orders(self, values: Mapping[str, Number], grain: fmpq) -> tuple[int, int | None]:
-        """The orders of the method with some values and of its embedded weights, None if it has
-        none.
-
-        Args:
-            values: of all unknowns.
-            grain: residuals below it count as zero.
-
-        Raises:
-            VanishingDenominator: no method has these values.
+        """The orders with some values, and of embedded weights or None; ``grain`` is zero. Raises
+        VanishingDenominator if no method has these values.
         """
         family, weights = self.family, self.family.further.embedded
         method = TABLEAUS[self.whose](member(family.tableau, family.ring, values))
@@ -116,7 +108,7 @@ class RoundedConditions:
 
 
 def _order_of(tableau: Tableau, grain: fmpq) -> int:
-    """The order of a method if residuals below ``grain`` count as zero."""
+    # residuals below grain count as zero
     from garkcli.order.rounded import tree_missed  # it imports numpy
 
     failing = (k for k in range(1, DEFAULT_LIMIT + 1) if tree_missed(tableau, k, 1, grain))
@@ -133,18 +125,15 @@ class GenericWeights:
         self.unknowns = [k for k, name in enumerate(family.ring.names) if name in unknown]
 
     def are_known(self, tree: Tree) -> bool:
-        """Whether the weight of a tree does not depend on the unknowns."""
         parts = fraction(elementary_weight(self.tableau, tree), self.ring)
         return not any(part.degrees()[k] > 0 for part in parts for k in self.unknowns)
 
 
 BITS = 300
-"""Least precision for printed numbers."""
 STARTS = 100
 TRIES = 20
 """Choices of free unknowns tried for the wanted ranges and signs."""
 MOST = 5
-"""Most solutions of nonlinear conditions."""
 WIDTHS = (30, 300, 3000, 30_000)
 """Tolerances within which values of unknowns may move."""
 WIDEST = fmpq(1, 100)
@@ -171,14 +160,10 @@ class Rounding(Protocol):
         """The family with its numbers shifted by shares of the tolerance; no shifts for none."""
 
     def generic(self) -> Family:
-        """The family with indeterminates in place of known numbers: statements about it hold for
-        all of these. Raises MethodFileError if it is too large.
-        """
+        """With indeterminates for known numbers: statements hold for all; or MethodFileError."""
 
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Any:
-        """The family with values for the unknowns that may move by ``width``: ``rounded``, the
-        method, and ``shifts``, the changes of its own numbers.
-        """
+        """``rounded``, a method with values that may move by ``width``, and its ``shifts``."""
 
 
 class ValuesWithin(Frozen, eq=False):
@@ -186,14 +171,13 @@ class ValuesWithin(Frozen, eq=False):
 
     Attributes:
         values: each to many digits.
-        directions: derivatives of the other unknowns in the free ones, which determine them if the
-            conditions are linear.
+        directions: derivatives of the others in the free ones, which determine them if linear.
         free: the unknowns that are free around it.
         distance: the largest change of a number of the file, in units of the tolerance.
         is_admitted: whether it has the wanted ranges and signs.
         digits: decimal places in which the conditions are 0 at the method.
         order: the highest order found for the method.
-        embedded: the order of the embedded weights; None if it has none.
+        embedded: the order of the embedded weights.
     """
 
     values: Mapping[str, fmpq]
@@ -216,7 +200,7 @@ class ValuesWithin(Frozen, eq=False):
 
 
 def with_more(found: list[ValuesWithin], values: ValuesWithin) -> list[ValuesWithin]:
-    """The solutions with one more, if it is new; admitted ones replace others."""
+    """With one more, if it is new; admitted ones replace others."""
     if values.is_admitted:
         found = [x for x in found if x.is_admitted]
     elif any(x.is_admitted for x in found):
@@ -238,11 +222,9 @@ class StepWithin(Frozen, eq=False):
         order: the order.
         found: methods with the order.
         is_linear: whether the conditions are linear in the unknowns.
-        printed: the dimension of the solutions for the printed digits, -1 if they contradict each
-            other; None if unknown, as the conditions are not linear.
+        printed: the dimension of the solutions for the printed digits if linear, -1 without any.
         left: the residual of the conditions as printed, if nothing was found.
-        witness: a tree whose condition has known numbers only, and is proved to fail for all
-            methods within the tolerance.
+        witness: a tree with known numbers only that provably fails within the tolerance.
     """
 
     order: int
@@ -303,29 +285,15 @@ def find_within(
     whose: Whose = "method",
     seconds: float | None = None,
 ) -> DesignWithin:
-    """Values of the unknowns for which methods within the tolerance have an order.
-
-    Args:
-        rounding: a family with rounded numbers.
-        order: the order wanted; None for the highest with values.
-        whose: of the method, its symplectic conjugate, or its symplectic pair.
-        seconds: after them the rest stays undecided; None for no limit.
-
-    Raises:
-        ZeroWeight: a weight is zero for every value, so there is no conjugate.
+    """Values of the unknowns for which methods within the tolerance have an order. ``order`` None
+    is the highest with values; after ``seconds`` the rest stays undecided. Raises ZeroWeight if a
+    weight is zero for every value, so there is no conjugate.
     """
     with within(seconds):
         return _ValueSearch(rounding, whose).design(order or rounding.family.order)
 
 
 class _ValueSearch:
-    """The search for values.
-
-    Args:
-        rounding: a family with rounded numbers.
-        whose: the order of the method, its conjugate, or its pair.
-    """
-
     def __init__(self, rounding: Rounding, whose: Whose) -> None:
         self.rounding = rounding
         self.whose = whose
@@ -442,7 +410,7 @@ class _ValueSearch:
     # one method
 
     def _recovered(self, near: Solved, order: int) -> ValuesWithin | None:
-        """The values of a method within the tolerance that has the order; None if none is found."""
+        """None if no method within the tolerance is found."""
         names = self.printed.family.ring.names
         values = dict(zip(names, map(midpoint, near.point), strict=True))
         parameters = {name: values[name] for name in self.family.parameters}
@@ -462,9 +430,6 @@ class _ValueSearch:
         return None
 
     def _derived(self, filled: Any) -> RoundedTableau:
-        """The tableau of the method, its conjugate or its pair. Raises ZeroWeight if there is no
-        conjugate.
-        """
         rounded: RoundedTableau = filled.rounded
         derived_tableau = derived(rounded, self.whose)
         assert not isinstance(derived_tableau, Tableau)
@@ -473,9 +438,7 @@ class _ValueSearch:
     def _at(
         self, filled: Any, rounded: RoundedTableau, values: Mapping[str, fmpq], order: int
     ) -> ValuesWithin | None:
-        """The solution of the conditions at the numbers of one method; None if they contradict each
-        other. Raises VanishingDenominator if a coefficient has a pole there.
-        """
+        """The solution at the numbers of one method; None if conditions contradict each other."""
         search = rounded.search
         search.settled  # noqa: B018 -- it moves to a method with all wants
         shifts = filled.shifts()

@@ -1,8 +1,8 @@
 """A good point by trial, if no exact way is known: compass search with exact values.
 
 From the best points of a grid the search moves to the best neighbour as long as it is better, then
-halves the step. Points are rational and comparisons exact, so every machine finds the same point
-with an exact value. Other points may be better.
+halves the step. Points are rational and comparisons exact, so every machine finds the same point.
+Other points may be better.
 """
 
 from __future__ import annotations
@@ -27,32 +27,18 @@ GRID = {
     3: ("1/4", "1/2", "3/4", "1"),
     4: ("1/4", "1/2", "1"),
 }
-"""Coordinates of the first points, by their number."""
 BEST = 3
-"""The number of grid points from which the search goes on."""
 DENOMINATORS = range(1, 31)
-"""Denominators of short numbers."""
 NEAR = fmpq(1, 100)
 """The distance up to which a short number may replace a coordinate."""
 HALVINGS = 12
-"""The number of steps 1/8, 1/16, …"""
+"""Steps are 1/8, 1/16, …"""
 MOVES = 64
-"""Most moves with one step: a value that still improves after them may grow without bound, and the
-search stops there.
-"""
+"""Moves with one step, after which a value may grow without bound: the search stops there."""
 
 
 def climbed(rank: Rank, coordinates: int) -> Point | None:
-    """A point without better neighbours, or the last of ``MOVES`` moves; None if the grid has no
-    method.
-
-    Args:
-        rank: of a point.
-        coordinates: up to 4.
-
-    Raises:
-        NotDecided: it takes too long.
-    """
+    """A point without better neighbours, or the last of ``MOVES`` moves; None without a method."""
 
     @cache
     def known(point: Point) -> Any:
@@ -67,7 +53,7 @@ def climbed(rank: Rank, coordinates: int) -> Point | None:
 
 
 def _shortened(known: Rank, point: Point) -> Point:
-    """The point with short numbers near by for its coordinates, if it is no worse."""
+    """With short numbers near by for its coordinates, if that is no worse."""
     for q in DENOMINATORS:
         others = tuple(_near(x, q) for x in point)
         if others != point and _is_as_good(known, others, point):
@@ -87,7 +73,6 @@ def _is_as_good(known: Rank, other: Point, point: Point) -> bool:
 
 
 def _near(x: fmpq, q: int) -> fmpq:
-    """The nearest number with the denominator, if it is near."""
     near = fmpq((x * q + fmpq(1, 2)).floor(), q)
     return near if abs(near - x) < NEAR else x
 

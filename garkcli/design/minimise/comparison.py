@@ -39,8 +39,7 @@ class Minimisation(Mutable):
     Attributes:
         extent: the methods among which the best one is best.
         gradients: coordinates with the numerators of derivatives in them.
-        share: the reading of ``time.monotonic`` at which the search for critical points by Gröbner
-            bases ends; None for no limit.
+        share: the end of the search for critical points by Gröbner bases on ``time.monotonic``.
         is_open: whether the stability of methods that may be better is undecided.
     """
 
@@ -92,7 +91,6 @@ class Minimisation(Mutable):
         """The methods among which the best value is the best."""
 
     def shown(self, value: Size) -> Size:
-        """A value as users read it."""
         return value
 
     @abstractmethod
@@ -116,7 +114,7 @@ class Minimisation(Mutable):
         return replace(candidate, found=certified)
 
     def selection(self) -> None:
-        """Adds finitely many solutions, which are known already."""
+        # solutions are known already
         for found in self.step.found:
             if found.order is None:
                 continue
@@ -165,11 +163,10 @@ class Minimisation(Mutable):
                 self.over(one)
 
     def is_worse(self, part: Part) -> bool:  # noqa: ARG002
-        """Whether all methods of a part are known to be worse than the best one so far."""
+        # whether all methods of a part are known to be worse than the best one so far
         return False
 
     def is_settled(self, part: Part) -> bool:
-        """Whether the sets of a part decide the stability of its methods."""
         return bool(part.sets) or not self.design.family.stable
 
     def takes(self, solution: Solution, root: RealRoot, part: Part | None = None) -> bool:
@@ -193,7 +190,6 @@ class Minimisation(Mutable):
         self.candidates.append(Candidate(value, method, index, is_constant, proof))
 
     def subject(self, values: Mapping[str, Any]) -> ObjectiveSubject:
-        """The methods with values for the unknowns, which may be coordinates of a part."""
         family = self.design.family
         further = further_member(family.further, family.ring, values)
         tableau = member(self.design.tableau, family.ring, values)
@@ -204,16 +200,9 @@ class Minimisation(Mutable):
         return member(self.design.tableau, self.design.family.ring, values)
 
     def tried(self, part: Part, rank: Callable[[Size], Any]) -> tuple[RationalChart, Point] | None:
-        """A good method of a part by trial, with its chart and free coordinates; None if none is
-        found.
-
-        Args:
-            part: of the solution set.
-            rank: larger for better values.
-
-        Raises:
-            NotDecided: the part has no charts or too many coordinates, or the search takes too
-                long.
+        """A good method of a part by trial, with its chart and free coordinates, or None. ``rank``
+        is larger for better values. Raises NotDecided if the part has no charts or too many
+        coordinates, or the search takes too long.
         """
         self.extent = "found"
         all_charts = charts(part)
@@ -234,14 +223,14 @@ class Minimisation(Mutable):
         return None if best is None else best[1:]
 
     def at_point(self, part: Part, chart: RationalChart, point: Point) -> Solution | None:
-        """A method by its free coordinates; None if there is none in the comparison."""
+        """None if there is no method of the comparison."""
         solution = chart.point(part, point)
         if solution is None or not self.takes(solution, solution.real[chart.index], part):
             return None
         return solution
 
     def edges(self, part: Part) -> Iterator[fmpq_mpoly]:
-        """Polynomials in the coordinates that vanish at the boundary of the compared methods."""
+        """They vanish at the boundary of the compared methods."""
         family = self.design.family
         for end in not_negative(family):
             yield fraction(part.expressed(end, family.ring), part.ring)[0]

@@ -45,25 +45,16 @@ _Level: TypeAlias = "RealRoot | FibreRoot | None"
 
 
 class HighAt(Frozen):
-    """A number at which the greatest level is attained.
-
-    Attributes:
-        is_sample: whether it stands for an interval without critical numbers.
-    """
+    """A number with the greatest level; a sample is for an interval without critical numbers."""
 
     t: RealRoot
     is_sample: bool = False
 
 
 class Levels(Frozen):
-    """The greatest level and the places where it is attained or exceeded.
-
-    Attributes:
-        greatest: the greatest level that is attained; None for infinity.
-        attained: the critical numbers, and one number of each interval, with this level; empty if
-            no number is allowed.
-        limits: ends at which a larger level is approached but not attained.
-        is_decided: whether the level is known at every critical number.
+    """The greatest level that is attained, and the places where it is attained or exceeded.
+    ``attained`` are critical numbers, and one number of each interval. At ``limits`` a larger level
+    is approached. ``is_decided``: the level is known at every critical number.
     """
 
     greatest: Size
@@ -77,13 +68,7 @@ def height(level: Size) -> tuple[bool, RealRoot]:
 
 
 def on_levels(level: Callable[[fmpq], Size], signs: LevelSigns, allowed: Constraints) -> Levels:
-    """The greatest level.
-
-    Args:
-        level: of one rational value of the parameter t, by the engine for one method.
-        signs: the condition that defines it in the plane.
-        allowed: the conditions on t.
-    """
+    """``level`` is for a rational t, by the engine for one method."""
     line = _Line(level, signs, allowed)
     attained = sorted(line.attained(), key=lambda pair: pair[0].t)
     if not attained:
@@ -98,8 +83,6 @@ def on_levels(level: Callable[[fmpq], Size], signs: LevelSigns, allowed: Constra
 
 
 class _Line:
-    """The t-axis with its critical points."""
-
     def __init__(
         self, level: Callable[[fmpq], Size], signs: LevelSigns, allowed: Constraints
     ) -> None:
@@ -113,8 +96,8 @@ class _Line:
         self.is_decided = True
 
     def attained(self) -> Iterator[tuple[HighAt, _Level]]:
-        """The level at every allowed critical number, and at one number of each interval; 0 at
-        irrational numbers if it is less than another one, or undecided.
+        """The level at every allowed critical number, and at one number of each interval. It is 0
+        at irrational numbers if it is less than another one, or undecided.
         """
         irrational = []
         most: Size = ORIGIN
@@ -134,7 +117,7 @@ class _Line:
             yield HighAt(root), ORIGIN if self._is_less(root, most) else self._at(root)
 
     def _is_less(self, t: RealRoot, most: Size) -> bool:
-        """Whether some y below a level is proved to be outside the level at a critical number."""
+        """Whether some y below ``most`` is proved to be beyond the level at a critical number."""
         if most is None:
             return True
         top = between(ORIGIN, most) if most > ORIGIN else ZERO
@@ -232,7 +215,6 @@ def _greatest(attained: Sequence[tuple[HighAt, _Level]]) -> tuple[Size, tuple[Hi
 
 
 def _stationary(of_curves: Iterable[fmpq_mpoly]) -> Iterator[Polynomial]:
-    """Polynomials in t that vanish where a curve has a horizontal tangent."""
     for curve in of_curves:
         by_t = curve.derivative(1)
         if by_t and curve.degrees()[0]:
@@ -246,7 +228,7 @@ def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot |
 
 
 def _length(one: HighAt) -> tuple[bool, int]:
-    """A key that sorts samples first, short ones first."""
+    """Samples are first, short ones before."""
     t = one.t.exact
     bits = 0 if t is None else int(t.p).bit_length() + int(t.q).bit_length()
     return not one.is_sample, bits
@@ -261,8 +243,6 @@ def _in_turn(points: Sequence[RealRoot]) -> Iterator[Point]:
 
 
 class Highest(Minimisation):
-    """Levels at critical values and at samples between them."""
-
     objective: LevelObjective
 
     def best(self, values: Sequence[Size]) -> Size:
@@ -284,14 +264,12 @@ class Highest(Minimisation):
     def add(
         self, solution: Solution, index: int, is_constant: bool = False, proof: Proof = "exact"
     ) -> None:
-        """Adds a method with its value, unless its number field is too large."""
         try:
             super().add(solution, index, is_constant, proof)
         except FieldTooLarge:
             self.extent = "found"
 
     def over_line(self, part: Part) -> None:
-        """Adds all candidates of a part with one free coordinate."""
         [name] = part.ring.names
         tableau, signs = self.tableau(part), self.objective.signs
         assert signs is not None  # ``exactly`` refuses others
@@ -311,7 +289,6 @@ class Highest(Minimisation):
             self.limits.append(ObjectiveLimit(toward.value, name, toward))
 
     def over_variety(self, part: Part) -> None:
-        """Adds a good method by trial."""
         best = self.tried(part, height)
         if best is not None:
             chart, point = best
@@ -321,4 +298,4 @@ class Highest(Minimisation):
 
 
 class FieldTooLarge(Exception):
-    """A number field is too large for the engines of stability."""
+    """The engines of stability do not work in the number field."""

@@ -35,7 +35,7 @@ class Within(Frozen):
 
     @property
     def polynomials(self) -> list[Polynomial]:
-        """Polynomials in t: between their zeros the condition holds for all t or for none."""
+        """Between their zeros the condition holds for all t or for none."""
         N, D = self.numerator, self.denominator
         critical = [D]
         for end in ends_of(self.intervals):
@@ -47,12 +47,7 @@ class Within(Frozen):
 
 
 class Constraints(Frozen):
-    """The conditions for numbers to be allowed.
-
-    Attributes:
-        nonzero, positive, not_negative: polynomials with these signs.
-        sets: functions with their values in sets of numbers.
-    """
+    """Signs of polynomials that allow numbers, and functions with values in ``sets`` of numbers."""
 
     nonzero: Sequence[Polynomial] = ()
     positive: Sequence[Polynomial] = ()
@@ -80,31 +75,19 @@ class Constraints(Frozen):
 
 
 class At(Frozen):
-    """The value at an allowed number."""
-
     value: RealRoot
     t: RealRoot
 
 
 class Toward(Frozen):
-    """The limit at an end that is not allowed.
-
-    Attributes:
-        is_right: whether the end is the right one of an interval.
-    """
-
     value: RealRoot | None
     end: RealRoot | None
     is_right: bool
 
 
 class OnLine(Frozen):
-    """The candidates for the least value.
-
-    Attributes:
-        attained: values at critical points and ends.
-        limits: limits at ends that do not belong to the set.
-        gradient: the numerator of the derivative in lowest terms, primitive; 0 for a constant.
+    """Values at critical points and ends, and limits at ends that do not belong to the set.
+    ``gradient`` is the numerator of the derivative in lowest terms, primitive; 0 for a constant.
     """
 
     attained: tuple[At, ...]
@@ -113,13 +96,7 @@ class OnLine(Frozen):
 
 
 def on_line(numerator: Polynomial, denominator: Polynomial, allowed: Constraints) -> OnLine:
-    """The candidates for the least value of N/D.
-
-    Args:
-        numerator: N, rational.
-        denominator: D, rational; N/D is bounded below near zeros of D.
-        allowed: the conditions on t.
-    """
+    """The candidates for the least value of N/D, rational and bounded below near zeros of D."""
     common = gcd(numerator, denominator)
     N, D = numerator // common, denominator // common
     gradient = N.derivative() * D - N * D.derivative()
@@ -160,7 +137,6 @@ def _value(N: Polynomial, D: Polynomial) -> Callable[[RealRoot], RealRoot]:
 def _limit(
     N: Polynomial, D: Polynomial, end: RealRoot | None, value: Callable[[RealRoot], RealRoot]
 ) -> RealRoot | None:
-    """The limit of N/D at an end; None if it is infinite."""
     if end is not None:
         return None if sign_of(D, end) == 0 else value(end)
     if N.degree > D.degree:

@@ -36,9 +36,8 @@ def numbers_of(subject: ObjectiveSubject) -> Iterator[Any]:
 
 
 def at_infinity(tableau: Tableau, key: str) -> tuple[Any, Any]:
-    """Numerator and denominator of R(∞) for a method of one colour whose stability function has the
-    degree of almost all methods. Raises UsageProblem if the method has several colours, or R(∞) is
-    infinite.
+    """Numerator and denominator of R(∞), with the degree of almost all methods. Raises UsageProblem
+    if the method has several colours, or R(∞) is infinite.
     """
     colour = tableau.colours[0]
     if tableau.size > 1 or not isinstance(tableau.spaces[colour.space], PointSpace):

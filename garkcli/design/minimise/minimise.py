@@ -26,15 +26,11 @@ from garkcli.errors import NotDecided, UsageProblem
 from garkcli.frozen import replace
 
 SHARE = 0.25
-"""The share of the time for critical points by Gröbner bases; the trials that replace them take
-about as long.
-"""
+"""For critical points by Gröbner bases; trials that replace them take about as long."""
 
 
 def step_to_minimise(design: Design) -> Decided:
-    """The step of the highest order that may have methods. Raises UsageProblem if no step is
-    decided.
-    """
+    """The step of the highest order that may have methods, or UsageProblem."""
     for step in reversed(design.steps):
         if isinstance(step, Decided) and step.may_have_methods:
             return step
@@ -44,17 +40,9 @@ def step_to_minimise(design: Design) -> Decided:
 
 
 def minimise(design: Design, objective: str | Wanted, seconds: float | None = None) -> Minimum:
-    """The methods of the highest order with the least value of an objective.
-
-    Args:
-        design: of the family.
-        objective: the number to minimise, or its name.
-        seconds: the time limit; None for none.
-
-    Raises:
-        UsageProblem: the objective or a wanted stability is not applicable, only a search minimises
-            it, or no step is decided.
-        NotDecided: a Gröbner basis or a trial takes too long.
+    """The methods of the highest order with the least value of an objective. Raises UsageProblem if
+    the objective or a wanted stability is not applicable, only a search minimises it, or no step is
+    decided; NotDecided if a Gröbner basis or a trial takes too long.
     """
     step = step_to_minimise(design)
     if isinstance(objective, str):
@@ -85,9 +73,9 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
 
 
 def _over(comparison: Minimisation, parts: Sequence[Part]) -> None:
-    """Compares the methods of all parts, those of the largest dimension first, each in its share of
-    the time; if a part is too large or curved, the best of the others is only the best found.
-    Raises NotDecided if no part gives a method to compare.
+    """Compares all parts, those of the largest dimension first, each in its share of the time. If a
+    part is too large or curved, the best of the others is only the best found. Raises NotDecided if
+    no part gives a method to compare.
     """
     missed = 0
     for number, part in enumerate(sorted(parts, key=lambda x: -x.dimension)):

@@ -18,23 +18,17 @@ from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
 Formula: TypeAlias = Callable[["ObjectiveSubject", "Parameters | None"], Quotient]
-"""From methods and the parameters in their coefficients (None for numbers) to the numerator and
-denominator of the objective.
-"""
+"""A function of methods and the parameters of their coefficients, None for numbers."""
 Size: TypeAlias = RealRoot | None
 """A number that is not negative; None for infinity."""
 
 INSIDE = 1e-7
-"""The share by which a search makes levels larger than the wanted bound."""
+"""The part by which a search makes levels larger than the wanted bound."""
 ORIGIN = RealRoot.rational(fmpq(0))
 
 
 class Objective(Frozen):
-    """A rational function of the coefficients to minimise.
-
-    Attributes:
-        bounded: numbers that are bounded if the function is.
-    """
+    """A rational function to minimise; numbers are ``bounded`` if it is."""
 
     key: str
     summary: str
@@ -47,15 +41,12 @@ def none_is_negative(signs: Sequence[int]) -> bool:
 
 
 class LevelSigns(Frozen):
-    """The condition on signs that defines a level.
+    """The condition on the signs of polynomials in y and t that defines a level.
 
     Attributes:
-        polynomials: in ``PLANE``, in y and the parameter t.
-        holds: whether y is within the level, by the signs of the polynomials at y, if all smaller
-            ones are.
+        holds: whether y is within the level, by the signs at y, if all smaller ones are.
         is_closed: whether a condition that holds for t near some number holds there too.
-        common: the polynomials of a step; a zero y common to all of them for one t cancels in the
-            step.
+        common: the polynomials of a step; a common zero y of all for one t cancels in the step.
     """
 
     polynomials: Sequence[fmpq_mpoly]
@@ -65,8 +56,7 @@ class LevelSigns(Frozen):
 
 
 class LevelObjective(Frozen):
-    """A number to maximise: the y up to which a condition on the signs of polynomials holds from 0
-    on; it may be 0 or infinite.
+    """The y to maximise up to which a condition on signs holds from 0 on; 0 and ∞ are possible.
 
     Attributes:
         key: its name, which begins with a minus sign.
@@ -84,29 +74,22 @@ class LevelObjective(Frozen):
     claim: str | None = None
 
     def shown(self, y: Size) -> Size:
-        """A level as users read it."""
         return square_root(y) if self.is_square and y is not None else y
 
     def measured(self, y: Size) -> Size | float:
         return self.shown(y)
 
     def inside(self, bound: float) -> float:
-        """A bound a little above a wanted one, so that exact numbers near by reach it."""
+        # exact numbers near by reach a bound a little above the wanted one
         return bound * (1 + INSIDE)
 
     def reaches(self, y: Size, bound: fmpq) -> bool:
-        """Whether a level, as users read it, is at least a number."""
         shown = self.shown(y)
         return shown is None or not shown < RealRoot.rational(bound)
 
 
 class ObjectiveSubject(Frozen):
-    """Methods with their embedded weights and orders.
-
-    Attributes:
-        embedded_order: the wanted order of the embedded weights; None if none is wanted.
-        dense_order: the wanted order of the dense output; None if none is wanted.
-    """
+    """Methods with their embedded weights, and the wanted orders of these and of dense output."""
 
     tableau: Tableau
     order: int
@@ -116,14 +99,11 @@ class ObjectiveSubject(Frozen):
 
     @classmethod
     def of(cls, family: Family, tableau: Tableau, order: int, further: Further) -> ObjectiveSubject:
-        """Methods of a family, with its wants on further weights."""
         return cls(tableau, order, further, family.embedded_order, family.dense_order)
 
     @property
     def embedded(self) -> tuple[Tableau, int]:
-        """The methods with the embedded weights in place of b, and their order. Raises UsageProblem
-        if they have no embedded weights, or no order of these is wanted.
-        """
+        """With the embedded weights in place of b, and their order; UsageProblem without any."""
         if self.further.embedded is None or self.embedded_order is None:
             message = "the objective is about embedded weights with an order: the file wants none"
             cure = "write embedded: true under unknown, and embedded-order: 3 under design"
@@ -132,11 +112,7 @@ class ObjectiveSubject(Frozen):
 
 
 class SearchMeasure(Frozen):
-    """A number that only a search minimises.
-
-    Attributes:
-        squared: the square of the number, for one method with rational coefficients.
-    """
+    """A number that only a search minimises; ``squared`` is for one method, rational."""
 
     key: str
     summary: str
@@ -144,15 +120,10 @@ class SearchMeasure(Frozen):
 
 
 Single: TypeAlias = Objective | LevelObjective | SearchMeasure
-"""The objective of one name."""
 
 
 class WeightedSum(Frozen):
-    """A weighted sum of objectives.
-
-    Attributes:
-        terms: weights with objectives; weights are negative for levels, positive for others.
-    """
+    """Weights are negative for levels, positive for others."""
 
     key: str
     terms: tuple[tuple[fmpq, Single], ...]

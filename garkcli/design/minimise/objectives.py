@@ -44,9 +44,7 @@ def is_linear(tableau: Tableau) -> bool:
 
 
 def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """R = P/Q on the linear test equation, as polynomials in y for z and t. Raises UsageProblem if
-    it is not applicable.
-    """
+    """R = P/Q on the linear test equation, in y for z and t; or UsageProblem."""
     refuse_partitioned(tableau)
     tableau = on_linear_problems(tableau)
     fields: list[Matrix] = [((ONE,),)] * tableau.size
@@ -55,11 +53,7 @@ def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, f
 
 
 def refuse_partitioned(tableau: Tableau) -> None:
-    """Raises if the linear test equation is not applicable.
-
-    Raises:
-        UsageProblem: some stages do not depend on every vector field.
-    """
+    """Raises UsageProblem if some stages do not depend on every vector field."""
     if not is_linear(tableau):
         raise UsageProblem(
             "the linear test equation does not apply: some stages do not depend on every"
@@ -70,11 +64,7 @@ def refuse_partitioned(tableau: Tableau) -> None:
 
 
 def refuse_one_colour(tableau: Tableau) -> None:
-    """Raises if there are no coupling errors.
-
-    Raises:
-        UsageProblem: the method has one colour.
-    """
+    """Raises UsageProblem without coupling errors."""
     if on_linear_problems(tableau).size == 1:
         message = "error-coupling: the method has one colour, and no tree has two"
         raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
@@ -95,9 +85,8 @@ def _dense_error(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quo
 
 
 def _squared_coefficients(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quotient:
-    """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes.
-
-    On point stages T is the identity; in a polynomial space it makes the sum rational even for
+    """Σ a_ij² = tr(A T_m⁻¹ Aᵀ T_k), Σ b_j² = b T⁻¹ bᵀ with T_ij = Σ e_i e_j over the nodes. On
+    point stages T is the identity; in a polynomial space it makes the sum rational even for
     irrational nodes.
     """
     tableau = subject.tableau
@@ -135,7 +124,6 @@ def _inverse(T: Matrix) -> Matrix:
 
 
 def _product(left: Any, matrix: Matrix, right: Any) -> Any:
-    """The number left · matrix · rightᵀ."""
     total: Any = fmpq(0)
     for x, line in zip(left, matrix, strict=True):
         for a, y in zip(line, right, strict=True):

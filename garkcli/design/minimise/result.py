@@ -14,24 +14,19 @@ from garkcli.frozen import Frozen
 from garkcli.upward import Shown
 
 Extent: TypeAlias = Literal["all", "nearly", "critical-points", "found"]
-"""The methods among which a minimum is the least: all; all, up to 10⁻⁹ of its size; all critical
-points, with the behaviour at infinity and at excluded values open; or those found.
+"""A minimum is the least of all methods; of all up to 10⁻⁹ of its size; of all critical points,
+with infinity and excluded values open; or of those found.
 """
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
-"""The proof that a method is best: it is a critical point or was compared with all; a critical
-point is proved to exist near it; or it is better than trials around it. The method itself is exact
-in any case.
+"""A best method is a critical point or was compared with all; a critical point is proved to
+exist near it; or it is better than trials around it. The method itself is always exact.
 """
 
 
 class Candidate(Frozen):
-    """A method with its objective.
-
-    Attributes:
-        value: of the objective; None if infinite.
-        index: the number of its real root of ``found``.
-        is_constant: whether the objective is constant near it.
+    """A method with its objective, constant near it or not; None if infinite. ``index`` is the
+    number of its real root of ``found``.
     """
 
     value: RealRoot | None
@@ -42,11 +37,7 @@ class Candidate(Frozen):
 
 
 class ObjectiveLimit(Frozen):
-    """A limit of the objective that is not attained there.
-
-    Attributes:
-        parameter: the parameter that tends to the end.
-    """
+    """A limit of the objective at an end of a parameter that is not attained there."""
 
     value: RealRoot | None
     parameter: str

@@ -35,8 +35,8 @@ class Angle(LevelObjective):
 
 
 def rest_of_cosine(angle: fmpq) -> RealRoot:
-    """1 − cos α of an angle in degrees: cos qα = ±1 for a multiple α of π/q. Raises MethodError if
-    it is more than a right angle, or no multiple of a quarter of a degree.
+    """1 − cos α of an angle in degrees: cos qα = ±1 for a multiple α of π/q. Raises MethodError
+    beyond a right angle, or if it is no multiple of a quarter of a degree.
     """
     part = angle / HALF_TURN
     if not 0 < angle <= RIGHT or part.q > MOST_PARTS:
@@ -55,9 +55,7 @@ def _at(part: fmpq, bits: int) -> arb:
 
 
 def angle_of(R: StabilityFunction) -> Size:
-    """1 − cos α for the largest sector in which |R| ≤ 1. Raises NotDecided if the degree of R is
-    too large.
-    """
+    """1 − cos α for the largest sector with |R| ≤ 1; NotDecided if the degree is too large."""
     sector = largest_sector(R)
     if sector is None:
         raise NotDecided

@@ -36,15 +36,12 @@ from garkcli.exact.roots import RealRoot
 def critical_equations(
     part: Part, numerator: fmpq_mpoly, denominator: fmpq_mpoly
 ) -> list[fmpq_mpoly]:
-    """Polynomials that vanish at the critical points of N/D on a part.
+    """Polynomials that vanish at the critical points of N/D on a part; or NotDecided.
 
     On the zeros of f_1, …, f_m of codimension c these are the points at which the gradients of the
     function and of the f_i have rank at most c: all minors of size c + 1 vanish. Singular points of
     the set are among them. On components of a larger codimension some critical points may be
     missing.
-
-    Raises:
-        NotDecided: there are too many minors.
     """
     size = len(part.ring.names)
     gradient = gradient_of(numerator, denominator, size)
@@ -62,9 +59,7 @@ def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> li
 
 
 def is_of_one_dimension(part: Part) -> bool:
-    """Whether all components of a part are known to have one dimension: as many equations as the
-    codimension imply it (F. S. Macaulay, 1916).
-    """
+    """As many equations as the codimension imply one dimension (F. S. Macaulay, 1916)."""
     codimension = len(part.ring.names) - part.dimension
     return part.is_free or len(part.equations) == codimension
 
@@ -78,12 +73,9 @@ def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:
 
 
 BITS = 256
-"""Precision of Newton's method and of the test, which then encloses the point to half as many bits.
-"""
+"""Precision of Newton's method; the test encloses the point to half as many bits."""
 DECIMALS = 20
-"""Decimals of the rational point near it."""
 NEAR = fmpq(1, 100)
-"""Largest distance of that point from the given one."""
 
 
 def critical_point_near(
@@ -92,17 +84,9 @@ def critical_point_near(
     nonzero: Sequence[fmpq_mpoly],
     ring: Parameters,
 ) -> tuple[fmpq, ...] | None:
-    """A rational point within 10^−DECIMALS of a common zero of some polynomials; None if Krawczyk's
-    test proves none near the given point.
-
-    The coordinates of a part are free, so the rational point is a method as well, with the same
-    order and, up to rounding, the same value.
-
-    Args:
-        point: the start.
-        gradient: the polynomials, as many as unknowns.
-        nonzero: polynomials that must not vanish there.
-        ring: of the unknowns.
+    """A rational point within 10^−DECIMALS of a common zero of ``gradient`` near a given point. It
+    is a method as well, as the coordinates of a part are free, with the same order and, up to
+    rounding, value. None if Krawczyk's test proves no zero without zeros of ``nonzero``.
     """
     system = Fixings(System(polynomial_functions(gradient, ring)))
     zero = polished(system, [as_float(x) for x in point], BITS)
@@ -115,14 +99,14 @@ def critical_point_near(
 
 
 CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
-"""Values of coordinates at which methods are sought."""
 
 
 def are_bounded(
     ring: Parameters, numbers: Iterable[object], zeros: Sequence[fmpq_mpoly | fmpz_mpoly] = ()
 ) -> bool:
-    """Whether bounds on numbers, and polynomials that are zero, imply bounds on all unknowns:
-    without the terms in unknowns already bounded, one of them is a multiple of a power of the next
+    """Whether bounds on numbers, and polynomials that are zero, imply bounds on all unknowns.
+
+    Without the terms in unknowns already bounded, one of them is a multiple of a power of the next
     unknown, or quadratic and definite in the next ones.
 
     >>> ring = Parameters(["x", "y"])
@@ -168,21 +152,18 @@ def _bounded_by_quadratic(terms: Mapping[tuple[int, ...], fmpq], bounded: set[in
 SLACK = fmpq(1, 10**9)
 """Relative size by which an irrational least value may be missed."""
 GLANCE = 0.1
-"""The share of the time for a proof that a part has nothing better."""
+"""The part of the time for a proof that a part has nothing better."""
 MOST_COORDINATES = 4
 """Most coordinates for which the objective is expanded as a function."""
 
 
 def _larger_first(a: Size, b: Size) -> int:
-    """A comparison that sorts values in descending order."""
     assert a is not None
     assert b is not None
     return (a < b) - (b < a)
 
 
 class Smallest(Minimisation):
-    """Critical points, ends and limits of N/D."""
-
     objective: Objective
 
     def best(self, values: Sequence[Size]) -> Size:
@@ -202,7 +183,7 @@ class Smallest(Minimisation):
 
     @property
     def _is_coercive(self) -> bool:
-        """Whether the methods with a value below any bound are in a bounded closed set: then one of
+        """Whether methods with a value below any bound are in a bounded closed set. Then one of
         them has the least value, and it is a critical point of its part.
         """
         ring = self.design.family.ring
@@ -260,7 +241,7 @@ class Smallest(Minimisation):
         )
 
     def _allowed(self, part: Part, place: int) -> tuple[Interval, ...] | None:
-        """The values of a free coordinate by the conditions on it alone; None if there are none."""
+        """By the conditions on it alone; None if there are none."""
         family = self.design.family
         ends = (part.expressed(p, family.ring) for p in not_negative(family))
         signs = [sign_polynomial(x, part.ring) for x in ends]
@@ -294,7 +275,6 @@ class Smallest(Minimisation):
         return fraction(part.ring.quotient(quotient.numerator, quotient.denominator), part.ring)
 
     def over_line(self, part: Part) -> None:
-        """Adds all candidates of a part with one free coordinate."""
         [name] = part.ring.names
         allowed = self.conditions(part)
         numerator, denominator = self._formula(part)
@@ -320,7 +300,7 @@ class Smallest(Minimisation):
         self.add(part.extended(at_root(name, root)), root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
-        """Adds the critical points of a part of larger dimension, and those on its edges."""
+        """Critical points of a part of larger dimension, and of its edges."""
         if not is_of_one_dimension(part):
             self.extent = "found"
         elif self.extent == "all":
@@ -379,7 +359,6 @@ class Smallest(Minimisation):
             self._over_constant(smaller)
 
     def _over_constant(self, part: Part) -> None:
-        """Adds some methods of a part on which the objective is locally constant."""
         self.extent = "found"
         names = part.ring.names
         gens = part.ring.context.gens()

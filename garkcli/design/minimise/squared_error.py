@@ -1,9 +1,9 @@
 """Σ e(u)² over all trees of an order, without a list of them.
 
-e(u) = (b·𝒜^[u] − 1/γ(u)) / σ(u). A forest F has the stage vector v and the number w of its trees:
-𝒜 and 1/γ. Both are products over its trees, so (v, w) is an element of an algebra S, the stage
-space with one more factor. Sums of (v, w) ⊗ (v, w) / σ² over all forests of an order determine Σ
-e(u)². With x_u = (v, w) ⊗ (v, w) / σ(u)² for each tree u on a forest, a tree that occurs m times
+e(u) = (b·𝒜^[u] − 1/γ(u)) / σ(u). A forest F has the stage vector v and the number w of its trees: 𝒜
+and 1/γ. Both are products over its trees, so (v, w) is an element of an algebra S, the stage space
+with one more factor. Sums of (v, w) ⊗ (v, w) / σ² over all forests of an order determine Σ e(u)².
+With x_u = (v, w) ⊗ (v, w) / σ(u)² for each tree u on a forest, a tree that occurs m times
 contributes x_u^m / m!², so all forests together give
 
     Π_u Σ_m x_u^m / m!² = exp Σ_k c_k Σ_u x_u^k,   log Σ_m x^m / m!² = Σ_k c_k x^k.
@@ -35,8 +35,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Pair(Frozen):
-    """(v, w): a stage vector and a number."""
-
     v: Row
     w: Entry
 
@@ -70,8 +68,6 @@ def scaled(row: Row, factor: Entry) -> Row:
 
 
 class TensorAlgebra:
-    """S ⊗ S for one stage space."""
-
     def __init__(self, space: StageSpace, one: Entry) -> None:
         self.space = space
         self.zero = one * 0
@@ -125,26 +121,15 @@ def squared(x: Pair) -> Tensor:
 
 
 class Quotient(Frozen):
-    """A value as numerator and denominator, the latter a square.
-
-    Attributes:
-        denominator: a polynomial or a number, zero at no method.
-    """
+    """The denominator is a square, and zero at no method."""
 
     numerator: Entry
     denominator: Entry
 
 
 def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
-    """Σ e(u)² over all trees of an order.
-
-    Args:
-        tableau: entries are exact numbers, or rational functions of parameters.
-        order: of the trees.
-        ring: the parameters; None if all entries are numbers.
-
-    Raises:
-        MethodError: vertices of a colour count no order, or stages are exact solutions.
+    """Σ e(u)² over all trees of an order, for numbers (without ``ring``) or rational functions.
+    Raises MethodError if vertices of a colour count no order, or stages are exact solutions.
     """
     is_known = order <= (tableau.exact_to or order)
     if not is_known or not all(colour.kind.weight for colour in tableau.colours):
@@ -155,9 +140,9 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
 def squared_dense_error(
     tableau: Tableau, dense: DenseOutput, order: int, ring: Parameters | None
 ) -> Quotient:
-    """∫ Σ e_θ(u)² dθ over θ from 0 to 1 and all trees of an order, with the error e_θ(u) of the
-    dense output at θ. With b(θ) = Σ_k B_k θ^k, and e_k(u) = (B_k·𝒜^[u] − 1/γ(u)) / σ(u) for
-    k = ρ(u), without 1/γ(u) for other k, it is Σ_jk Σ_u e_j(u) e_k(u) / (j + k + 1).
+    """∫ Σ e_θ(u)² dθ over θ from 0 to 1 and all trees of an order, of the errors at θ. With b(θ) =
+    Σ_k B_k θ^k, and e_k(u) = (B_k·𝒜^[u] − 1/γ(u)) / σ(u) for k = ρ(u), without 1/γ(u) for other k,
+    it is Σ_jk Σ_u e_j(u) e_k(u) / (j + k + 1).
     """
     powers = range(1, max(order, dense.degree) + 1)
     zero = tuple((ZERO,) * len(colour.b) for colour in tableau.colours)
@@ -173,7 +158,6 @@ def squared_dense_error(
 
 
 def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
-    """Σ e(u)² over the trees of an order with more than one colour."""
     cleared = Cleared.of(tableau, ring)
     total = _Sums(cleared).total(order)
     numerator = total.numerator
@@ -185,27 +169,20 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
 
 
 class Weighted(Frozen):
-    """Weights for each colour, times a denominator, and whether the exact values are 1/γ(u)."""
+    """Weights times a denominator, and whether the exact values are 1/γ(u)."""
 
     weights: Sequence[Row]
     is_exact: bool
 
 
 class _Branch(Frozen):
-    """One tree as a branch.
-
-    Attributes:
-        value: (D A 𝒜, D w / order), with one factor D for each order.
-        symmetry: σ.
-    """
+    """One tree as a branch: (D A 𝒜, D w / order), with one factor D for each order, and σ."""
 
     value: Pair
     symmetry: int
 
 
 class _Sums(OrderByOrder[Tensor]):
-    """The sums over forests and branches, order by order."""
-
     def __init__(self, cleared: Cleared) -> None:
         self.cleared = cleared
         self._algebras = [TensorAlgebra(x, cleared.one) for x in cleared.tableau.spaces]
@@ -214,20 +191,14 @@ class _Sums(OrderByOrder[Tensor]):
         super().__init__(cleared.tableau, (squared(x.unit) for x in self._algebras))
 
     def total(self, order: int) -> Quotient:
-        """Σ e(u)² over the trees of an order, over all root colours."""
         weighted = Weighted(self.cleared.weights, is_exact=True)
         return self.of_form(order, [weighted], [[fmpq(1)]], self.cleared.E)
 
     def of_form(
         self, order: int, rows: Sequence[Weighted], form: Sequence[Sequence[fmpq]], E: Entry
     ) -> Quotient:
-        """Σ_jk q_jk Σ e_j(u) e_k(u) over the trees of an order, over all root colours.
-
-        Args:
-            order: of the trees.
-            rows: the weights of the errors e_j, times E.
-            form: q.
-            E: a common denominator.
+        """Σ_jk q_jk Σ e_j(u) e_k(u) over the trees of an order, for all root colours. ``form`` is
+        q; the weights of the e_j have the denominator E.
         """
         cleared = self.cleared
         total = cleared.one * 0
@@ -295,7 +266,6 @@ class _Sums(OrderByOrder[Tensor]):
         return total
 
     def _all_branches(self, k: int, order: int) -> list[_Branch]:
-        """Every tree of an order that the stages of space k depend on."""
         known = self._trees[k]
         while len(known) <= order:
             known.append(list(self._new_trees(k, len(known))))
@@ -320,9 +290,7 @@ class _Sums(OrderByOrder[Tensor]):
     def _all_forests(
         self, k: int, order: int, largest: int, least: int, most: int
     ) -> Iterator[_Branch]:
-        """Every forest of an order with at least ``least`` and at most ``most`` trees: first the
-        trees of the largest order, in each possible number.
-        """
+        """With ``least`` to ``most`` trees, those of the largest order first."""
         algebra = self._algebras[k]
         if order == 0:
             if least <= 0 <= most:
@@ -365,7 +333,7 @@ def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> 
 
 
 def _joined(algebra: TensorAlgebra, a: _Branch, b: _Branch) -> _Branch:
-    """The union of two forests without a common tree."""
+    # without a common tree
     v = algebra.product(a.value.v, b.value.v)
     return _Branch(Pair(v, a.value.w * b.value.w), a.symmetry * b.symmetry)
 

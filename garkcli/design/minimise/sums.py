@@ -24,10 +24,7 @@ _HYPHENATED = re.compile("|".join(sorted((x for x in _KEYS if "-" in x), key=len
 
 
 def objective_of(text: str) -> Wanted:
-    """The objective of a text.
-
-    Raises:
-        UsageProblem: it is no name or sum of names.
+    """Raises UsageProblem for a text that is no name or sum of names.
 
     >>> objective_of("error").key
     'error'
@@ -52,15 +49,7 @@ def objective_of(text: str) -> Wanted:
 
 
 def refuse(text: str, is_search: bool = False) -> None:
-    """Raises for a text without an objective that can be minimised.
-
-    Args:
-        text: the argument.
-        is_search: whether a search minimises it.
-
-    Raises:
-        UsageProblem: it is no objective, or only a search minimises it.
-    """
+    """Raises UsageProblem for no objective, or one that only a search minimises."""
     objective = objective_of(text)
     if not is_search and not isinstance(objective, aims.Either):
         exactly(objective)
@@ -85,9 +74,7 @@ def _term(
 
 
 def _linear(expression: Expression) -> dict[str, fmpq]:
-    """The coefficients of a linear form by names, the constant by the empty one. Raises
-    UsageProblem if the expression is not linear.
-    """
+    """Coefficients by names, the constant by the empty one; UsageProblem if it is not linear."""
     match expression:
         case Literal(value=value):
             return {"": value} if value else {}
@@ -125,9 +112,7 @@ def _added(signs: str, forms: list[dict[str, fmpq]]) -> dict[str, fmpq]:
 def exactly(
     objective: aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.WeightedSum,
 ) -> aims.Objective | aims.LevelObjective:
-    """An objective for the exact engines. Raises UsageProblem if it is no rational function of the
-    coefficients.
-    """
+    """Raises UsageProblem if it is no rational function of the coefficients."""
     if isinstance(objective, aims.Objective) or (
         isinstance(objective, aims.LevelObjective) and objective.signs
     ):

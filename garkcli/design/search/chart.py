@@ -2,8 +2,8 @@
 
 Let the derivatives J have the rank r at x₀, and the columns of N and Y be orthonormal bases of the
 kernel of J and of its complement. If r equations stay independent and the others follow from them,
-each u near 0 has one solution x(u) = x₀ + N S u + Y s near x₀, with the derivatives
-(I − Y (J Y)⁻¹ J) N S.
+each u near 0 has one solution x(u) = x₀ + N S u + Y s near x₀, with the derivatives (I − Y (J Y)⁻¹
+J) N S.
 """
 
 from __future__ import annotations
@@ -21,11 +21,9 @@ if TYPE_CHECKING:
     Equations: TypeAlias = Callable[[Array], Gradient]
 
 STEPS = 12
-"""Most steps of Newton's method."""
 CLOSE = 1e-12
-"""Residuals of a solution."""
 RANK = 1e-7
-"""Singular values below this, or below this share of the largest, count as zero."""
+"""Smaller singular values, also relative to the largest, count as zero."""
 
 
 class OutsideError(Exception):
@@ -33,12 +31,7 @@ class OutsideError(Exception):
 
 
 class Chart:
-    """The solutions of equations near one of them.
-
-    Args:
-        equations: the functions that vanish.
-        x: a solution, shape (unknowns,).
-    """
+    """The solutions near one of them, x of shape (unknowns,)."""
 
     def __init__(self, equations: Equations, x: Array) -> None:
         _, J = equations(x)
@@ -52,7 +45,6 @@ class Chart:
 
     @property
     def dimension(self) -> int:
-        """The number of coordinates."""
         return int(self.tangent.shape[1])
 
     def scale(self, matrix: Array) -> None:
@@ -62,11 +54,7 @@ class Chart:
         self._last = np.zeros(self.dimension), x, self.tangent
 
     def at(self, u: Array) -> Gradient:
-        """The solution over a point, shape (unknowns,), and its derivatives, (unknowns, dimension).
-
-        Raises:
-            OutsideError: Newton's method finds none.
-        """
+        """The solution and its derivatives, of shape (unknowns, dimension), or OutsideError."""
         before, x, slopes = self._last
         x = x + slopes @ (u - before)
         for _ in range(STEPS):

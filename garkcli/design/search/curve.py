@@ -1,5 +1,4 @@
-"""Optima along a curve: an objective for bounds on another one, the front of both, or for values of
-an unknown.
+"""Optima along a curve: an objective for bounds on another one, the front, or values of an unknown.
 
 Each place of the curve is a bound or a value. There the optimiser starts from the optima of random
 starts, and then from the optima of the neighbours, until none improves.
@@ -28,29 +27,21 @@ if TYPE_CHECKING:
     from garkcli.design.search.run import SearchTask
 
 PLACES = 17
-"""Places of a curve, ends included."""
 SEEDS = 4
 """Optima of random starts of each objective from which a place begins."""
 PASSES = 12
-"""Most passes over the neighbours."""
 GAIN = 1e-5
-"""The share of an objective that counts as an improvement."""
+"""Relative size of an improvement of an objective."""
 ALIKE = 1e-8
-"""Numbers that differ by a smaller share are equal up to rounding."""
+"""Numbers with a smaller relative difference are equal up to rounding."""
 WIDE = 20.0
 """The bounds of a front are in geometric progression if its ends differ by a larger factor."""
 INSIDE = 1e-3
-"""The last bound is inside the front by this share: at its end there are only single points."""
+"""The last bound is inside the front by this part: at its end there are only single points."""
 
 
 class Knot(Frozen):
-    """A point of a curve.
-
-    Attributes:
-        across: the first objective, or the value of the unknown.
-        up: the second objective, or the objective.
-        point: values of the unknowns.
-    """
+    """A point of a curve: ``across`` may be the value of an unknown, ``up`` is an objective."""
 
     across: float
     up: float
@@ -58,18 +49,13 @@ class Knot(Frozen):
 
 
 class OptimaCurve(Mutable):
-    """Optima along a curve, as far as known.
+    """Optima along a curve, as far as known, in ascending order of ``across``.
 
     Attributes:
-        across, up: the names of both axes.
-        knots: in ascending order of ``across``.
-        order: of the methods.
-        seed: of the starts.
-        starts: the number of starts so far.
-        successes: the number of them that solve the conditions in floats.
+        across, up: the names of both axes, both objectives for a front.
+        starts, successes: the starts so far, and how many solve the conditions.
         seconds: of the processor.
         ending: the reason why the search ended early.
-        is_front: whether both axes are objectives.
     """
 
     across: str
@@ -85,13 +71,9 @@ class OptimaCurve(Mutable):
 
 
 class CurvePlace(Frozen):
-    """A task: the best method at a place of a curve; None if there is none.
-
-    Attributes:
-        points: values of the unknowns from which the optimiser starts.
-        objective: None for that of the search.
-        cap: another objective and its bound.
-        value: an unknown and its value.
+    """A task: the best method at a place of a curve; None if there is none. The optimiser starts
+    from ``points``; ``objective`` is by default that of the search. ``cap`` is another one and its
+    bound, ``value`` an unknown and its value.
     """
 
     points: tuple[Start, ...]
@@ -118,11 +100,7 @@ def _parts(text: str) -> list[int]:
 
 
 def _single(text: str, search: Search) -> Single:
-    """An objective that may be bounded.
-
-    Raises:
-        UsageProblem: it is a sum.
-    """
+    """Raises UsageProblem for a sum."""
     objective = objective_on(text, search.tableau)
     if isinstance(objective, WeightedSum):
         message = f"--front is of two objectives, and {text} is a sum"
@@ -133,17 +111,8 @@ def _single(text: str, search: Search) -> Single:
 def front(
     search: Search, second: str, starts: int, seed: int, workers: Workers[SearchTask, Timed]
 ) -> Iterator[OptimaCurve]:
-    """The front of two objectives; yields one curve object again and again as it improves.
-
-    Args:
-        search: with the first objective.
-        second: the second objective.
-        starts: the number of random starts.
-        seed: of the starts.
-        workers: run the tasks.
-
-    Raises:
-        UsageProblem: an objective is a sum or not applicable.
+    """The front of two objectives; yields one curve object again and again as it improves. Raises
+    UsageProblem if an objective is a sum or not applicable.
     """
     assert search.text is not None
     one, other = _single(search.text, search), _single(second, search)
@@ -174,18 +143,9 @@ def front(
 def along(
     search: Search, name: str, starts: int, seed: int, workers: Workers[SearchTask, Timed]
 ) -> Iterator[OptimaCurve]:
-    """The optimum for each value of an unknown in its range.
-
-    Args:
-        search: with the objective.
-        name: the unknown.
-        starts: the number of random starts.
-        seed: of the starts.
-        workers: run the tasks.
-
-    Raises:
-        UsageProblem: there is no such unknown, it has no range with two ends, or the objective is
-            not applicable.
+    """The optimum for each value of an unknown in its range; yields as ``front``. Raises
+    UsageProblem if there is no such unknown, it has no range with two ends, or the objective is not
+    applicable.
     """
     assert search.objective is not None
     least, greatest = _range(search, name)
@@ -237,7 +197,6 @@ def _array(x: Optimum) -> Array:
 
 
 def _between(start: float, end: float) -> list[float]:
-    """Bounds from one end of a front to the other."""
     shares = [k / (PLACES - 1) for k in range(PLACES)]
     if start * end > 0 and max(start / end, end / start) > WIDE:
         return [start * (end / start) ** share for share in shares]
@@ -245,9 +204,7 @@ def _between(start: float, end: float) -> list[float]:
 
 
 def _best(knots: Sequence[Knot], across: int, up: int) -> Iterator[Knot]:
-    """The knots that no other one beats in both objectives; a sign is −1 if larger values are
-    better.
-    """
+    """The knots that no other one beats in both; a sign is −1 if larger values are better."""
     ranked = sorted(knots, key=lambda x: (across * x.across, up * x.up))
     least = float("inf")
     chosen: list[Knot] = []
@@ -259,8 +216,6 @@ def _best(knots: Sequence[Knot], across: int, up: int) -> Iterator[Knot]:
 
 
 class _CurveRun:
-    """The work on a curve."""
-
     def __init__(
         self, search: Search, curve: OptimaCurve, workers: Workers[SearchTask, Timed]
     ) -> None:
@@ -277,7 +232,6 @@ class _CurveRun:
     def seek(
         self, starts: int, seed: int, objectives: Sequence[str | None]
     ) -> Iterator[OptimaCurve]:
-        """Finds the best optima of each objective from random starts."""
         every = list(self.search.starts(seed, starts))
         size = max(1, min(self.search.batch, -(-starts // self.workers.size)))
         batches = [Batch(every[k : k + size]) for k in range(0, starts, size)]
@@ -299,7 +253,6 @@ class _CurveRun:
     def passes(
         self, places: Sequence[CurvePlace], seeds: Sequence[Sequence[Optimum]]
     ) -> Iterator[list[Optimum | None]]:
-        """The optima at places, after each pass."""
         best: list[Optimum | None] = [None] * len(places)
         tried = [[x.point for x in some] for some in seeds]
         for _ in range(PASSES):
@@ -324,7 +277,6 @@ class _CurveRun:
 
 
 def _distinct(optima: Sequence[Optimum]) -> list[Optimum]:
-    """The first distinct optima, at most ``SEEDS``."""
     chosen: list[Optimum] = []
     for x in optima:
         if not any(are_same(x.point, other.point) for other in chosen):

@@ -1,5 +1,6 @@
-"""SciPy's sequential quadratic programming (D. Kraft, 1988) on the solutions of equations, in local
-coordinates: every point it evaluates is a solution.
+"""SciPy's sequential quadratic programming (D. Kraft, 1988) on the solutions of equations.
+
+In local coordinates every point it evaluates is a solution.
 """
 
 from __future__ import annotations
@@ -21,30 +22,21 @@ if TYPE_CHECKING:
 STEPS = 30
 """Steps of the optimiser before it restarts, in coordinates around the new point."""
 ROUNDS = 20
-"""Most restarts."""
 REACH = 1.0
-"""The bound on each coordinate in a round."""
 LEAST_REACH = 1e-4
 """The search ends if Newton's method finds no solutions even as near as this."""
 GAIN = 1e-4
-"""The share of the value that a round must gain, or it is the last."""
+"""Relative gain of a round, or it is the last."""
 ACCURACY = 1e-12
 """The change of the value at which a round ends."""
 TINY = 1e-20
-"""Smaller values count as 0."""
 STRETCH = 1e-8
-"""Second derivatives below this share of the largest count as this."""
+"""Second derivatives that are smaller, relative to the largest, count as this."""
 
 
 class TaskValues(Frozen):
-    """The functions of a task at a point.
-
-    Attributes:
-        value: the function to minimise.
-        gradient: its derivatives.
-        signs: functions that must be at least 0.
-        of_signs: their derivatives.
-        found: the value for the unknowns alone; infinite if a sign is violated.
+    """The functions of a task at a point. ``signs`` must be at least 0; ``found`` is the value for
+    the unknowns alone, or infinite.
     """
 
     value: float
@@ -55,11 +47,8 @@ class TaskValues(Frozen):
 
 
 class OptimiserTask(ABC):
-    """A function to minimise on the solutions of equations, under inequalities.
-
-    Attributes:
-        levels: the number of further variables, all at least 0.
-        enough: the optimiser stops at this value.
+    """A function to minimise on the solutions of equations, under inequalities. There are
+    ``levels`` further variables ≥ 0; the optimiser stops at the value ``enough``.
     """
 
     levels = 0
@@ -67,7 +56,7 @@ class OptimiserTask(ABC):
 
     @abstractmethod
     def at(self, z: Array) -> TaskValues:
-        """The task at a point: the unknowns, then the further variables."""
+        """At a point of the unknowns, then of the further variables."""
 
     @abstractmethod
     def value(self, x: Array) -> float:
@@ -87,13 +76,7 @@ class OptimiserTask(ABC):
 
 
 def descended(task: OptimiserTask, equations: Equations, x: Array) -> Array:
-    """The best solution found from x.
-
-    Args:
-        task: the function to minimise and its inequalities.
-        equations: of the solutions.
-        x: a solution.
-    """
+    """The best solution found from the solution x."""
     reach, value = REACH, task.value(x)
     for _ in range(ROUNDS):
         if value <= task.enough:

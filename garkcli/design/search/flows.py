@@ -1,9 +1,9 @@
-"""Order conditions of compositions of flows: as many as a free Lie algebra has dimensions, where
-trees give more.
+"""Order conditions of compositions of flows: as many as a free Lie algebra has dimensions.
 
-A symplectic diagonally implicit method is a composition of implicit midpoint rules, the flows of
-b A₁ + b³ A₃ + b⁵ A₅ + … with fields A_n that the problem determines and b the substep times h; a
-splitting method is one of flows of its parts. The composition is a series of words of fields,
+Trees give more. A symplectic diagonally implicit method is a composition of implicit midpoint
+rules, the flows of b A₁ + b³ A₃ + b⁵ A₅ + … with fields A_n that the problem determines and b the
+substep times h; a splitting method is one of flows of its parts. The composition is a series of
+words of fields,
 
     Σ c_w A_{w_1} ⋯ A_{w_r},   of one flow c_w = b^{|w|}/r!,   |w| the sum of the letters' orders.
 
@@ -31,24 +31,14 @@ Word = tuple[int, ...]
 
 
 class ExactFlow(Frozen):
-    """The flow of Σ length^{order of n} A_n over the letters n.
-
-    Attributes:
-        letters: of its fields.
-        length: of its substep, in steps.
-    """
+    """The flow of Σ length^{order of n} A_n over the letters n, of a length in steps."""
 
     letters: range
     length: Number
 
 
 class FlowProduct(Frozen):
-    """A composition of flows.
-
-    Attributes:
-        flows: in the order of their substeps.
-        orders: of the letters: field A_n comes with the power orders[n] of a length.
-    """
+    """A composition of flows; field A_n comes with the power orders[n] of a length."""
 
     flows: tuple[ExactFlow, ...]
     orders: tuple[int, ...]
@@ -89,10 +79,8 @@ class FlowProduct(Frozen):
 
 
 def lyndon_words(orders: Sequence[int], most: int) -> Iterator[Word]:
-    """Words that are smaller than their proper suffixes, of letters 0, 1, … with these orders, up
-    to an order.
-
-    K. Cattell, F. Ruskey, J. Sawada, M. Serra, C. Miers, *Fast algorithms to generate necklaces,
+    """Words that are smaller than their proper suffixes, of letters 0, 1, … with given orders. K.
+    Cattell, F. Ruskey, J. Sawada, M. Serra, C. Miers, *Fast algorithms to generate necklaces,
     unlabeled necklaces, and irreducible polynomials over GF(2)*, Journal of Algorithms 37, 2000.
     """
 
@@ -109,12 +97,7 @@ def lyndon_words(orders: Sequence[int], most: int) -> Iterator[Word]:
 
 
 def flows_of(tableau: Tableau, order: int) -> FlowProduct | None:
-    """The flows that a method composes; None if they are not seen.
-
-    Args:
-        tableau: of a method or a family.
-        order: of the conditions: fields above it do not matter.
-    """
+    """The flows that a method composes, with fields up to an order; None if they are not seen."""
     colours = tableau.colours
     if any(x.late or x.kind != VertexKind() or x.space != l for l, x in enumerate(colours)):
         return None

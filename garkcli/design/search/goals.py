@@ -50,32 +50,22 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 SAMPLES = 40
-"""Points of an interval at which a stability function is compared with 1."""
 FINE = 16
 """Pieces between two of these, to see the minima between them."""
 INNER = 3e-8
-"""The least distance of a stability function from 1 for the optimiser, so that rounding keeps it
-below 1.
-"""
+"""Distance of a stability function from 1 for the optimiser: rounding keeps it below 1."""
 HEAVIEST = 1e5
-"""The largest weight of a point near 0, so that rounding does not violate inequalities."""
+"""Largest weight of a point near 0, so that rounding does not violate inequalities."""
 EXACT = 1e8
-"""The largest weight of a point from which a value at 0 is extrapolated: rounding grows with it."""
+"""Largest weight of a point from which a value at 0 is extrapolated: rounding grows with it."""
 NOTHING = 1e-10
-"""Smaller coefficients count as zero."""
 TINY = 1e-20
-"""A lower bound for norms in denominators."""
 FAR = 1.5
 """Points of a half line are (1/t - 1)^FAR with t between 0 and 1."""
 
 
 class TreeConditions:
-    """The order conditions at one point, remembered until the next point: an optimiser asks for
-    values and gradients separately.
-
-    Args:
-        conditions: of all trees up to some order.
-    """
+    """All order conditions at a point are remembered: values and gradients are asked separately."""
 
     def __init__(self, conditions: Residuals) -> None:
         self.table = conditions.table
@@ -83,7 +73,6 @@ class TreeConditions:
 
 
 def kept(function: Callable[[Array], T]) -> Callable[[Array], T]:
-    """A function that remembers its last value."""
     last: dict[bytes, T] = {}
 
     def at(x: Array) -> T:
@@ -98,35 +87,21 @@ def kept(function: Callable[[Array], T]) -> Callable[[Array], T]:
 
 
 class Smooth(Frozen):
-    """A function of the unknowns to minimise.
-
-    Attributes:
-        at: its value and its gradient, shape (unknowns,), at a point, shape (unknowns,).
-        parts: the squared terms with derivatives, if it is a sum of squares.
-    """
+    """A function to minimise, with its gradient; ``parts`` are the terms of a sum of squares."""
 
     at: Callable[[Array], tuple[float, Array]]
     parts: Callable[[Array], Gradient] | None = None
 
 
 class Reach(Frozen):
-    """A level to maximise.
-
-    Attributes:
-        at: the inequalities at a point of the unknowns, with y as the last one.
-        margin: a lower bound on them for the optimiser.
-    """
+    """A level y to maximise, the last unknown; ``margin`` bounds inequalities for the optimiser."""
 
     at: Callable[[Array], Gradient]
     margin: float = 0.0
 
 
 class Bound(Frozen):
-    """Functions whose largest absolute value is to minimise.
-
-    Attributes:
-        at: the functions at a point.
-    """
+    """Functions whose largest absolute value is to minimise."""
 
     at: Callable[[Array], Gradient]
 
@@ -135,13 +110,7 @@ Goal: TypeAlias = Smooth | Reach | Bound
 
 
 class Setting:
-    """Methods, with their errors in floats.
-
-    Args:
-        subject: the methods.
-        ring: the unknowns.
-        trees: the conditions of the methods up to the next order.
-    """
+    """Methods, with their errors in floats and their conditions up to the next order."""
 
     def __init__(self, subject: ObjectiveSubject, ring: Parameters, trees: TreeConditions) -> None:
         self.subject = subject
@@ -152,13 +121,8 @@ class Setting:
         self._further: dict[tuple[bool, int], TreeConditions] = {(False, subject.order + 1): trees}
 
     def errors(self, above: int, is_embedded: bool = False, is_coupling: bool = False) -> Errors:
-        """e(u) of all trees of an order.
-
-        Args:
-            above: the order minus that of the embedded weights, or minus that of the methods for
-                their own errors at 1.
-            is_embedded: whether the errors are of the embedded weights.
-            is_coupling: whether to omit trees of one colour.
+        """The errors e(u) of all trees of an order. It is ``above`` that of the embedded weights,
+        or, for their own errors at 1, of the methods.
         """
         tableau, order = self.tableau, self.order
         if is_embedded or above > 1:
@@ -170,15 +134,11 @@ class Setting:
         return errors_of(self._further[key], order + above, is_coupling)
 
     def functions(self, numbers: Iterable[object]) -> Functions:
-        """The distinct numbers that depend on the unknowns."""
         distinct = {x for x in numbers if isinstance(x, Parametric)}
         functions = [RationalFunction(x, self.ring) for x in distinct]
         return Functions(functions, len(self.ring.names))
 
     def sizes(self, numbers: Iterable[object]) -> Bound:
-        """The numbers whose largest absolute value is to minimise; one number stands for all
-        constants.
-        """
         import numpy as np
 
         every = list(numbers)
@@ -194,11 +154,7 @@ class Setting:
 
 
 def goal_of(objective: Single, setting: Setting) -> Goal:
-    """An objective in floats.
-
-    Raises:
-        UsageProblem: it is not applicable.
-    """
+    """Raises UsageProblem if it is not applicable."""
     if objective.key in GOALS:
         return GOALS[objective.key](setting)
     assert isinstance(objective, Objective)
@@ -209,7 +165,7 @@ def goal_of(objective: Single, setting: Setting) -> Goal:
 
 
 def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
-    """The terms of a sum, or a single objective; weights of levels are negative."""
+    """Weights of levels are negative."""
     if isinstance(wanted, WeightedSum):
         return list(wanted.terms)
     one = wanted.meant(tableau) if isinstance(wanted, Either) else wanted
@@ -217,7 +173,6 @@ def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
 
 
 def levels_of(family: Family) -> list[tuple[LevelObjective, fmpq]]:
-    """The wanted levels of a family, with their bounds."""
     levels = [(OBJECTIVES[key], bound) for key, bound in family.levels]
     return [(x, bound) for x, bound in levels if isinstance(x, LevelObjective)]
 
@@ -244,13 +199,7 @@ Errors: TypeAlias = "Callable[[Array], Gradient]"
 
 
 def errors_of(trees: TreeConditions, order: int, is_coupling: bool = False) -> Errors:
-    """The errors of the trees of an order.
-
-    Args:
-        trees: the conditions up to at least that order.
-        order: of the trees.
-        is_coupling: whether to omit trees of one colour.
-    """
+    """The errors of the trees of an order, or of those with several colours."""
     import numpy as np
 
     table = trees.table
@@ -279,7 +228,6 @@ def squared(parts: Errors) -> Smooth:
 
 
 def quotient_of_norms(numerator: Errors, denominator: Errors | None = None) -> Smooth:
-    """The 2-norm of some errors over that of others."""
     import numpy as np
 
     def parts(x: Array) -> Gradient:
@@ -300,8 +248,6 @@ def quotient_of_norms(numerator: Errors, denominator: Errors | None = None) -> S
 
 
 def difference(one: Errors, other: Errors) -> Errors:
-    """The errors of one method minus those of another."""
-
     def at(x: Array) -> Gradient:
         (e, of_e), (d, of_d) = one(x), other(x)
         return e - d, of_e - of_d
@@ -315,7 +261,6 @@ def _coupling(setting: Setting) -> Goal:
 
 
 def _nonzero(setting: Setting) -> Goal:
-    """The number of nonzero coefficients, a function without slope."""
     import numpy as np
 
     counts = Counter(coefficients_of(setting.tableau))
@@ -332,7 +277,6 @@ def _nonzero(setting: Setting) -> Goal:
 
 
 def entries_of(tableau: Tableau, ring: Parameters) -> list[RationalFunction]:
-    """The distinct coefficients that depend on the unknowns."""
     unknown = (x for x in coefficients_of(tableau) if isinstance(x, Parametric))
     return [RationalFunction(x, ring) for x in dict.fromkeys(unknown)]
 
@@ -375,7 +319,7 @@ GOALS: dict[str, Callable[[Setting], Goal]] = {
     "infinity": lambda x: _at_infinity(x, x.tableau, "infinity"),
     "embedded-infinity": lambda x: _at_infinity(x, x.subject.embedded[0], "embedded-infinity"),
 }
-"""Objectives in floats; for others the exact formula is evaluated."""
+"""Without an entry the exact formula is evaluated."""
 
 
 def _matrix(rows: Matrix, ring: Parameters) -> Entries:
@@ -383,9 +327,7 @@ def _matrix(rows: Matrix, ring: Parameters) -> Entries:
 
 
 class _Contractive:
-    """The conditions of absolute monotonicity (``garkcli.stability.ssp``): with M = (I + rK)⁻¹, M
-    K_l ≥ 0 for each colour and M 𝟙 ≥ 0.
-    """
+    """With M = (I + rK)⁻¹, M K_l ≥ 0 for each colour and M 𝟙 ≥ 0 (``garkcli.stability.ssp``)."""
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
         import numpy as np
@@ -422,7 +364,6 @@ class _Contractive:
 
 
 def _pattern(rows: Matrix) -> Array:
-    """The pattern of nonzero entries of a matrix, as 0 and 1."""
     import numpy as np
 
     return np.array([[float(bool(x)) for x in row] for row in rows])
@@ -438,12 +379,7 @@ class _Step:
         self.E = _matrix(system.E, ring)
 
     def at(self, x: Array, z: Array) -> tuple[Array, Array, Array]:
-        """M and its derivatives in the unknowns and in z.
-
-        Args:
-            x: shape (unknowns,).
-            z: shape (points,).
-        """
+        """M and its derivatives in the unknowns and in z, at points z."""
         import numpy as np
 
         every = self.W.at(x), self.B.at(x), self.E.at(x)
@@ -458,7 +394,6 @@ class _Step:
         return M, slopes, by_z
 
     def values(self, x: Array, z: Array) -> Array:
-        """M alone."""
         import numpy as np
 
         W, B, E = (m.at(x)[0] for m in (self.W, self.B, self.E))
@@ -484,9 +419,7 @@ class _Bounded:
         return near
 
     def over(self, x: Array, length: float, points: Array, weight: Array | None = None) -> Gradient:
-        """The inequalities at multiples of a length, with derivatives in the unknowns and the
-        length.
-        """
+        """At multiples of a length, with derivatives in the unknowns and the length."""
         import numpy as np
 
         z = self.direction * length * points
@@ -499,9 +432,7 @@ class _Bounded:
 
 
 class _OnInterval(_Bounded):
-    """|R| ≤ 1 on an interval from 0, whose length is the last unknown: at its points, the minima of
-    the inequality among them, and at 0.
-    """
+    """|R| ≤ 1 at points of [0, length], minima among them, and 0; length is the last unknown."""
 
     def __init__(self, tableau: Tableau, ring: Parameters, direction: complex, order: int) -> None:
         import numpy as np
@@ -537,9 +468,7 @@ class _OnInterval(_Bounded):
         return values, slopes
 
     def _least(self, x: Array, length: float) -> Array:
-        """The ends of the pieces; in place of an end the minimum within its piece, by a parabola
-        through three neighbours.
-        """
+        """Ends of pieces, or the minimum within by a parabola through three neighbours."""
         import numpy as np
 
         R = self.step.values(x, self.direction * length * self.grid)[:, 0, 0]
@@ -554,13 +483,7 @@ class _OnInterval(_Bounded):
 
 
 class AStable:
-    """|R(iy)| ≤ 1 at points of the whole imaginary axis.
-
-    Args:
-        family: on linear problems.
-        colour: the colour with λ ≠ 0, counted from 0; None for all.
-        order: of the methods.
-    """
+    """|R(iy)| ≤ 1 on the imaginary axis, λ ≠ 0 for one colour, or all if None."""
 
     def __init__(self, family: Family, colour: int | None, order: int) -> None:
         tableau = family.tableau
@@ -570,15 +493,12 @@ class AStable:
         self._points = whole_axis()
 
     def at(self, x: Array) -> Gradient:
-        """The inequalities and their derivatives in the unknowns."""
         values, derivatives = self._bounded.over(x, 1.0, self._points)
         return values, derivatives[:, :-1]
 
 
 class _Rays:
-    """|R| ≤ 1 at points of the edges of a sector; its angle in degrees, at most 90, is the last
-    unknown.
-    """
+    """|R| ≤ 1 at the edges of a sector; its angle in degrees ≤ 90 is the last unknown."""
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
         refuse_partitioned(tableau)
@@ -606,7 +526,6 @@ class _Rays:
 
 
 def whole_axis() -> Array:
-    """Points of a half line from 0 to ∞."""
     import numpy as np
 
     t = np.arange(1, SAMPLES + 1) / (SAMPLES + 1)
@@ -615,8 +534,8 @@ def whole_axis() -> Array:
 
 
 class _Oscillating:
-    """Bounded powers of the step on the oscillator: det M ≤ 1 and |tr M| ≤ 1 + det M at points of
-    an interval of hω from 0, whose length is the last unknown.
+    """Bounded powers of the step on the oscillator: det M ≤ 1 and |tr M| ≤ 1 + det M. They hold at
+    points of an interval of hω from 0, whose length is the last unknown.
     """
 
     def __init__(self, tableau: Tableau, ring: Parameters, order: int) -> None:

@@ -6,8 +6,8 @@ Each start has its own damping. The step of a system r with Jacobian J is
 
 by Cholesky's method on the smaller of both matrices. λ is proportional to |r|, which keeps the
 convergence quadratic also where solutions are not isolated (J. Fan, Y. Yuan, Computing 74, 2005).
-What happens to a start depends on nothing but the start: not on the others, and by
-``garkcli.design.search.rational`` not on the machine.
+What happens to a start depends neither on the others nor, by ``garkcli.design.search.rational``, on
+the machine.
 """
 
 from __future__ import annotations
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     System = Callable[[Array], tuple[Array, Array]]
 
 MAX_STEPS = 300
-"""Most steps of a start."""
 SMALL = 1e-13
 """Residuals that are nothing but rounding."""
 LARGE = 40.0
@@ -36,12 +35,7 @@ PATIENCE = 35
 
 
 class Minima(Frozen):
-    """The ends of the starts.
-
-    Attributes:
-        points: shape (unknowns, starts).
-        succeeded: whether each solves the system up to rounding.
-    """
+    """Ends of starts, shape (unknowns, starts), and whether each solves the system in floats."""
 
     points: Array
     succeeded: Array
@@ -54,15 +48,11 @@ def least_squares(
     small: float = SMALL,
     are_kept: bool = False,
 ) -> Minima:
-    """Solves a system from every start.
+    """Solves a system from every start, of shape (unknowns, starts).
 
-    Args:
-        system: residuals (conditions, points) and derivatives (conditions, unknowns, points).
-        starts: shape (unknowns, starts).
-        steps: most steps of a start.
-        small: a start succeeds when no residual is larger.
-        are_kept: whether the system depends on the places of the points, so that none may be
-            dropped when it has ended.
+    Residuals have the shape (conditions, points), derivatives (conditions, unknowns, points). A
+    start succeeds if no residual is larger than ``small``. No point is dropped if the system
+    depends on their places (``are_kept``).
     """
     import numpy as np
 
@@ -93,8 +83,6 @@ def least_squares(
 
 
 class _Starts:
-    """The starts that are still active."""
-
     def __init__(self, system: System, starts: Array) -> None:
         import numpy as np
 
@@ -114,7 +102,6 @@ class _Starts:
         return largest
 
     def is_promising(self) -> Array:
-        """Whether each start still improves and stays bounded."""
         np = self.np
         self.age += 1
         fell = self.squares < 0.5 * self.mark
@@ -126,14 +113,12 @@ class _Starts:
         return promising
 
     def keep(self, stays: Array) -> None:
-        """Drops the other starts."""
         for name in ("x", "residuals", "jacobians"):
             setattr(self, name, self.np.ascontiguousarray(getattr(self, name)[..., stays]))
         for name in ("squares", "largest", "damping", "age", "mark"):
             setattr(self, name, getattr(self, name)[stays])
 
     def step(self) -> None:
-        """Makes one step of each start, accepted if it decreases the residuals."""
         np = self.np
         amount = self.damping * np.sqrt(self.squares)
         change = damped_step(self.residuals, self.jacobians, amount)
@@ -157,9 +142,7 @@ class _Starts:
 
 
 def _sum_of_squares(rows: Array) -> Array:
-    """Sums squares over the first axis row by row: another order of summation may round
-    differently.
-    """
+    # another order of summation may round differently
     total: Array = rows[0] * rows[0]
     for row in rows[1:]:
         total = total + row * row
@@ -201,9 +184,7 @@ def _gram(jacobians: Array, axis: int) -> Array:
 
 
 def _solve(matrices: Array, damping: Array, right: Array) -> Array:
-    """(M + λ I)⁻¹ r for each point by Cholesky's method; only the lower half of M is read, and M is
-    overwritten.
-    """
+    """(M + λ I)⁻¹ r for each point by Cholesky's method; the lower half of M is overwritten."""
     import numpy as np
 
     size = len(right)

@@ -19,21 +19,12 @@ from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Tableau
 
 BITS = 64
-"""Bits of coefficients that begin a search."""
 
 
 def nearest_member(family: Family, method: Tableau, further: Further) -> list[float]:
-    """Returns values of the unknowns at which the sum of squares of all differences to the
-    coefficients of a method has a local minimum, found from 1/2 for each: zero, where the method is
-    a member.
-
-    Args:
-        family: of methods.
-        method: a tableau with as many colours and stages.
-        further: its embedded weights, which count where the family has some too.
-
-    Raises:
-        UsageProblem: the tableaus have other sizes.
+    """A local minimum of the sum of squared differences to a method, from 1/2 for each unknown. It
+    is zero at members; embedded weights count if both have some. Raises UsageProblem if sizes
+    differ.
     """
     import numpy as np
 
@@ -60,7 +51,6 @@ def _shape(tableau: Tableau) -> list[int]:
 
 
 def _pairs(family: Tableau, method: Tableau) -> Iterator[tuple[Number, Number]]:
-    """Entries of a family and those of a method at their places."""
     entries = numeric_entries(method).A
     for l, row in enumerate(entries):
         for m, given in enumerate(row):

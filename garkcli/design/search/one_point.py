@@ -1,5 +1,6 @@
-"""Rational functions and residuals at one point in floats, with derivatives, for an optimiser: by
-products of arrays, whose last bits depend on the machine.
+"""Rational functions and residuals at one point in floats, with derivatives, for an optimiser.
+
+They are products of arrays, whose last bits depend on the machine.
 """
 
 from __future__ import annotations
@@ -20,13 +21,7 @@ if TYPE_CHECKING:
 
 
 class Functions:
-    """Rational functions of the same unknowns at one point in floats: each monomial is computed
-    once. The order of summation depends on the machine.
-
-    Args:
-        functions: quotients P/Q.
-        unknowns: their number.
-    """
+    """Each monomial is computed once; the order of summation depends on the machine."""
 
     def __init__(self, functions: Sequence[RationalFunction], unknowns: int) -> None:
         self.shape = len(functions), unknowns
@@ -63,11 +58,7 @@ class Functions:
         self._factors = np.array(padded, int).reshape(len(padded), degree)
 
     def at(self, point: Array) -> tuple[Array, Array]:
-        """Values, shape (functions,), and derivatives, (functions, unknowns).
-
-        Args:
-            point: shape (unknowns,).
-        """
+        """Values, shape (functions,), and derivatives, (functions, unknowns)."""
         values, gradients = np.zeros(self.shape[0]), np.zeros(self.shape)
         if not len(self._first):
             return values, gradients
@@ -89,13 +80,6 @@ class Functions:
 
 
 class Matrix:
-    """A matrix of rational functions.
-
-    Args:
-        rows: of the functions.
-        unknowns: their number.
-    """
-
     def __init__(self, rows: Sequence[Sequence[RationalFunction]], unknowns: int) -> None:
         self.shape = len(rows), len(rows[0]) if rows else 0
         places = [(i, j) for i, row in enumerate(rows) for j, x in enumerate(row) if not x.is_zero]
@@ -104,7 +88,7 @@ class Matrix:
         self._functions = Functions([rows[i][j] for i, j in places], unknowns)
 
     def at(self, point: Array) -> Array:
-        """The matrix and its derivatives in each unknown, shape (1 + unknowns, rows, columns)."""
+        """With derivatives in each unknown, shape (1 + unknowns, rows, columns)."""
         values, gradients = self._functions.at(point)
         matrix = np.zeros((1 + gradients.shape[1], *self.shape))
         matrix[0, self._rows, self._columns] = values
@@ -133,11 +117,9 @@ class ConditionsOfFamily(Protocol):
 
 
 class Recorded(StageVectors[int]):
-    """The conditions of a family: the steps that compute the stage vectors of its trees, recorded
-    once. Numbers of steps stand for vectors.
-
-    The vectors of some trees have the shape (trees, 1 + unknowns, stages): their values and
-    derivatives, to which matrices are applied together.
+    """The steps that compute the stage vectors of all trees, recorded once, by their numbers.
+    Vectors of trees have the shape (trees, 1 + unknowns, stages): values and derivatives, to which
+    matrices are applied together.
     """
 
     def __init__(self, system: ConditionsOfFamily) -> None:
@@ -160,11 +142,7 @@ class Recorded(StageVectors[int]):
         self._closing = [(root, ids, number) for root, ids, number in self.everything(system.table)]
 
     def at(self, point: Array) -> tuple[Array, Array]:
-        """Values, shape (conditions,), and derivatives, (conditions, unknowns).
-
-        Args:
-            point: shape (unknowns,).
-        """
+        """Values, shape (conditions,), and derivatives, (conditions, unknowns)."""
         check_time()
         self._applied = {key: block.at(point) for key, block in self._blocks.items()}
         weights = [row.at(point) for row in self._weights]
@@ -205,7 +183,6 @@ class Recorded(StageVectors[int]):
 
 
 def _applied(matrix: Array, vectors: Array) -> Array:
-    """A matrix times vectors, with derivatives."""
     transposed = matrix.transpose(0, 2, 1)
     images: Array = vectors @ transposed[0]
     images[:, 1:] += (vectors[:, 0] @ transposed[1:]).transpose(1, 0, 2)
@@ -213,7 +190,6 @@ def _applied(matrix: Array, vectors: Array) -> Array:
 
 
 def _multiplied(u: Array, v: Array, powers: Array | None) -> Array:
-    """The products of vectors, with derivatives."""
     if powers is None:
         product: Array = u * v[:, :1]
         other = u[:, :1] * v

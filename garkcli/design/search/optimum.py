@@ -1,6 +1,4 @@
-"""The best method near a solution: SciPy's sequential quadratic programming (D. Kraft, 1988) on the
-order conditions, with an objective and inequalities; then short numbers that cost hardly anything.
-"""
+"""The best method near a solution, by sequential quadratic programming; then short numbers."""
 
 from __future__ import annotations
 
@@ -52,15 +50,12 @@ if TYPE_CHECKING:
 ROUNDING = 1e-17
 """Sums of squares below this may be zero."""
 LARGEST = 20.0
-"""Bound on the unknowns."""
 MARGIN = 1e-6
-"""Lower bound on positive functions."""
 CLOSE = 1e-12
-"""Residuals of a method in floats."""
 SLACK = 1e-7
-"""Share of the objective that short numbers may cost."""
+"""Relative cost of short numbers in the objective."""
 LITTLE = 1e-6
-"""Share of the objective that a restart of the optimiser must gain."""
+"""Relative gain in the objective for a restart of the optimiser."""
 REPEATED = 30
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20, 24, 25, 30, 40, 50, 100, 200, 500)
 FINE = tuple(10**k for k in range(3, 13))
@@ -68,12 +63,7 @@ FINE = tuple(10**k for k in range(3, 13))
 
 
 class Optimum(Frozen):
-    """A method in floats at a local minimum of an objective.
-
-    Attributes:
-        value: of the objective; minus the level for a level.
-        point: values of the unknowns.
-    """
+    """A method in floats at a local minimum of an objective, which is minus a level."""
 
     value: float
     point: tuple[float, ...]
@@ -84,20 +74,13 @@ class Optimum(Frozen):
         return float(f"{self.value:.6e}")
 
     def is_less(self, other: Optimum, part: float = 0.0) -> bool:
-        """Whether the objective is less than at another method by more than a share of it."""
+        """Whether the objective is less than at another method by more than a part of it."""
         return self.value < other.value - part * abs(other.value)
 
 
 class Optimisation:
-    """Minimises an objective over the methods of a family with an order.
-
-    Args:
-        family: with ranges, signs and kinds of stability.
-        conditions: of the order.
-        objective: one of ``OBJECTIVES``.
-
-    Raises:
-        UsageProblem: SciPy is not installed, or the objective is not applicable.
+    """Minimises an objective over the methods of a family with an order. Raises UsageProblem if
+    SciPy is not installed, or the objective is not applicable.
     """
 
     def __init__(
@@ -155,12 +138,7 @@ class Optimisation:
     def aimed(
         self, objective: Single | WeightedSum, cap: tuple[Single, float] | None = None
     ) -> Optimisation:
-        """The minimisation of another objective.
-
-        Args:
-            objective: the new one.
-            cap: an objective with its bound, which is a lower one for levels.
-        """
+        """For another objective; ``cap`` is one with its bound, which is a lower one for levels."""
         other = copy(self)
         if cap is not None:
             one, bound = cap
@@ -200,12 +178,7 @@ class Optimisation:
         return np.concatenate(values), np.concatenate(derivatives)
 
     def improved(self, start: Sequence[float], fixed: Sequence[Fixed] = ()) -> Optimum | None:
-        """The best method near a solution; None if no method near it meets the wants.
-
-        Args:
-            start: values of the unknowns, a solution of the conditions.
-            fixed: functions with given values.
-        """
+        """The best method near a solution ``start``; None if no method near it meets the wants."""
         import numpy as np
 
         with np.errstate(all="ignore"):
@@ -233,9 +206,7 @@ class Optimisation:
         return best
 
     def _emptied(self, best: Optimum) -> Optimum:
-        """A method nearby with as many zero coefficients as possible, the smallest coefficients
-        first.
-        """
+        """A method nearby with as many zero coefficients as possible, the smallest ones first."""
         zeros = self._zeros(best)
         found: Optimum | None = best
         while found is not None:
@@ -260,12 +231,11 @@ class Optimisation:
         return [f for x, f in sorted(pairs, key=lambda pair: pair[0]) if x > NOTHING]
 
     def _zeros(self, at: Optimum) -> list[Fixed]:
-        """Conditions that keep zero coefficients zero."""
+        # keeps zero coefficients zero
         others = self._by_size(at)
         return [Fixed(f, fmpq(0)) for f in self._entries if f not in others]
 
     def within(self, x: Array) -> Gradient:
-        """The signs, and bounds on the unknowns."""
         import numpy as np
 
         values, slopes = self.signs(x)
@@ -294,22 +264,15 @@ class Optimisation:
         return Optimum(value, tuple(map(float, x))) if np.isfinite(value) else None
 
     def level(self, place: int, x: Array) -> float:
-        """The level at a place among the objectives of a sum."""
         return self.total.at_places[place].of(x)
 
     def is_none(self, optimum: Optimum) -> bool:
-        """Whether the objective is zero up to rounding."""
         return 0 <= optimum.value < self._rounding
 
     def shortened(
         self, best: Optimum, wanted: Sequence[RationalFunction]
     ) -> tuple[Fixings, Optimum]:
-        """Gives short values to as many functions as the solutions leave free, at little cost.
-
-        Args:
-            best: an optimum.
-            wanted: functions that should be short, in this order.
-        """
+        """Gives short values to as many functions as the solutions leave free, at little cost."""
         import numpy as np
 
         fixed = self._zeros(best)
@@ -342,7 +305,6 @@ class Optimisation:
         return len(rank(jacobian))
 
     def moved(self, near: Sequence[float], fixed: Sequence[Fixed] = ()) -> Optimum | None:
-        """The best method with given values near a point."""
         import numpy as np
 
         system = Fixings(self.conditions, fixed)

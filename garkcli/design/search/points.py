@@ -1,7 +1,7 @@
-"""Points that solve a system: their freedom, Newton's method to any number of digits, and proofs
-that a solution exists, by Krawczyk's test in ball arithmetic.
+"""Points that solve a system: their freedom, Newton's method to any number of digits, and proofs.
 
-For a square system F, a point m, a matrix Y near F'(m)⁻¹ and a box X around m:
+Krawczyk's test in ball arithmetic proves that a solution exists. For a square system F, a point m,
+a matrix Y near F'(m)⁻¹ and a box X around m:
 
     K(X) = m − Y F(m) + (I − Y F'(X)) (X − m).
 
@@ -26,31 +26,19 @@ if TYPE_CHECKING:
 
 
 RANK = 1e-7
-"""Pivots smaller than this, times the largest, count as rounding."""
+"""Smaller pivots, relative to the largest, count as rounding."""
 FIRST_BITS = 106
 
 
 class Fixed(Frozen):
-    """A function of the unknowns with a given value.
-
-    Attributes:
-        function: an unknown, or a node.
-        value: a short rational number.
-    """
+    """A function of the unknowns, such as a node, with a short rational value."""
 
     function: RationalFunction
     value: fmpq
 
 
 class Fixings:
-    """The conditions of a family, with given values for some functions.
-
-    Args:
-        conditions: of a family, or any equations.
-        fixed: functions with their values.
-        trials: values of one more function, one for each point.
-        function: that function.
-    """
+    """Equations, with given values for some functions, and for one more by points (``trials``)."""
 
     def __init__(
         self,
@@ -88,12 +76,7 @@ class Fixings:
 
 
 class Rank(Frozen):
-    """Rows and columns of a largest submatrix with a nonzero determinant.
-
-    Attributes:
-        rows: indices, in the order of elimination.
-        columns: indices.
-    """
+    """Rows and columns of a largest submatrix with a nonzero determinant."""
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
@@ -103,11 +86,8 @@ class Rank(Frozen):
 
 
 def rank(matrix: Array, grain: float = RANK) -> Rank:
-    """The rank up to rounding, by elimination with the largest entry as pivot.
-
-    Args:
-        matrix: of floats.
-        grain: pivots below this times the largest entry, or below this, count as zero.
+    """The rank up to rounding, by elimination with the largest entry as pivot. Pivots below
+    ``grain``, also relative to the largest entry, count as zero.
     """
     import numpy as np
 
@@ -139,10 +119,9 @@ def balls(point: Sequence[Any]) -> Array:
 
 
 def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None:
-    """A solution near a point to many bits, a column of balls without radius.
-
-    Newton's method on as many equations and unknowns as the rank; the other unknowns stay. None if
-    the other equations fail at the end: then no solution is near, or a degenerate one.
+    """A solution near a point to many bits, a column of balls without radius. Newton's method on as
+    many equations and unknowns as the rank; the other unknowns stay. None if the other equations
+    fail at the end: then no solution is near, or a degenerate one.
     """
     import numpy as np
 
@@ -193,7 +172,6 @@ def _newton(system: Fixings, x: Array, chosen: Rank) -> bool:
 
 
 def largest_residual(system: Fixings, x: Array) -> arb:
-    """A bound on all residuals."""
     residuals, _ = system.at(x)
     largest = arb(0)
     for value in residuals[:, 0]:
@@ -206,14 +184,9 @@ def largest_residual(system: Fixings, x: Array) -> arb:
 def is_proved(
     system: Fixings, point: Array, bits: int, nonzero: Sequence[RationalFunction] = ()
 ) -> bool:
-    """Whether there is a solution of all equations within 2^(−bits/2) of a point.
-
-    Args:
-        system: as many equations as unknowns; otherwise the answer is False, since a solution of
-            some equations proves nothing about the others.
-        point: a column of balls without radius.
-        bits: of the arithmetic.
-        nonzero: functions that must not vanish at the solution.
+    """Whether all equations have a solution within 2^(−bits/2) of ``point``, balls without radius.
+    False for other than square systems, since a solution of some equations proves nothing about the
+    others, or if one of ``nonzero`` may vanish.
     """
     check_time()
     with ctx.workprec(bits):

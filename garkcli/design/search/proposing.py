@@ -16,28 +16,19 @@ from garkcli.frozen import Frozen
 from garkcli.order.tolerance import rounded_up
 
 FEWEST_DIGITS = 6
-"""Decimals with fewer digits are exact already."""
 LAST_PLACES = 2
-"""Units of the last place by which a number may differ from its digits."""
 BITS_A_DIGIT = 3.3
 """Bits of a decimal digit, rounded down."""
 MAX_DEGREE = 4
-"""Largest degree of a proposed root."""
 PRECISION = 4_000
-"""Precision of the comparison of exact forms with decimals; no decimal has so many bits."""
+"""Precision of comparisons with decimals, none of which has so many bits."""
 MAX_DIGITS = 1_000
 """Longer decimals are left unchanged."""
 _DECIMAL = re.compile(r"-?[0-9]*\.[0-9]*(?:e[-+]?[0-9]{1,3})?")
 
 
 class Proposal(Frozen):
-    """An exact form of a decimal.
-
-    Attributes:
-        printed: the decimal.
-        exact: the exact form as text of a coefficient.
-        distance: the difference, as a decimal, rounded up.
-    """
+    """An exact form of a decimal, as text, and their distance as a decimal, rounded up."""
 
     printed: str
     exact: str
@@ -66,13 +57,7 @@ def proposed(text: str) -> Proposal | None:
 
 
 def exact_form(value: fmpq, digits: int, text: str) -> tuple[str, arb | fmpq] | None:
-    """The shortest exact number that agrees with digits: its text, and the number.
-
-    Args:
-        value: of the digits.
-        digits: the number of correct digits.
-        text: a decimal that identifies the root of a polynomial.
-    """
+    """The shortest exact number with these correct digits; ``text`` identifies a root."""
     bits = int(digits * BITS_A_DIGIT)
     with ctx.workprec(bits + 64):
         ball = arb(value).mid()
@@ -92,7 +77,6 @@ def exact_form(value: fmpq, digits: int, text: str) -> tuple[str, arb | fmpq] | 
 
 
 def _near(text: str, value: fmpq, exact: str, number: arb | fmpq) -> Proposal | None:
-    """The proposal, if the digits agree with the number."""
     unit = fmpq(10) ** int(Decimal(text).as_tuple().exponent)
     with ctx.workprec(PRECISION):
         distance = abs(arb(number) - arb(value))

@@ -24,16 +24,14 @@ if TYPE_CHECKING:
     Array: TypeAlias = np.ndarray[Any, np.dtype[Any]]
 
 Constant: TypeAlias = Callable[[fmpq], Any]
-"""Makes a float or a ball from a rational number."""
 
 
 def as_float(number: fmpq) -> float:
-    """The nearest float; Python divides integers with one rounding."""
+    # Python divides integers with one rounding
     return int(number.p) / int(number.q)
 
 
 def as_ball(number: fmpq) -> arb:
-    """A ball that contains the number."""
     return arb(number)
 
 
@@ -43,13 +41,12 @@ def in_decimals(ball: arb, count: int) -> int:
 
 
 class SparsePolynomial(Frozen):
-    """Terms: a coefficient, and the unknowns in its monomial, repeated by their exponents."""
+    """Coefficients, each with the unknowns in its monomial, repeated by their exponents."""
 
     terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
 
     @cached_property
     def in_floats(self) -> list[tuple[float, tuple[int, ...]]]:
-        """The terms with the nearest floats as coefficients."""
         return [(as_float(a), factors) for a, factors in self.terms]
 
     @classmethod
@@ -76,25 +73,13 @@ class SparsePolynomial(Frozen):
 
 
 class Slope(Frozen):
-    """A value and its derivatives.
-
-    Attributes:
-        value: at each point, or one number if it is constant.
-        derivatives: unknowns with the derivatives in them that are not identically zero.
-    """
+    """A value, at each point or constant, with its derivatives that are not identically zero."""
 
     value: Any
     derivatives: tuple[tuple[int, Any], ...]
 
 
 class RationalFunction:
-    """A rational function P/Q with its gradient.
-
-    Args:
-        number: a rational number or a rational function.
-        ring: the unknowns.
-    """
-
     def __init__(self, number: object, ring: Parameters) -> None:
         p, q = fraction(number, ring)
         self.is_zero = not p
@@ -132,15 +117,13 @@ def polynomial_functions(
 
 
 def over_box(function: RationalFunction, box: Array) -> arb:
-    """The value over a column of balls; a constant is one number."""
+    # a constant is one number
     value: Any = function.at(box, as_ball).value
     ball: arb = value if isinstance(value, arb) else value[0]
     return ball
 
 
 class System:
-    """Equations f = 0 with rational functions f."""
-
     def __init__(self, functions: list[RationalFunction]) -> None:
         self.functions = functions
 
@@ -150,11 +133,8 @@ class System:
 
 
 def with_gradients(functions: Sequence[RationalFunction], points: Array) -> tuple[Array, Array]:
-    """Values, shape (functions, points), and derivatives, (functions, unknowns, points).
-
-    Args:
-        functions: of the same unknowns.
-        points: shape (unknowns, points), of floats or of balls.
+    """Values, shape (functions, points), and derivatives, (functions, unknowns, points). ``points``
+    have the shape (unknowns, points), of floats or of balls.
     """
     import numpy as np
 

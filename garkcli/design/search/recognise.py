@@ -17,17 +17,10 @@ from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen
 
 MAX_DEGREE = 8
-"""Largest degree tried."""
 
 
 class RecognisedNumbers(Frozen):
-    """Numbers of one field.
-
-    Attributes:
-        values: by name.
-        modulus: the minimal polynomial of the generator of their field, monic.
-        root: its real root; 0 if all values are rational.
-    """
+    """Numbers of the field of ``root``, 0 for ℚ, whose minimal polynomial is ``modulus``, monic."""
 
     values: Mapping[str, Number]
     modulus: fmpq_poly
@@ -35,12 +28,7 @@ class RecognisedNumbers(Frozen):
 
 
 def recognised(numbers: Mapping[str, arb], bits: int) -> RecognisedNumbers | None:
-    """Short exact numbers with the given digits; None if there are none.
-
-    Args:
-        numbers: balls without radius.
-        bits: the number of correct bits of each.
-    """
+    """Short exact numbers with so many correct bits, balls without radius; None without any."""
     values: dict[str, Number] = {}
     irrational: dict[str, arb] = {}
     for name, number in numbers.items():
@@ -115,8 +103,7 @@ def _generator(irrational: Mapping[str, arb], bits: int) -> tuple[fmpz_poly, arb
 
 
 def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
-    """A polynomial of least degree with short coefficients that vanishes at a number up to its
-    digits.
+    """A polynomial of least degree with short coefficients, zero at a number up to its digits.
 
     >>> with ctx.workprec(300):
     ...     minimal_polynomial(arb(2).sqrt().mid(), 290)
@@ -135,9 +122,7 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
 
 
 def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
-    """Short integers with Σ m_k x_k = 0 up to the digits, by lattice reduction (A. Lenstra, H.
-    Lenstra, L. Lovász, 1982).
-    """
+    """Short integers with Σ m_k x_k = 0 up to digits (A. Lenstra, H. Lenstra, L. Lovász, 1982)."""
     size = len(numbers)
     scale_bits = 7 * bits // 8
     with ctx.workprec(bits):
@@ -155,7 +140,7 @@ def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
 
 
 def _coordinates(number: arb, generator: arb, degree: int, bits: int) -> list[fmpq] | None:
-    """The coefficients of a number as a polynomial in the generator."""
+    """Coefficients as a polynomial in the generator."""
     with ctx.workprec(bits):
         powers = [generator**k for k in range(degree)]
     relation = _relation([number, *powers], bits)
@@ -165,7 +150,6 @@ def _coordinates(number: arb, generator: arb, degree: int, bits: int) -> list[fm
 
 
 def _root(modulus: fmpq_poly, generator: arb) -> RealRoot | None:
-    """The real root of a polynomial nearest to a number."""
     roots = [root for root, _ in real_roots(Polynomial.from_flint(modulus))]
     if not roots:
         return None

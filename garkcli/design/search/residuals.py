@@ -29,14 +29,7 @@ if TYPE_CHECKING:
 
 
 class Residuals:
-    """The order conditions of a family as functions of its unknowns.
-
-    Args:
-        tableau: its entries are rational numbers and rational functions.
-        ring: the unknowns.
-        order: the conditions are of all trees up to it.
-        more: further polynomials that should vanish.
-    """
+    """The conditions of all trees up to an order, and ``more`` polynomials that should vanish."""
 
     def __init__(
         self, tableau: Tableau, ring: Parameters, order: int, more: Sequence[fmpq_mpoly] = ()
@@ -64,9 +57,7 @@ class Residuals:
 
     def at(self, points: Array) -> tuple[Array, Array]:
         """Values, shape (conditions, points), and derivatives, (conditions, unknowns, points).
-
-        Args:
-            points: shape (unknowns, points), of floats or of balls.
+        ``points`` have the shape (unknowns, points), of floats or of balls.
         """
         return _Evaluation(self, points).run()
 
@@ -87,29 +78,16 @@ class Residuals:
 
     @cached_property
     def at_one(self) -> Callable[[Array], tuple[Array, Array]]:
-        """Evaluates at one point in floats, shape (unknowns,), faster than ``at``: values, shape
-        (conditions,), and derivatives, (conditions, unknowns).
-        """
+        """Like ``at`` for one point in floats, without the last axis, and faster."""
         from garkcli.design.search.one_point import Recorded
 
         return Recorded(self).at
 
 
 class Generators(rational.System):
-    """Distinct nonzero polynomials whose common zeros are those of all order conditions of a
-    family.
-
-    They are fewer than the trees, least for compositions of flows; a proof for all of them is a
-    proof for all conditions.
-
-    Args:
-        tableau: as for ``Residuals``.
-        ring: the unknowns.
-        order: the conditions are of all trees up to it.
-        more: further polynomials that should vanish.
-
-    Attributes:
-        denominators: functions that vanish at no method of the family.
+    """Distinct nonzero polynomials with the common zeros of all order conditions of a family. They
+    are fewer than the trees, least for compositions of flows; a proof for all of them is a proof
+    for all conditions. ``denominators`` vanish at no method of the family.
     """
 
     def __init__(
@@ -154,13 +132,9 @@ class _Vectors:
 
 
 class _Entries(NamedTuple):
-    """Nonzero entries of a block, at most one of each row.
-
-    Attributes:
-        rows: their indices, and ``columns``.
-        values: at each point, shape (entries, points).
-        places: row, unknown and column of each derivative that is not identically zero.
-        derivatives: at each point, shape (derivatives, points).
+    """Nonzero entries of a block, at most one of each row. ``places`` are row, unknown and column
+    of each derivative that is not identically zero. Values have the shape (entries, points),
+    derivatives (derivatives, points).
     """
 
     rows: Array
@@ -171,8 +145,6 @@ class _Entries(NamedTuple):
 
 
 class _Evaluation(StageVectors[_Vectors]):
-    """One evaluation of all residuals."""
-
     def __init__(self, system: Residuals, points: Array) -> None:
         import numpy as np
 
@@ -213,7 +185,7 @@ class _Evaluation(StageVectors[_Vectors]):
         return _Vectors(values, derivatives)
 
     def _entries(self, block: Sequence[Sequence[rational.RationalFunction]]) -> list[_Entries]:
-        """Returns the nonzero entries of a block: the first of each row, the second, …"""
+        """The nonzero entries of a block: the first of each row, the second, …"""
         layers: list[list[tuple[int, int, rational.Slope]]] = []
         for i, row in enumerate(block):
             places = [(j, x) for j, x in enumerate(row) if not x.is_zero]
@@ -238,7 +210,7 @@ class _Evaluation(StageVectors[_Vectors]):
         )
 
     def _stacked(self, numbers: Sequence[Any]) -> Array:
-        """Returns numbers, or arrays of one for each point, as (numbers, points)."""
+        """Numbers, or arrays of one for each point, as (numbers, points)."""
         stacked = self._zeros(len(numbers), self.points.shape[1])
         for k, number in enumerate(numbers):
             stacked[k] = number
@@ -289,7 +261,6 @@ class _Evaluation(StageVectors[_Vectors]):
         return out[:, :s]
 
     def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:
-        """Adds the products of weights and stage vectors of trees, and normalises them."""
         values, gradients = self.values[ids], self.gradients[ids]
         for i, slope in enumerate(self.weights[root]):
             x = vectors.values[:, i]
@@ -300,7 +271,6 @@ class _Evaluation(StageVectors[_Vectors]):
         self._normalise(root, ids)
 
     def _normalise(self, root: int, ids: slice) -> None:
-        """Turns b·𝒜[u] into residuals."""
         table = self.table
         values, gradients = self.values[ids], self.gradients[ids]
         integrated = table.admissible.kinds[root].integrated(int(table.order[ids.start]))

@@ -1,6 +1,4 @@
-"""A whole search: starts in batches, proofs as solutions come, and the methods as text of method
-files, without exact numbers, for reports and files.
-"""
+"""A whole search: starts in batches, proofs as solutions come, and the methods as text."""
 
 from __future__ import annotations
 
@@ -32,11 +30,8 @@ from garkcli.frozen import Frozen, Mutable, field
 from garkcli.tableau.family import Family
 
 RESIDUAL = f"1e-{floor(log10(2) * small_bits(BITS))}"
-"""A bound on all residuals after the last step of Newton's method. The residuals themselves are
-rounding and may differ between machines.
-"""
+"""A bound on residuals, which are rounding and may differ between machines."""
 TOLERANCE = "1e-30"
-"""The tolerance of a file with so many decimals."""
 
 
 class FoundMethod(Frozen):
@@ -44,13 +39,11 @@ class FoundMethod(Frozen):
 
     Attributes:
         start: the number of the start that led to it, from 1.
-        proof: of the method.
         order: its exact order if known; otherwise the order of the solved conditions.
         values: the parameters, exact or as decimals.
         residual: a bound on all residuals up to the order; "0" if they vanish.
-        objective: the value of the objective, a decimal or ``infinity``; None without an objective.
-        embedded: the order of the embedded weights, exact or of the solved conditions; None if the
-            file wants none.
+        objective: a decimal or ``infinity``; None without an objective.
+        embedded: the order of the embedded weights; None if the file wants none.
     """
 
     start: int
@@ -85,11 +78,6 @@ def _root_text(value: Number, root: RealRoot) -> str:
 
 
 def decimals(number: arb, count: int = DECIMALS) -> str:
-    """The nearest decimal number with ``count`` decimals.
-
-    >>> decimals(arb("0.25"), 3)
-    '0.250'
-    """
     rounded = in_decimals(number, count)
     digits = f"{abs(rounded):0{count + 1}d}"
     sign = "-" if rounded < 0 else ""
@@ -112,8 +100,8 @@ class SearchResult(Mutable):
     Attributes:
         starts: the number of starts so far.
         successes: the number of them that solve the conditions in floats.
-        degenerate: the number of distinct solutions that are no methods: no solution with more
-            digits is near, or the optimiser ends outside the wanted ranges, signs and stability.
+        degenerate: the number of distinct solutions without a solution of more digits near by, or
+            outside the wanted ranges, signs and stability at the end.
         unstable: the number of those whose wanted stability is not proved.
         methods: distinct ones, in the order of the starts; with an objective the best first.
         seconds: of the processor.
@@ -147,15 +135,11 @@ class SearchResult(Mutable):
 
 
 class Timed(Frozen):
-    """The result of a task and the processor seconds that it took."""
-
     result: object
     seconds: float
 
 
 class Batch(Frozen):
-    """A task: the solutions from some starts, by ``Search.solve``."""
-
     starts: list[Start]
 
     def result(self, search: Search) -> object:
@@ -163,13 +147,7 @@ class Batch(Frozen):
 
 
 class SolutionTask(Frozen):
-    """A task: the method of a solution in floats; None if there is none, False if its wanted
-    stability is not proved.
-
-    Attributes:
-        start: the number of the start that led to it.
-        point: values of the unknowns.
-    """
+    """A task: the method of a solution in floats, or None; False if its stability is not proved."""
 
     start: int
     point: Start
@@ -179,12 +157,7 @@ class SolutionTask(Frozen):
 
 
 class Descent(Frozen):
-    """A task: the best method near a solution in floats; None if there is none.
-
-    Attributes:
-        start: the number of the start that led to it.
-        point: values of the unknowns.
-    """
+    """A task: the best method near a solution in floats; None if there is none."""
 
     start: int
     point: Start
@@ -194,12 +167,7 @@ class Descent(Frozen):
 
 
 class Best(Frozen):
-    """A task: the method of an optimum in floats; None or False as for ``SolutionTask``.
-
-    Attributes:
-        start: the number of the start that led to it.
-        optimum: the point and its value.
-    """
+    """A task: the method of an optimum in floats; None or False as for ``SolutionTask``."""
 
     start: int
     optimum: Optimum
@@ -209,7 +177,7 @@ class Best(Frozen):
 
 
 def _method(search: Search, find: Find | None) -> object:
-    """A find as text; None if there is none, False if its wanted stability is not proved."""
+    """As text; None if there is none, False if its wanted stability is not proved."""
     if find is None or not find.is_stable:
         return None if find is None else False
     if find.found is not None:
@@ -225,19 +193,15 @@ def _method(search: Search, find: Find | None) -> object:
 
 
 class SearchTask(Protocol):
-    """A piece of a search."""
-
     def result(self, search: Search) -> object: ...
 
 
 def do(search: Search, task: SearchTask) -> Timed:
-    """Runs a task and measures its time."""
     before = process_time()
     return Timed(task.result(search), process_time() - before)
 
 
 MOST = 5
-"""Methods to find by default."""
 
 
 def search_methods(
@@ -253,19 +217,9 @@ def search_methods(
 ) -> SearchResult:
     """Search a family for methods of an order, from random starts.
 
-    Args:
-        family: the methods.
-        order: the wanted order.
-        starts: the number of random starts.
-        seed: of the starts; one seed gives the same finds on every machine.
-        most: the most methods to find; other successes are counted.
-        whose: the order of the method, its symplectic conjugate or its pair.
-        seconds: the time limit, after which the search ends with its finds; None for none.
-        objective: to minimise from each start, a name or a sum of names; None for none.
-        first: values of the unknowns that replace the first start.
-
-    Raises:
-        ZeroWeight: a weight is zero for every value, so there is no conjugate.
+    One seed gives the same finds on every machine. Successes beyond ``most`` are counted; after
+    ``seconds`` the search ends with its finds. ``first`` replaces the first start. Raises
+    ZeroWeight if a weight is zero for every value, so there is no conjugate.
     """
     result = SearchResult(order=order, whose=whose, seed=seed)
     try:
@@ -286,15 +240,8 @@ def results(
     workers: Workers[SearchTask, Timed] | None = None,
     first: Start | None = None,
 ) -> Iterator[SearchResult]:
-    """Searches from random starts; yields one result object again and again as it grows.
-
-    Args:
-        search: the search.
-        starts: the number of random starts.
-        seed: of the starts.
-        most: the most methods to find; other successes are counted.
-        workers: run the tasks; the finds do not depend on them.
-        first: values of the unknowns that replace the first start.
+    """Searches from random starts; yields one result object again and again as it grows. The finds
+    do not depend on the workers.
     """
     workers = workers or Alone(partial(do, search))
     if search.objective is not None:
@@ -314,8 +261,6 @@ def results(
 
 
 class _Run:
-    """The state in the middle of a search."""
-
     def __init__(
         self, search: Search, workers: Workers[SearchTask, Timed], most: int, seed: int
     ) -> None:
@@ -332,7 +277,7 @@ class _Run:
         self._known: dict[int, FoundMethod | None] = {}
 
     def take(self, group: Sequence[Start], size: int) -> Iterator[SearchResult]:
-        """Takes the solutions of some starts, ``size`` starts a task, and proves the new ones."""
+        """``size`` starts make a task; new solutions are proved."""
         parts = range(0, len(group), size)
         batches = [Batch(list(group[k : k + size])) for k in parts]
         first = self.result.starts + 1
@@ -356,11 +301,8 @@ class _Run:
             yield self.result
 
     def _descend(self, new: Sequence[SolutionTask]) -> Iterator[SearchResult]:
-        """Finds the best methods near some solutions, and proves those that are now the best of
-        all.
-
-        It takes ``TOGETHER`` solutions at a time, so that the proofs do not depend on the number of
-        processes.
+        """Finds the best methods near some solutions, and proves those that are the best of all.
+        With ``TOGETHER`` solutions at a time proofs do not depend on the number of processes.
         """
         self._waiting += [Descent(solution.start, solution.point) for solution in new]
         while len(self._waiting) >= TOGETHER:
@@ -368,7 +310,6 @@ class _Run:
             yield self._descended(some)
 
     def rest(self) -> Iterator[SearchResult]:
-        """Finds the best methods near the last solutions."""
         if self._waiting:
             yield self._descended(self._waiting)
 
@@ -384,7 +325,7 @@ class _Run:
         return self.result
 
     def _prove(self) -> None:
-        """Proves the best unproved optima until the wanted number of methods is reached."""
+        # until the wanted number of methods is reached
         while unproved := [x for x in self._chosen() if x.start not in self._known]:
             for best, timed in zip(unproved, self._done(unproved), strict=True):
                 made = timed.result
@@ -414,7 +355,6 @@ class _Run:
         return chosen
 
     def _done(self, tasks: Sequence[SearchTask]) -> Iterator[Timed]:
-        """The results of tasks, in their order."""
         for timed in in_order(self.workers, tasks):
             self.result.seconds += timed.seconds
             yield timed
@@ -443,5 +383,4 @@ class _Run:
 
 
 def are_same(one: Sequence[float], other: Sequence[float]) -> bool:
-    """Whether two points agree up to rounding."""
     return all(abs(a - b) <= SAME for a, b in zip(one, other, strict=True))

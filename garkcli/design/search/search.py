@@ -65,12 +65,7 @@ ROUNDING = 1e-9
 
 
 class Signs:
-    """The ranges and signs of the methods of a family, beside its equations.
-
-    Args:
-        family: of methods.
-        bits: of the points; answers hold for all numbers within 2^(−bits/2) of one.
-    """
+    """Ranges and signs of a family; answers hold for all numbers within 2^(−bits/2) of a point."""
 
     def __init__(self, family: Family, bits: int) -> None:
         self.family = family
@@ -80,22 +75,13 @@ class Signs:
         self.not_negative = polynomial_functions(not_negative(family), family.ring)
 
     def seem_kept(self, x: Array) -> bool:
-        """Whether they hold at a point in floats, up to rounding where zero is allowed.
-
-        Args:
-            x: shape (unknowns, 1).
-        """
+        """In floats, up to rounding where zero is allowed; x has the shape (unknowns, 1)."""
         return all(float_at(f, x) > ROUNDING for f in self.positive) and all(
             float_at(f, x) > -ROUNDING for f in self.not_negative
         )
 
     def decided(self, x: Array) -> Answer:
-        """Whether all numbers near a point have them; ``open`` if only a function that must not be
-        negative may be zero.
-
-        Args:
-            x: a column of balls without radius.
-        """
+        """For all numbers near x, balls; ``open`` if only a zero may be negative instead."""
         with ctx.workprec(self.bits):
             box = x + arb(0, arb(1) / arb(2) ** (self.bits // 2))
             values = dict(zip(self.family.ring.names, box[:, 0], strict=True))
@@ -116,17 +102,14 @@ class Signs:
 
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
-"""The proof of a find: its exact order; the existence of such a method; or small residuals only."""
+"""A proof is of the exact order, or of existence only; or residuals are small."""
 BITS = 1024
-"""Precision of polished solutions."""
 MANY_BITS = 4 * BITS
 """Precision of an optimum whose numbers are not recognised at the lower one."""
 ERRORS = ("error", "A")
 """Objectives that vanish if a method has one order more."""
 SHORT = 12
-"""Digits of an objective."""
 FEW_DIGITS = 6
-"""Digits of a level in floats."""
 DECIMALS = 40
 """Decimals of numbers that are not known exactly."""
 FEW_BITS = 212
@@ -137,7 +120,6 @@ WIDE = (-2.0, 2.0)
 MEMORY = 48 * 2**20
 """Approximate bytes for the derivatives of one batch."""
 MOST_STARTS = 1024
-"""Most starts of one batch."""
 
 
 class Find(Frozen):
@@ -145,7 +127,6 @@ class Find(Frozen):
 
     Attributes:
         start: the number of the start that led to it, from 1.
-        proof: of the method.
         order: its exact order if known; otherwise the order of the solved conditions.
         found: the exact numbers, if known.
         digits: otherwise the values to many digits, balls without radius.
@@ -161,17 +142,7 @@ class Find(Frozen):
 
 
 class Search:
-    """A search for methods of an order among those of a family.
-
-    Args:
-        family: the methods.
-        order: the wanted order.
-        whose: of the method, its symplectic conjugate or its pair.
-        objective: to minimise, a name or a sum of names; None for none.
-
-    Raises:
-        ZeroWeight: there is no conjugate.
-    """
+    """A search for methods of an order among those of a family; ZeroWeight without a conjugate."""
 
     def __init__(
         self, family: Family, order: int, whose: Whose = "method", objective: str | None = None
@@ -185,20 +156,18 @@ class Search:
 
     @cached_property
     def conditions(self) -> Residuals:
-        """The conditions of all trees, and the relations in the file."""
         return Residuals(self.tableau, self.family.ring, self.order, self._relations)
 
     @cached_property
     def batch(self) -> int:
-        """The number of starts that are worked on at a time."""
         largest = self.conditions.numbers_a_point * 8
         return max(8, min(MOST_STARTS, MEMORY // largest))
 
     def starts(
         self, seed: int, count: int, first: list[float] | None = None
     ) -> Iterator[list[float]]:
-        """Random values of the unknowns within their ranges; without one between 0 and 1, in every
-        fourth start between −2 and 2. ``first`` replaces the first of them.
+        """Random values in the ranges, else in [0, 1], in every fourth start in [−2, 2]. ``first``
+        replaces the first of them.
         """
         ends = {
             name: (as_float(least), as_float(greatest))
@@ -240,21 +209,12 @@ class Search:
 
     @cached_property
     def program(self) -> Optimisation:
-        """The minimisation.
-
-        Raises:
-            UsageProblem: SciPy is not installed, or the objective is not applicable.
-        """
+        """Raises UsageProblem without SciPy, or if the objective is not applicable."""
         assert self.objective is not None
         return Optimisation(self.family, self.conditions, self.objective)
 
     def best(self, start: int, optimum: Optimum) -> Find | None:
-        """An optimum with short numbers, and its proof; None if it is no method.
-
-        Args:
-            start: the number of the start that led to it.
-            optimum: a method in floats.
-        """
+        """An optimum with short numbers, and its proof; None if it is no method."""
         is_error = self.objective is not None and self.objective.key in ERRORS
         if is_error and self.program.is_none(optimum):
             # the errors are the conditions of the next order
@@ -337,9 +297,7 @@ class Search:
         return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def embedded_order(self, find: Find) -> int | None:
-        """The order of the embedded weights of a find, by the certificate if its numbers are exact;
-        None if no order is wanted of them.
-        """
+        """By the certificate if numbers are exact; None if no order of these weights is wanted."""
         wanted, embedded = self.family.embedded_order, self.family.further.embedded
         if wanted is None or embedded is None or self.whose != "method" or find.found is None:
             return wanted if self.whose == "method" else None
@@ -348,12 +306,7 @@ class Search:
         return find_order(member(tableau, self.family.ring, values)).order
 
     def find(self, start: int, point: list[float]) -> Find | None:
-        """A solution in floats with its proof; None if it is no solution after all.
-
-        Args:
-            start: the number of the start.
-            point: values of the unknowns.
-        """
+        """A solution in floats with its proof; None if it is no solution after all."""
         import numpy as np
 
         free = Fixings(self.conditions)
@@ -423,9 +376,7 @@ class Search:
 
     @cached_property
     def _preferences(self) -> list[list[RationalFunction]]:
-        """The unknowns to shorten, in two orders, since only one of them may lead to rational
-        numbers.
-        """
+        """The unknowns to shorten, in two orders: one alone may lead to rational numbers."""
         nodes = list(nodes_of(self.tableau, self.family.ring))
         names = unknowns_of(self.family.ring)
         return [nodes + names, nodes + names[::-1]]
@@ -471,9 +422,7 @@ def _digits_of(solution: Solution) -> Mapping[str, arb]:
 
 
 def _damped(family: Family) -> Family:
-    """The family with R(∞) = 0 among its equations if L-stable methods are wanted, since random
-    methods never have it.
-    """
+    """With the equation R(∞) = 0 of L-stable methods, which random methods never have."""
     from garkcli.design.wants import at_infinity
 
     for wanted in family.stable:
@@ -491,7 +440,5 @@ def _damped(family: Family) -> Family:
 
 
 def _worth(find: Find) -> tuple[bool, int]:
-    """A key that is smaller for better finds: stable ones first, then by the degree of their
-    field.
-    """
+    """A key: smaller for better finds, stable ones first, then by the degree of their field."""
     return not find.is_stable, 0 if find.found is None else find.found.solution.degree

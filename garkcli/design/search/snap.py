@@ -25,13 +25,10 @@ if TYPE_CHECKING:
     from garkcli.design.search.residuals import Residuals
 
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 24, 30)
-"""Denominators of short rational numbers."""
 REACH = 0.12
-"""Largest change of a function."""
 TRIALS = 10
 """Values tried first, the shortest."""
 STEPS = 120
-"""Most steps of least squares towards such a value."""
 CLOSE = 1e-11
 """Residuals from which Newton's method continues."""
 FINE = (10**3, 10**6, 10**9)
@@ -41,11 +38,9 @@ NEAR = 1e-4
 DEGENERATE = 1e-4
 """Largest size of pivots near a degenerate solution that vanish at it."""
 LARGEST = 20.0
-"""Bound on the unknowns on the way."""
 
 
 def nodes_of(tableau: Tableau, ring: Parameters) -> Iterator[RationalFunction]:
-    """The distinct nodes that are functions of the unknowns."""
     yielded = set()
     for colour in tableau.colours:
         if isinstance(tableau.spaces[colour.space], PointSpace):
@@ -57,7 +52,6 @@ def nodes_of(tableau: Tableau, ring: Parameters) -> Iterator[RationalFunction]:
 
 
 def unknowns_of(ring: Parameters) -> list[RationalFunction]:
-    """The unknowns as functions."""
     return [RationalFunction(ring.parameter(name), ring) for name in ring.names]
 
 
@@ -67,13 +61,9 @@ def snapped(
     point: Array,
     is_allowed: Callable[[Array], bool] = lambda _: True,
 ) -> tuple[Fixings, Array]:
-    """A system with isolated solutions, and one of them near a point.
-
-    Args:
-        conditions: of the family.
-        wanted: functions that should be short, in this order.
-        point: a solution in floats, shape (unknowns,).
-        is_allowed: whether a solution, shape (unknowns, 1), may be taken.
+    """A system with isolated solutions, and one of them near a point. ``wanted`` functions should
+    be short, in this order. The point has the shape (unknowns,), a solution that may be taken
+    (``is_allowed``) the shape (unknowns, 1).
     """
     fixed: list[Fixed] = []
     x = point[:, None]
@@ -98,13 +88,8 @@ def snapped(
 def fixed_nearby(
     conditions: Residuals, wanted: Sequence[RationalFunction], x: Array
 ) -> list[Fixed]:
-    """Functions close to a short number and independent of the conditions at a point, with that
-    number.
-
-    Args:
-        conditions: of the family.
-        wanted: functions to examine, in this order.
-        x: the point, shape (unknowns, 1).
+    """Functions that are near short numbers, with these, and independent of the conditions at x.
+    They are examined in order; x has the shape (unknowns, 1).
     """
     fixed: list[Fixed] = []
     _, jacobians = conditions.at(x)
@@ -147,9 +132,8 @@ def _is_independent(
 
 
 def values_near(present: float) -> Iterator[list[fmpq]]:
-    """Lists of values near the present one: short ones, then ones that hardly differ from it.
-
-    Zero comes last among the short ones, unless it is the present value: it makes another kind of
+    """Lists of values near the present one: short ones, then ones that hardly differ from it. Zero
+    comes last among the short ones, unless it is the present value: it makes another kind of
     method, explicit instead of implicit.
     """
     short = []
@@ -178,9 +162,7 @@ def _moved(
     before: int,
     is_allowed: Callable[[Array], bool],
 ) -> tuple[fmpq, Array] | None:
-    """The first of some values that an allowed solution attains, and that solution; None if there
-    is none.
-    """
+    """The first of some values that an allowed solution attains, and that solution, or None."""
     import numpy as np
 
     if not values:

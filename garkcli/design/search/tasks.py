@@ -16,23 +16,16 @@ if TYPE_CHECKING:
 FEASIBLE = 1e-9
 """Inequalities hold up to this in floats."""
 HIGHEST = 1e4
-"""A bound on levels."""
 FIRST_LEVEL = 0.5
-"""A lower bound on the level at which the optimiser starts: at 0 nothing depends on the unknowns.
-"""
+"""Least level at which the optimiser starts: at 0 nothing depends on the unknowns."""
 LEAST_LEVEL = 1e-3
-"""Levels below it count as 0."""
 LOW_LEVEL = 0.01
 """The level of methods from which the optimiser starts."""
 BISECTIONS = 36
 
 
 class Height:
-    """The level of a method: the largest y, by bisection, up to which inequalities hold.
-
-    Args:
-        reach: the inequalities.
-    """
+    """The level of a method: the largest y, by bisection, up to which inequalities hold."""
 
     def __init__(self, reach: Reach) -> None:
         self.at = reach.at
@@ -63,13 +56,7 @@ class Height:
 
 
 def capped(goal: Goal, bound: float, margin: float = 0.0) -> Callable[[Array], Gradient]:
-    """The inequalities for a goal of at most a bound, or a level of at least the bound.
-
-    Args:
-        goal: the function.
-        bound: of the goal.
-        margin: a lower bound on the inequalities of a level.
-    """
+    """Inequalities for a goal of at most a bound, or a level of at least it, with a margin."""
     unit = abs(bound) or 1.0
 
     def at(x: Array) -> Gradient:
@@ -89,12 +76,7 @@ def capped(goal: Goal, bound: float, margin: float = 0.0) -> Callable[[Array], G
 
 
 class Total:
-    """A sum of goals with weights, under inequalities.
-
-    Args:
-        terms: weights with goals; levels have negative weights.
-        within: the inequalities at a point.
-    """
+    """A sum of goals with weights, negative for levels, under the inequalities ``within``."""
 
     def __init__(
         self, terms: Sequence[tuple[float, Goal]], within: Callable[[Array], Gradient]
@@ -112,7 +94,6 @@ class Total:
         return float(total + sum(w * level.of(x) for w, level in self.levels))
 
     def has_levels(self, x: Array) -> bool:
-        """Whether no level is zero at a point."""
         return all(level.of(x) for _, level in self.levels)
 
     def parts(self, x: Array) -> Gradient | None:
@@ -136,11 +117,8 @@ def missed(signs: Array) -> float:
 
 
 class Least(OptimiserTask):
-    """Minimises a sum of goals; each bound and each level has its own variable.
-
-    Args:
-        total: the sum.
-        start: the first point; bounds are in units of their values there.
+    """Minimises a sum of goals; each bound and each level has its own variable. Bounds are in units
+    of their values at the first point.
     """
 
     def __init__(self, total: Total, start: Array) -> None:
@@ -162,7 +140,7 @@ class Least(OptimiserTask):
         return self._total.parts(x)
 
     def scale(self, x: Array) -> float:
-        """A level needs no scale."""
+        # a level needs no scale
         is_alone = self.levels and not self._total.smooth and not self._total.bounds
         return 1.0 if is_alone else super().scale(x)
 
@@ -204,12 +182,7 @@ class Least(OptimiserTask):
 
 
 class Missing(OptimiserTask):
-    """Minimises the distance from all wants: the least y with which all inequalities hold, for low
-    levels too.
-
-    Args:
-        total: with the levels and the inequalities.
-    """
+    """Minimises the least y with which all inequalities hold, for low levels too."""
 
     levels = 1
     enough = FEASIBLE / 2
@@ -233,7 +206,7 @@ class Missing(OptimiserTask):
         return np.array([self.value(x)])
 
     def scale(self, _x: Array) -> float:
-        """No scale: y should become 0."""
+        # y should become 0
         return 1.0
 
     def at(self, z: Array) -> TaskValues:
@@ -244,5 +217,4 @@ class Missing(OptimiserTask):
 
 
 def padded(slopes: Array, size: int) -> Array:
-    """Appends zero derivatives in further unknowns."""
     return np.pad(slopes, ((0, 0), (0, size - slopes.shape[1])))
