@@ -142,10 +142,9 @@ def read_range(text: str) -> NumberRange:
 
 
 class MethodFilter(Frozen):
-    """Conditions on methods, all of which have to hold; unknown values match nothing.
-
-    ``values`` are by the keys of entries, ``folder`` is one of the catalogue, or empty. ``words``
-    are in the name, an alias, the title or the reference, or a name or alias in another spelling.
+    """Conditions on methods, all of which have to hold; unknown values match nothing. ``values``
+    are by the keys of entries, ``folder`` is one of the catalogue, or empty. ``words`` are in the
+    name, an alias, the title or the reference, or a name or alias in another spelling.
     """
 
     values: Mapping[str, NumberRange | bool | str]

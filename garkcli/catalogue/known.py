@@ -33,7 +33,6 @@ _ROUNDS = 2
 
 class Known(Frozen):
     """A method of the catalogue that a tableau is, or nearly is, up to the order of the stages.
-
     ``within`` is the largest distance of entries, None if they are equal. ``step_only``: embedded
     weights differ. ``is_same``: the distance is within the rounding that both files admit.
     """
@@ -77,9 +76,8 @@ def _floats(rows: Sequence[Row]) -> list[list[float]]:
 
 
 def find_known(analysis: Analysis, file: str, text: str) -> Known | None:
-    """The method of the catalogue that an analysis is about, or one next to it.
-
-    ``file`` and ``text`` were read: a file of the catalogue is not compared with itself.
+    """The method of the catalogue that an analysis is about, or one next to it. ``file`` and
+    ``text`` were read: a file of the catalogue is not compared with itself.
     """
     from garkcli.methodfile.shelves import key_of, package
 

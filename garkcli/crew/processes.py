@@ -32,10 +32,9 @@ BATCH = 8
 
 
 class _Worker(Generic[Item, Outcome]):
-    """A process that does the items it is sent, by their indices, one after the other.
-
-    The current one may be late at ``due``, is late at ``last`` on the clock, and after the
-    processor time ``most``.
+    """A process that does the items it is sent, by their indices, one after the other. The current
+    one may be late at ``due``, is late at ``last`` on the clock, and after the processor time
+    ``most``.
     """
 
     def __init__(
@@ -85,10 +84,9 @@ class _Worker(Generic[Item, Outcome]):
 
 
 class Crew(Generic[Item, Outcome]):
-    """Worker processes, of which a lost one is replaced, and the work left for them.
-
-    ``crashed`` makes the outcome of an item that ended its worker, from how it ended. A ``limit``
-    is for work of gark itself, not of the calling program.
+    """Worker processes, of which a lost one is replaced, and the work left for them. ``crashed``
+    makes the outcome of an item that ended its worker, from how it ended. A ``limit`` is for work
+    of gark itself, not of the calling program.
     """
 
     def __init__(

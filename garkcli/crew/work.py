@@ -21,9 +21,8 @@ class WorkerLost(UsageProblem):
 
 
 class Limit(Frozen, Generic[Item, Outcome]):
-    """The time limit of an item, in processor time if the system tells that of other processes.
-
-    Its process is ended in the middle of a call in C; ``late`` then makes the outcome.
+    """The time limit of an item, in processor time if the system tells that of other processes. Its
+    process is ended in the middle of a call in C; ``late`` then makes the outcome.
     """
 
     seconds: Callable[[Item], float]

@@ -69,9 +69,8 @@ def is_method(name: str, text: str) -> bool:
 
 
 def judged(text: str, source: str) -> Judgement:
-    """The remarks on a method file and its orders, within SECONDS.
-
-    A file with free parameters has a lens that names them, and no remarks.
+    """The remarks on a method file and its orders, within SECONDS. A file with free parameters has
+    a lens that names them, and no remarks.
     """
     line = _line_of_tableau(text)
     try:

@@ -88,11 +88,9 @@ def pieces(
     roots: Sequence[RealRoot],
     is_bounded: bool = False,
 ) -> list[tuple[Interval, T]]:
-    """The intervals of equal values of a function that is constant between ``roots``, left to
-    right.
-
-    ``inside`` is its value at a rational number between two roots; ``at`` that at a root, given
-    those to the left (None if there is nothing) and right. A bounded one begins at a root.
+    """The intervals of equal values of a function that is constant between ``roots``. ``inside`` is
+    its value at a rational number between two roots; ``at`` that at a root, given those to the left
+    (None if there is nothing) and right. A bounded one begins at a root.
     """
     opened: list[Interval] = [
         Interval(left, right) for left, right in pairwise([None, *roots, None])

@@ -144,8 +144,7 @@ def in_digits(number: Any, digits: int) -> fmpq:
 
 
 def decimal(number: fmpq) -> str:
-    """A positive rational as people write tolerances, ``1e-13``; a fraction if it has no finite
-    decimal.
+    """A positive rational as people write tolerances, ``1e-13``, or as a fraction.
 
     >>> decimal(fmpq(1, 10**13)), decimal(fmpq(441, 10**10)), decimal(fmpq(1, 3))
     ('1e-13', '4.41e-8', '1/3')

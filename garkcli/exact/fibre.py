@@ -28,10 +28,9 @@ Holds: TypeAlias = Callable[[Sequence[int]], bool]
 
 
 class FibreRoot(Frozen, eq=False):
-    """A number y > 0 at which curves meet the line.
-
-    ``polynomial`` is in y over ℚ(t_0) and has y as a simple root, the only one in [``low``,
-    ``high``], which is a point if y is rational and known. ``curves`` are indices.
+    """A number y > 0 at which curves meet the line. ``polynomial`` is in y over ℚ(t_0) and has y as
+    a simple root, the only one in [``low``, ``high``], which is a point if y is rational and known.
+    ``curves`` are indices.
     """
 
     fibre: Fibre
@@ -182,7 +181,6 @@ class Fibre:
         self, polynomials: Sequence[fmpq_mpoly], holds: Holds
     ) -> FibreRoot | fmpq | None:
         """The smallest y at which a property fails; 0 if it fails at once, None if never.
-
         ``polynomials`` are products of the curves and of factors without a zero on the line.
         """
         divisors = [

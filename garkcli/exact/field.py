@@ -45,9 +45,8 @@ def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
 
 
 class NumberField:
-    """K = ℚ(θ) = ℚ[x]/(modulus), with pairs of generating radicals and their elements.
-
-    Without ``radicals`` elements are written in θ.
+    """K = ℚ(θ) = ℚ[x]/(modulus), with pairs of generating radicals and their elements. Without
+    ``radicals`` elements are written in θ.
     """
 
     def __init__(
@@ -70,7 +69,6 @@ class NumberField:
     @cached_property
     def place(self) -> tuple[int, int] | None:
         """A prime p and a simple root of the minimal polynomial modulo p; None if none is tried.
-
         They map elements with denominators prime to p to F_p.
         """
         primes = (fmpz(n) for n in range(FIRST_PRIME, FIRST_PRIME + PRIMES_WITHIN, 2))

@@ -27,9 +27,8 @@ OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
 
 
 def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) -> str:
-    """The text of a coefficient; MethodError for other values. ``where`` is for messages.
-
-    A float is the decimal that it prints; with more than 15 digits it needs a tolerance.
+    """The text of a coefficient; MethodError for other values. ``where`` is for messages. A float
+    is the decimal that it prints; with more than 15 digits it needs a tolerance.
     """
     if isinstance(x, str):
         return x

@@ -103,9 +103,8 @@ def lattice(axes: int, degree: int) -> Iterator[Exponents]:
 
 
 def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) -> Multivariate:
-    """The polynomial whose restriction to t ↦ t (1, o + i_2, …, o + i_N) is ``lines[i]``.
-
-    i runs through the lattice of ``degree``, the total degree or more; o is ``offset``.
+    """The polynomial whose restriction to t ↦ t (1, o + i_2, …, o + i_N) is ``lines[i]``. i runs
+    through the lattice of ``degree``, the total degree or more; o is ``offset``.
     """
     axes = len(next(iter(lines)))
     terms: dict[Exponents, Number] = {}

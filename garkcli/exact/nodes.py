@@ -40,9 +40,8 @@ class Name(Expression):
 
 
 class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or ``* /``, each preceded by a sign.
-
-    Flat, so that the depth of an expression is that of its parentheses.
+    """Operands joined from left to right by ``+ -`` or ``* /``, each preceded by a sign. Flat, so
+    that the depth of an expression is that of its parentheses.
     """
 
     signs: str
@@ -63,7 +62,6 @@ class Root(Expression):
 
 class AlgebraicRoot(Expression):
     """The real root of index ``number``, in ascending order, of an irreducible polynomial over ℤ.
-
     Its degree is 3 or more; ``coefficients`` begin with the lowest, the leading one positive.
     """
 

@@ -39,9 +39,7 @@ def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[P
 
 
 def seen_along(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[fmpq_mpoly]:
-    """Nonzero polynomials between whose zeros those of others in their first variable do not
-    change.
-
+    """Nonzero polynomials between whose zeros those of others in the first variable stay apart.
     ``irreducible`` are distinct, ``ends`` those of the interval of the first variable.
     """
     found: list[fmpq_mpoly] = []
@@ -241,10 +239,9 @@ MOST_FIELD = 6
 
 
 def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None) -> bool | None:
-    """Whether p(y, t) ≥ 0 for the t of a set; None if an isolated one has a large degree.
-
-    Signs on the lines t = const do not change between the roots of the projection: one line each
-    decides, the others follow by continuity.
+    """Whether p(y, t) ≥ 0 for the t of a set; None if an isolated one has a large degree. Signs on
+    the lines t = const do not change between the roots of the projection: one line each decides,
+    the others follow by continuity.
     """
     lines: list[Number] = []
     if within is not None:

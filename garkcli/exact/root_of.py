@@ -27,10 +27,9 @@ VARIABLE = "x"
 def root_nearest(
     polynomial: nodes.Expression, near: nodes.Expression, start: int, end: int
 ) -> nodes.Expression:
-    """The real root nearest to a number, a ``Literal`` if it is rational.
-
-    ``start`` and ``end`` are offsets. Raises ExpressionError without a polynomial in x or a number;
-    UndefinedValue without a real root, or with two equally near; LimitExceeded.
+    """The real root nearest to a number, a ``Literal`` if it is rational. ``start`` and ``end`` are
+    offsets. Raises ExpressionError without a polynomial in x or a number; UndefinedValue without a
+    real root, or with two equally near; LimitExceeded.
     """
     p = polynomial_in_x(polynomial)
     if p.degree() < 1:

@@ -198,10 +198,9 @@ def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
 
 
 def _is_root(p: Polynomial, root: RealRoot) -> bool:
-    """Whether p vanishes at a root, by a common divisor.
-
-    With q the minimal polynomial and g = gcd(p, q), q = g · (q/g) has no multiple root, so the
-    number is a root of exactly one of the two factors; an enclosure excludes the other.
+    """Whether p vanishes at a root, by a common divisor. With q the minimal polynomial and g =
+    gcd(p, q), q = g · (q/g) has no multiple root, so the number is a root of exactly one of the two
+    factors; an enclosure excludes the other.
     """
     q = Polynomial.from_flint(root.polynomial)
     g = gcd(p, q)

@@ -24,7 +24,6 @@ _X = fmpq_poly([0, 1])
 
 class Tower(Frozen):
     """A field ℚ(θ) with the real numbers adjoined so far; θ = Σ combination[i] · elements[i].
-
     ``modulus`` is the minimal polynomial of θ, x for ℚ; ``elements`` are polynomials in θ.
     """
 
@@ -38,7 +37,6 @@ class Tower(Frozen):
 
     def adjoin(self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]) -> Tower:
         """The field with a real root y of yⁿ = r_0 + r_1 y + … adjoined, n ≥ 2, no double root.
-
         ``relation`` has the r_j as polynomials in θ; ``values`` encloses all elements, then y, at
         the precision of ``flint.ctx``.
         """

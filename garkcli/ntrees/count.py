@@ -37,7 +37,6 @@ Colours: TypeAlias = tuple[int, ...]
 
 class Admissible(Frozen):
     """A class of N-trees: the colours, the edges between them, and the kinds of vertices.
-
     ``branches[l]`` are the colours, ascending, that may be on a vertex of colour l, and
     ``kinds[l]`` says how many of them, and how many orders the vertex counts.
     """
@@ -50,9 +49,8 @@ class Admissible(Frozen):
     def of(
         cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> Admissible:
-        """The class with some linear colours, by default with every edge.
-
-        Raises ``TreeError`` if ``edges`` has not a row for each colour, or a colour does not exist.
+        """The class with some linear colours, by default with every edge. Raises ``TreeError`` if
+        ``edges`` has not a row for each colour, or a colour does not exist.
         """
         if colours < 1:
             message = f"an N-tree needs at least one colour, not {colours}"

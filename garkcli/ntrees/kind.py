@@ -16,10 +16,9 @@ _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
 
 
 class VertexKind(Frozen):
-    """The kind of the vertices of a colour.
-
-    ``weight`` counts the integrations of the exact solution at a vertex. If it has no such vertices
-    (``is_exact``) elementary weights should be 0. ``is_field`` is False for arguments of a field.
+    """The kind of the vertices of a colour. ``weight`` counts the integrations of the exact
+    solution at a vertex. If it has no such vertices (``is_exact``) elementary weights should be 0.
+    ``is_field`` is False for arguments of a field.
     """
 
     arity: Arity = ANY

@@ -41,8 +41,7 @@ class NotationError(TreeError):
 
 
 def parse_tree(text: str) -> Tree:
-    """Parses a tree in bracket notation; blanks are free, and colours may be omitted everywhere
-    (all 1).
+    """Parses bracket notation; blanks are free, and all colours may be omitted (all 1).
 
     Args:
         text: the branches of a vertex in brackets, then its colour, counted from 1.

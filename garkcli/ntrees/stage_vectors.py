@@ -21,7 +21,6 @@ CHUNK = 1 << 16
 
 class StageVectors(ABC, Generic[Vectors]):
     """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of a table.
-
     ``Vectors`` holds those of several trees, in the order of their ids. Tables of different orders
     share vectors, and so do colours with the same stages and branches.
     """

@@ -99,7 +99,6 @@ class Columns(Frozen):
 
 class Segment(Frozen):
     """The trees of one order and root colour whose last branch has one order and root colour.
-
     ``ids`` are consecutive in the table; ``stems`` and ``branches`` are those of the parents.
     """
 
@@ -113,9 +112,8 @@ class Segment(Frozen):
 
 
 class Growth:
-    """The future trees of one segment, counted at once and made in pieces of any size.
-
-    ``lower`` has all trees of lower order; ``kind`` is that of the root.
+    """The future trees of one segment, counted at once and made in pieces of any size. ``lower``
+    has all trees of lower order; ``kind`` is that of the root.
     """
 
     def __init__(
@@ -272,10 +270,9 @@ class TableTooLarge(UsageProblem):
 
 
 class TreeTable(Frozen):
-    """All admissible N-trees of order 1, …, ``max_order``, by order, root colour and last branch.
-
-    A tree's id is its position, in the order of :class:`Tree`; those of one order and root colour
-    are contiguous. The bare stems of an order follow its trees. Columns are read-only.
+    """All admissible N-trees of order 1, …, ``max_order``, by order, root colour and last branch. A
+    tree's id is its position, in the order of :class:`Tree`; those of one order and root colour are
+    contiguous. The bare stems of an order follow its trees. Columns are read-only.
     """
 
     admissible: Admissible
@@ -298,10 +295,9 @@ class TreeTable(Frozen):
     def upto(
         cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
-        """``edges`` and ``linear`` as in :class:`Admissible`.
-
-        Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` streams one
-        order more, and :mod:`garkcli.ntrees.count` counts any order.
+        """``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` beyond
+        ``MAX_TREES`` trees: :func:`iter_blocks` streams one order more, and
+        :mod:`garkcli.ntrees.count` counts any order.
         """
         return cls.of(Admissible.of(colours, edges, linear), order)
 

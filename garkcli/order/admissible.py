@@ -58,10 +58,8 @@ class TreeVectors:
 
 
 def elementary_weights(tableau: Tableau, trees: Iterable[Tree]) -> Iterator[tuple[Tree, Number]]:
-    """The trees with b_lᵀ 𝒜^[u], exact.
-
-    Raises MethodError for a tree that the coupling graph does not admit, or of an order beyond that
-    up to which the conditions are known.
+    """The trees with b_lᵀ 𝒜^[u], exact. Raises MethodError for a tree that the coupling graph does
+    not admit, or of an order beyond that up to which the conditions are known.
     """
     vectors = TreeVectors(tableau)
     most = tableau.exact_to
@@ -99,10 +97,8 @@ def are_few(tableau: Tableau, order: int, most: int) -> bool:
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
-    """Groups of root colours whose stages and weights agree, so that they have identical
-    conditions.
-
-    Keys are their first colours, as for V^l and F^l of the symplectic pair.
+    """Groups of root colours whose stages and weights agree, and so all their conditions. Keys are
+    their first colours, as for V^l and F^l of the symplectic pair.
     """
     groups: dict[int, tuple[int, ...]] = {}
     for l in tableau.roots:

@@ -155,10 +155,9 @@ def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
 
 
 def _around(kept: Sequence[ForestVector], hull: _Hull, weights: Rows, misses: Rows) -> _Hull:
-    """The bounds of one hull around the members that are kept.
-
-    Rows belong to members of the hull: ``weights`` are their λ in those kept, ``misses`` the
-    remainders of (1, ψ), or of (0, ψ) for trees that the exact solution does not have.
+    """The bounds of one hull around the members that are kept. Rows belong to members of the hull:
+    ``weights`` are their λ in those kept, ``misses`` the remainders of (1, ψ), or of (0, ψ) for
+    trees that the exact solution does not have.
     """
     amount = arb(0)
     for row in weights:
@@ -175,9 +174,8 @@ def _in_both(one: _Hull, other: _Hull) -> _Hull:
 
 
 def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
-    """The points (1, ψ) that become members, and λ of each point in them: a row that sums to 1.
-
-    The true λ solve the equations of some coordinates, one per member and the first among them, so
+    """The points (1, ψ) that become members, and λ of each point in them: a row that sums to 1. The
+    true λ solve the equations of some coordinates, one per member and the first among them, so
     balls around the solution hold weights whose sum is exactly 1; likewise for points (0, ψ).
     """
     chosen, columns = _pivots(arb_mat(points), grain)
@@ -195,10 +193,9 @@ def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
 
 
 def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
-    """Rows far from each other's affine hull, and a column for each: the largest pivots.
-
-    The first pivot is a 1 in the first column, so combinations of rows that agree there are affine;
-    if that column is 0, it is the largest entry.
+    """Rows far from each other's affine hull, and a column for each: the largest pivots. The first
+    pivot is a 1 in the first column, so combinations of rows that agree there are affine; if that
+    column is 0, it is the largest entry.
     """
     rest = points.mid()
     ones = [i for i in range(rest.nrows()) if rest[i, 0] != 0]

@@ -35,10 +35,9 @@ FEW_CONDITIONS_UNASKED = 2_000
 
 
 class MissedOrder(Frozen):
-    """``order`` is the first failing one, ``of`` the key of the claim.
-
-    Of ``is_embedded`` claims only exact weights may be wrong. With ``keeps_shape`` zeros outside
-    the pattern of a block, as on the diagonal of an explicit method, are right.
+    """``order`` is the first failing one, ``of`` the key of the claim. Of ``is_embedded`` claims
+    only exact weights may be wrong. With ``keeps_shape`` zeros outside the pattern of a block, as
+    on the diagonal of an explicit method, are right.
     """
 
     order: int
@@ -174,10 +173,9 @@ class Blame(Frozen):
 def blame_of(
     method: AnyTableau, missed: MissedOrder, known: tuple[Repair, ...] | None = None
 ) -> Blame | None:
-    """Examines all conditions of the first failing order; None if they are too many.
-
-    ``method`` has the entries that may be wrong, with embedded weights as b if these miss the
-    order; ``known`` are its repairs, if known already.
+    """Examines all conditions of the first failing order; None if they are too many. ``method`` has
+    the entries that may be wrong, with embedded weights as b if these miss the order; ``known`` are
+    its repairs, if known already.
     """
     judged = derived(method, missed.of)
     tableau = printed(judged)
@@ -225,7 +223,6 @@ def blame_of(
 @doing("which entry is wrong")
 def slip_of(method: AnyTableau, missed: MissedOrder, found: AnyOrder) -> Blame | None:
     """A single entry that costs a method several orders, without a claim; None if there is none.
-
     Some value of an entry may satisfy a condition by chance, but hardly all of two orders. One
     order is enough for an entry whose row then sums to its printed node.
     """

@@ -151,10 +151,9 @@ def bounded_least_squares(G: Floats, c: Floats) -> Floats:
 
 
 def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
-    """The smallest x with |x_k| ≤ 1 and c + J x = 0, up to rounding; None if none is found.
-
-    Entries beyond an end are held close to it, or at it if needed (numbers halfway between two
-    decimals are rounded by their radius), and released if the others pull them back.
+    """The smallest x with |x_k| ≤ 1 and c + J x = 0, up to rounding; None if none is found. Entries
+    beyond an end are held close to it, or at it if needed (numbers halfway between two decimals are
+    rounded by their radius), and released if the others pull them back.
     """
     for end, miss in ((END, 1e-4 * (1 - END)), (1.0, MISS), (END, MISS)):
         x = _nearest(J, c, cut, end, miss)

@@ -103,7 +103,6 @@ def find_order(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> Order:
     """The exact order, at most ``limit``, by affine spans of the trees of the coupling graph.
-
     ``spans`` are stage vectors that are known; they do not depend on weights.
     """
     spans = spans or StageSpans(tableau)
@@ -116,9 +115,8 @@ def find_order(
 
 
 def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
-    """The first condition of an order that fails; if rounding may explain it, the largest.
-
-    All residuals are combinations of those of the spanning trees.
+    """The first condition of an order that fails; if rounding may explain it, the largest. All
+    residuals are combinations of those of the spanning trees.
     """
     largest: Witness | None = None
     # the blocks of a family have no coefficients that could be rounded, nor has a root that a
@@ -177,9 +175,8 @@ class StageSpans(Spans):
 def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
-    """By colour, trees with that root whose ψ span those of all: over ℚ at most s + 1.
-
-    ``orders`` are ascending from 1.
+    """By colour, trees with that root whose ψ span those of all: over ℚ at most s + 1. ``orders``
+    are ascending from 1.
     """
     spans = StageSpans(tableau)
     for order in orders:

@@ -70,7 +70,6 @@ def estimate_constants(
     difference: Tableau, order: int, is_rounded: bool = False
 ) -> ErrorConstants | None:
     """Norms of the (b − b̂)_lᵀ 𝒜^[u] / σ(u) of the error estimate h Σ (b_i − b̂_i) k_i.
-
     ``difference`` has the weights b − b̂. For rounded coefficients exact norms mean nothing.
     """
     exact = 0 if is_rounded else EXACT_ESTIMATES

@@ -137,9 +137,8 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Whether the weights that ``ends`` returns for each end vanish on every problem.
-
-    ``change`` transforms the tableau first.
+    """Whether the weights that ``ends`` returns for each end vanish on every problem. ``change``
+    transforms the tableau first.
     """
     whole: Tableau | Near
     if isinstance(method, Tableau):

@@ -46,7 +46,6 @@ DIGITS = (4, 7, 10, 14)
 
 class Existence(Frozen):
     """A method near ``shifts``, in the box of ``widths`` around them; both in units of the radii.
-
     ``W``, of shape (numbers, trees), says how the numbers move together.
     """
 
@@ -81,7 +80,6 @@ class _Around:
 
 def is_proved_to_exist(search: Recovery, order: int) -> bool:
     """Whether Brouwer's theorem proves that the box has a method of an order; False says nothing.
-
     Dependent conditions, as with simplifying conditions, have no proof.
     """
     place, box = search.settled, search.box

@@ -61,7 +61,6 @@ def first_failure(
     spans: StageSpans | None = None,
 ) -> FailedCondition | None:
     """The first condition, by order, that fails exactly or within rounding; None if all are met.
-
     Raises TooManyTrees if an order of a rounded method has more than ``MOST_TREES`` trees.
     """
     if isinstance(method, Tableau):
@@ -116,10 +115,9 @@ class Estimator(Frozen):
 
 
 class KnownOrders(Frozen):
-    """The known orders of b and b̂ before their difference is examined.
-
-    The estimate vanishes up to ``least``; if they ``differ``, it has the next order. ``limit`` is
-    the largest order of trees to examine.
+    """The known orders of b and b̂ before their difference is examined. The estimate vanishes up to
+    ``least``; if they ``differ``, it has the next order. ``limit`` is the largest order of trees to
+    examine.
     """
 
     least: int

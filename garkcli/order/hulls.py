@@ -51,7 +51,6 @@ class Hull(Frozen):
 
 class Hulls(Frozen):
     """``trees[k][l]`` holds ψ of the trees of order k + 1 ≤ p with root colour l, and
-
     ``branches[j][l]`` A^{l,m} (j ψ(u)) for all trees u of order j < p; None if there are none.
     """
 

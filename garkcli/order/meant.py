@@ -26,9 +26,8 @@ ByRadii: TypeAlias = "Callable[[Radii], tuple[Box, Further]]"
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
-    """The tableau itself, or the rounded tableau within its tolerance, computed once.
-
-    ``tolerance`` is None or 0 for exact coefficients; without ``further`` weights they are ignored.
+    """The tableau itself, or the rounded tableau within its tolerance, computed once. ``tolerance``
+    is None or 0 for exact coefficients; without ``further`` weights they are ignored.
     """
     if not tolerance:
         return tableau
@@ -133,7 +132,6 @@ def as_meant(method: GarkMethod) -> AnyTableau:
 
 def derived(method: AnyTableau, which: str | None) -> AnyTableau:
     """The symplectic conjugate or pair of a method, or the method itself; rounding carries over.
-
     ``which`` is ``conjugate`` or ``pair``, a claim about their order, or for a rounded method
     ``embedded-order``; else it is the method. Raises ZeroWeight.
     """

@@ -29,9 +29,8 @@ class SimplifyingCondition(Frozen):
 
 
 class PairCriterion(Frozen):
-    """The order that the criterion gives, with the further conditions of the next one that fail.
-
-    If nodes are row sums and edges are closed under reversal, the pair has at least this order;
+    """The order that the criterion gives, with the further conditions of the next one that fail. If
+    nodes are row sums and edges are closed under reversal, the pair has at least this order;
     exactly this order if all weights are positive and no colour is linear.
     """
 

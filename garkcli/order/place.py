@@ -42,10 +42,9 @@ def arithmetic(bits: int) -> Iterator[None]:
 
 
 class BoxPlace:
-    """A method of the box by the ``shifts`` of its numbers, in units of their radii.
-
-    ``slack`` is the part of its reach up to which a row counts as met: 0 if Newton's method
-    converged; else rows are met to second order only, as where varieties cross.
+    """A method of the box by the ``shifts`` of its numbers, in units of their radii. ``slack`` is
+    the part of its reach up to which a row counts as met: 0 if Newton's method converged; else rows
+    are met to second order only, as where varieties cross.
     """
 
     def __init__(self, search: SearchedBox, shifts: Sequence[fmpq]) -> None:
@@ -160,9 +159,8 @@ class BoxPlace:
         return self._beyond_slack(name, members, share)
 
     def _bush_missed(self, name: str, order: int) -> Tree | None:
-        """A quadrature condition that no method of the box meets, or None.
-
-        Its tree has leaves of one colour. Methods of high order seldom integrate better.
+        """A quadrature condition that no method of the box meets, or None. Its tree has leaves of
+        one colour. Methods of high order seldom integrate better.
         """
         tableau = self.exact(name)
         for l in twin_roots(tableau):

@@ -33,7 +33,6 @@ MOST_STEPS = 60
 
 def polished(search: Recovery, digits: int) -> BoxPlace:
     """The method nearest to the print that meets all rows, to ``digits`` digits after the point.
-
     Raises MethodError if rows are met to second order only, or the steps do not converge.
     """
     place = search.settled
@@ -127,10 +126,8 @@ class _Polishing:
     def _least(
         self, slopes: arb_mat, values: Sequence[arb], x: Sequence[fmpq]
     ) -> tuple[list[arb], bool]:
-        """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether the rows leave others
-        free.
-
-        Numbers at an end are released if they pull inwards.
+        """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether others are free. Numbers
+        at an end are released if they pull inwards.
         """
         count = len(x)
         rows = slopes.tolist()

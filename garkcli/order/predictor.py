@@ -37,7 +37,6 @@ class Missed(Frozen):
 
 class StageOrder(Frozen):
     """The orders of the prediction of one stage, and the conditions that fail one order above.
-
     ``order`` is for every ratio of step sizes, ``equal_steps`` for ratio 1.
     """
 

@@ -24,10 +24,9 @@ FILE = Path(__file__).with_name("recovered.json")
 
 
 class Recovered(Frozen):
-    """A method of a box, by the ``shifts`` of its numbers in units of their radii.
-
-    ``shape`` has the simplifying and similar conditions that it meets, ``system`` the order
-    conditions that determined it.
+    """A method of a box, by the ``shifts`` of its numbers in units of their radii. ``shape`` has
+    the simplifying and similar conditions that it meets, ``system`` the order conditions that
+    determined it.
     """
 
     shifts: tuple[fmpq, ...]

@@ -40,9 +40,8 @@ LOWEST_FLOOR = 1e-16
 
 
 class RecoveryFailure(Frozen, eq=False):
-    """Why no method of the box meets some rows; ``is_proved`` if there is none.
-
-    ``labels`` are the rows that exclude each other, those with the largest weight first.
+    """Why no method of the box meets some rows; ``is_proved`` if there is none. ``labels`` are the
+    rows that exclude each other, those with the largest weight first.
     """
 
     is_proved: bool
@@ -151,7 +150,6 @@ class Recovery(SearchedBox):
 
     def note(self, name: str, order: int, missed: Tree) -> bool:
         """Records the order that printed digits reach, and a ``missed`` tree of the next order.
-
         Returns False if the method found so far does not have that order.
         """
         if self.place is not self.origin and name not in self._reached:
@@ -368,9 +366,8 @@ class Recovery(SearchedBox):
         return None
 
     def _newton(self, system: System, place: BoxPlace) -> BoxPlace | None:
-        """A method of the box at which all rows vanish, or None.
-
-        Equal digits move together first, as in most methods, which leaves fewer numbers.
+        """A method of the box at which all rows vanish, or None. Equal digits move together first,
+        as in most methods, which leaves fewer numbers.
         """
         self._runs += 1
         if self._runs > MOST_RUNS:
@@ -401,7 +398,6 @@ class Recovery(SearchedBox):
 
     def _iterate(self, system: System, place: BoxPlace, groups: Sequence[int]) -> BoxPlace | None:
         """A method at which all rows vanish, or of the box where they do to second order, or None.
-
         The first steps go to the method nearest to the print, to first order.
         """
         floor, cut = bounded.FLOOR, max(bounded.FLOOR, 30 * self.radius)

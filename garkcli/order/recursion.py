@@ -26,10 +26,9 @@ Value = TypeVar("Value")
 
 
 class OrderByOrder(ABC, Generic[Value]):
-    """One value for the branches and one for the forests of each order, in every stage space.
-
-    Each is computed once, on demand; after a timeout the next call continues. ``vertices`` has the
-    value of the empty forest for each stage space.
+    """One value for the branches and one for the forests of each order, in every stage space. Each
+    is computed once, on demand; after a timeout the next call continues. ``vertices`` has the value
+    of the empty forest for each stage space.
     """
 
     def __init__(self, tableau: Tableau, vertices: Iterable[Value]) -> None:
@@ -84,9 +83,8 @@ class OrderByOrder(ABC, Generic[Value]):
 
     @abstractmethod
     def _image(self, k: int, m: int, order: int, trees: Value) -> Value:
-        """From trees of an order with root colour m: branches order · A ψ in space k.
-
-        The factor is order (order − 1) ⋯ if vertices count more.
+        """From trees of an order with root colour m: branches order · A ψ in space k. The factor is
+        order (order − 1) ⋯ if vertices count more.
         """
 
     @abstractmethod
@@ -103,10 +101,9 @@ class OrderByOrder(ABC, Generic[Value]):
 
 
 class ForestVector(Frozen):
-    """A forest, and its contribution to the stage vector of a tree.
-
-    ``vector`` is the product of the branches' contributions times ``scale``, a common denominator,
-    or 1 if entries have inverses. ``exact`` is 1, or 0 if the exact solution has no such branches.
+    """A forest, and its contribution to the stage vector of a tree. ``vector`` is the product of
+    the branches' contributions times ``scale``, a common denominator, or 1 if entries have
+    inverses. ``exact`` is 1, or 0 if the exact solution has no such branches.
     """
 
     vector: Sequence[Any]
@@ -123,9 +120,8 @@ Forests: TypeAlias = Sequence[ForestVector]
 
 
 class Spans(OrderByOrder[Forests]):
-    """Members that span the contributions of all branches and all forests.
-
-    ``maps`` are the blocks of the tableau times ``scale``, a common denominator.
+    """Members that span the contributions of all branches and all forests. ``maps`` are the blocks
+    of the tableau times ``scale``, a common denominator.
     """
 
     def __init__(

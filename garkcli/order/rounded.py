@@ -43,10 +43,8 @@ class Near(Frozen, eq=False):
 
 
 class RoundedTableau(Frozen, eq=False):
-    """A rounded tableau, with the method that it is taken to mean.
-
-    ``tolerance`` is the rounding of most coefficients at least, ``name`` its name among the
-    tableaus derived from the method.
+    """A rounded tableau, with the method that it is taken to mean. ``tolerance`` is the rounding of
+    most coefficients at least, ``name`` its name among the tableaus derived from the method.
     """
 
     tableau: Tableau
@@ -56,10 +54,8 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def of(tableau: Tableau, tolerance: fmpq, box: Box, further: Further) -> RoundedTableau:
-        """The rounded tableau of a box.
-
-        If a construction joins stages with equal printed numbers, but not in all methods of the
-        box, each coefficient counts as a printed number.
+        """The rounded tableau of a box. If a construction joins stages with equal printed numbers,
+        but not in all methods of the box, each coefficient counts as a printed number.
         """
         search = Recovery(box, further)
         made = search.origin.defects("method").tableau.made, search.origin.exact("method")
@@ -73,9 +69,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
-        """Each coefficient is off by the unit of its last digit; ``units`` are those of printed
-        ones.
-
+        """Each coefficient is off by the unit of its last digit; ``units`` are for printed ones.
         Other values are made of printed ones and get the largest.
         """
         largest = max(units.values(), default=fmpq(0))
@@ -167,9 +161,7 @@ class RoundedTableau(Frozen, eq=False):
         return replace(self, search=self.search.of_orders())
 
     def one_by_one(self, limit: int) -> RoundedOrder:
-        """The order up to which rounding explains each condition alone: one method need not meet
-        all.
-
+        """The order up to which rounding explains each condition alone; no method need meet all.
         Below the limit it has a witness.
         """
         order, tree = self.search.explained(self.name, limit)
@@ -279,9 +271,8 @@ class RoundedOrder(Shown, FrozenBut):
 def find_order_within(
     rounded: RoundedTableau, limit: int = DEFAULT_LIMIT, exact: Order | None = None
 ) -> RoundedOrder:
-    """The largest r ≤ ``limit`` for which one method within the rounding has order r.
-
-    It also meets all that it was asked to meet before.
+    """The largest r ≤ ``limit`` for which one method within the rounding has order r. It also meets
+    all that it was asked to meet before.
     """
     exact = exact or find_order(rounded.tableau, limit)
     limit = min(limit, rounded.tableau.exact_to or limit)

@@ -129,9 +129,7 @@ class FormDefects:
         return self._words[path]
 
     def _damping(self, x: Label) -> Forms:
-        """Coefficients of z^k in the numerator of R of l alone, k from the degree of the
-        denominator.
-
+        """Coefficients of z^k in the numerator of R of l alone, from the denominator's degree on.
         R(∞) = 0 if they vanish. Empty if all stages are explicit.
         """
         denominator, series = self._fraction(x.l)
@@ -150,9 +148,8 @@ class FormDefects:
         return max(k for k in range(len(denominator)) if not may_vanish(denominator, k))
 
     def _fraction(self, l: int) -> tuple[Forms, Forms]:
-        """The coefficients of det(I − zA) up to z^s, and those of R as a power series.
-
-        They are by Newton's identities from traces of powers of A, and with b A^(k−1) 𝟙.
+        """The coefficients of det(I − zA) up to z^s, and those of R as a power series. They are by
+        Newton's identities from traces of powers of A, and with b A^(k−1) 𝟙.
         """
         block, stages = self.tableau.block(l, l), len(self.tableau.b[l])
         unit = part(self.tableau.one(l), [0])

@@ -171,10 +171,8 @@ def less(origin: BoxPlace, chosen: Chosen) -> Chosen:
 
 
 def weak_rows(place: BoxPlace, k: int) -> list[Label]:
-    """The conditions of weak stage order k, for as many words b A ⋯ A of each last colour as
-    stages.
-
-    Longer ones are combinations, for one colour by Cayley-Hamilton.
+    """The conditions of weak stage order k, for words b A ⋯ A of each last colour. As many words as
+    stages suffice: longer ones are combinations (Cayley-Hamilton).
     """
     made = place.defects("method").tableau.made
     edges = list(made.edges())

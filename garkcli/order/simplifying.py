@@ -20,9 +20,8 @@ from garkcli.tableau.tableau import Edge, Tableau
 
 
 def is_symplectic(method: AnyTableau) -> bool:
-    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs.
-
-    A GARK tableau is then its own conjugate; momentum blocks of a partitioned one are conjugates of
+    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs. A
+    GARK tableau is then its own conjugate; momentum blocks of a partitioned one are conjugates of
     its position blocks, with equal weights if they share stages. No weight is a divisor.
     """
     defects = defects_of(method)
@@ -139,9 +138,8 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """B, C and D, or only ``letters``, up to ``limit``.
-
-    A rounded tableau meets a condition if rounding explains every entry of its defect.
+    """B, C and D, or only ``letters``, up to ``limit``. A rounded tableau meets a condition if
+    rounding explains every entry of its defect.
     """
     defects = defects_of(method)
     tableau = defects.tableau

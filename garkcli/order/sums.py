@@ -13,7 +13,6 @@ from garkcli.tableau.tableau import Edge
 
 class WrongSum(Frozen):
     """A wrong sum of the weights b^{l}, where ``m`` and ``i`` are None, or of row i of a block.
-
     ``wanted`` is 1 or the node; all count from 0.
     """
 

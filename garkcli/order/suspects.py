@@ -49,7 +49,6 @@ LONGEST = 1e9
 
 def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) -> dict[Repair, int]:
     """Single entries whose change gives an order, the others within rounding; with these orders.
-
     The smallest change is first, and none is below rounding.
     """
     search = rounded.search
@@ -126,10 +125,9 @@ def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) ->
 
 
 class _Candidate(Frozen):
-    """A number whose change lets all conditions be met to first order.
-
-    ``shift`` and its uncertainty ``doubt`` are in units of the radius. ``is_sure``: all
-    conditions are met together, not each alone.
+    """A number whose change lets all conditions be met to first order. ``shift`` and its
+    uncertainty ``doubt`` are in units of the radius. ``is_sure``: all conditions are met together,
+    not each alone.
     """
 
     number: int

@@ -25,10 +25,8 @@ def unnatural(order: int) -> fmpq:
 
 
 def small(order: int) -> fmpq:
-    """Largest residual that a few digits may explain.
-
-    A thousandth of the error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes,
-    (s!)⁴ / ((2s+1) ((2s)!)²).
+    """Largest residual that a few digits may explain. A thousandth of the error of x^(n−1) in the
+    best quadrature of s = ⌊n/2⌋ nodes, (s!)⁴ / ((2s+1) ((2s)!)²).
     """
     s = order // 2
     return UNNATURAL * fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)

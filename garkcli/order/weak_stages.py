@@ -18,10 +18,9 @@ from garkcli.order.simplifying import defects_of
 
 
 def weak_stage_order(method: AnyTableau | Defects, colours: Sequence[int], limit: int) -> int:
-    """The largest q ≤ ``limit`` to which no defect reaches the new value.
-
-    b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) − (c^{p})^k / k) = 0 for k = 1, …, q, every r and
-    all products of blocks between ``colours``, the stiff ones.
+    """The largest q ≤ ``limit`` to which no defect reaches the new value. b^{l} A^{l,m} ⋯ A^{n,p}
+    (A^{p,r} (c^{r})^(k−1) − (c^{p})^k / k) = 0 for k = 1, …, q, every r and all products of blocks
+    between ``colours``, the stiff ones.
     """
     defects = method if isinstance(method, Defects) else defects_of(method)
     edges = set(defects.tableau.edges())
