@@ -12,21 +12,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from flint import fmpq
 
+from garkcli.design.minimise import objective as aims
+from garkcli.design.minimise import objectives
 from garkcli.design.minimise.measures import at_infinity, coefficients_of, numbers_of
-from garkcli.design.minimise.objective import (
-    Either,
-    LevelObjective,
-    Objective,
-    ObjectiveSubject,
-    Single,
-    WeightedSum,
-)
-from garkcli.design.minimise.objectives import (
-    OBJECTIVES,
-    oscillator_of,
-    refuse_one_colour,
-    refuse_partitioned,
-)
 from garkcli.design.minimise.sums import Wanted, objective_of
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.one_point import Matrix as Entries
@@ -112,7 +100,9 @@ Goal: TypeAlias = Smooth | Reach | Bound
 class Setting:
     """Methods, with their errors in floats and their conditions up to the next order."""
 
-    def __init__(self, subject: ObjectiveSubject, ring: Parameters, trees: TreeConditions) -> None:
+    def __init__(
+        self, subject: aims.ObjectiveSubject, ring: Parameters, trees: TreeConditions
+    ) -> None:
         self.subject = subject
         self.tableau = subject.tableau
         self.order = subject.order
@@ -153,33 +143,33 @@ class Setting:
         return Bound(at)
 
 
-def goal_of(objective: Single, setting: Setting) -> Goal:
+def goal_of(objective: aims.Single, setting: Setting) -> Goal:
     """Raises UsageProblem if it is not applicable."""
     if objective.key in GOALS:
         return GOALS[objective.key](setting)
-    assert isinstance(objective, Objective)
+    assert isinstance(objective, aims.Objective)
     quotient = objective.formula(setting.subject, setting.ring)
     number = setting.ring.quotient(quotient.numerator, quotient.denominator)
     function = RationalFunction(number, setting.ring)
     return Smooth(_gradient_of(function, len(setting.ring.names)))
 
 
-def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
+def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, aims.Single]]:
     """Weights of levels are negative."""
-    if isinstance(wanted, WeightedSum):
+    if isinstance(wanted, aims.WeightedSum):
         return list(wanted.terms)
-    one = wanted.meant(tableau) if isinstance(wanted, Either) else wanted
-    return [(fmpq(-1 if isinstance(one, LevelObjective) else 1), one)]
+    one = wanted.meant(tableau) if isinstance(wanted, aims.Either) else wanted
+    return [(fmpq(-1 if isinstance(one, aims.LevelObjective) else 1), one)]
 
 
-def levels_of(family: Family) -> list[tuple[LevelObjective, fmpq]]:
-    levels = [(OBJECTIVES[key], bound) for key, bound in family.levels]
-    return [(x, bound) for x, bound in levels if isinstance(x, LevelObjective)]
+def levels_of(family: Family) -> list[tuple[aims.LevelObjective, fmpq]]:
+    levels = [(objectives.OBJECTIVES[key], bound) for key, bound in family.levels]
+    return [(x, bound) for x, bound in levels if isinstance(x, aims.LevelObjective)]
 
 
-def objective_on(name: str, tableau: Tableau) -> Single | WeightedSum:
+def objective_on(name: str, tableau: Tableau) -> aims.Single | aims.WeightedSum:
     objective = objective_of(name)
-    return objective.meant(tableau) if isinstance(objective, Either) else objective
+    return objective.meant(tableau) if isinstance(objective, aims.Either) else objective
 
 
 def _gradient_of(
@@ -256,7 +246,7 @@ def difference(one: Errors, other: Errors) -> Errors:
 
 
 def _coupling(setting: Setting) -> Goal:
-    refuse_one_colour(setting.tableau)
+    objectives.refuse_one_colour(setting.tableau)
     return squared(setting.errors(1, is_coupling=True))
 
 
@@ -437,7 +427,7 @@ class _OnInterval(_Bounded):
     def __init__(self, tableau: Tableau, ring: Parameters, direction: complex, order: int) -> None:
         import numpy as np
 
-        refuse_partitioned(tableau)
+        objectives.refuse_partitioned(tableau)
         step = _Step(on_linear_problems(tableau), ring, [((ONE,),)] * tableau.size)
         super().__init__(step, direction, 2 * (order // 2 + 1))
         self.grid = np.linspace(1 / SAMPLES, 1, (SAMPLES - 1) * FINE + 1)
@@ -501,7 +491,7 @@ class _Rays:
     """|R| ≤ 1 at the edges of a sector; its angle in degrees ≤ 90 is the last unknown."""
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
-        refuse_partitioned(tableau)
+        objectives.refuse_partitioned(tableau)
         self.step = _Step(on_linear_problems(tableau), ring, [((ONE,),)] * tableau.size)
         self.distances = whole_axis()
 
@@ -541,7 +531,7 @@ class _Oscillating:
     def __init__(self, tableau: Tableau, ring: Parameters, order: int) -> None:
         import numpy as np
 
-        problem = oscillator_of(tableau)
+        problem = objectives.oscillator_of(tableau)
         fields = [problem.matrix(colour) for colour in tableau.colours]
         self.step = _Step(tableau, ring, fields)
         self.points = np.arange(1, SAMPLES + 1) / SAMPLES

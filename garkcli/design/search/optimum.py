@@ -10,24 +10,9 @@ from flint import fmpq
 
 from garkcli.deadline import check_time
 from garkcli.design.member import not_negative
-from garkcli.design.minimise.objective import (
-    INSIDE,
-    ObjectiveSubject,
-    SearchMeasure,
-    Single,
-    WeightedSum,
-)
+from garkcli.design.minimise import objective as aims
+from garkcli.design.search import goals
 from garkcli.design.search.descent import descended
-from garkcli.design.search.goals import (
-    NOTHING,
-    AStable,
-    Setting,
-    TreeConditions,
-    entries_of,
-    goal_of,
-    levels_of,
-    terms_of,
-)
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.points import Fixed, Fixings, rank
@@ -84,7 +69,7 @@ class Optimisation:
     """
 
     def __init__(
-        self, family: Family, conditions: Residuals, objective: Single | WeightedSum
+        self, family: Family, conditions: Residuals, objective: aims.Single | aims.WeightedSum
     ) -> None:
         import numpy as np
 
@@ -99,18 +84,18 @@ class Optimisation:
         self.conditions = conditions
         # the conditions of the next order are the error
         wide = Residuals(conditions.tableau, ring, order + 1, conditions.relations)
-        self._trees = TreeConditions(wide)
+        self._trees = goals.TreeConditions(wide)
         trees, last = len(wide.table), wide.table.ids(order + 1)
         self._own = np.r_[0 : last.start, trees : len(wide)]
-        subject = ObjectiveSubject.of(family, conditions.tableau, order, family.further)
-        self._setting = Setting(subject, ring, self._trees)
+        subject = aims.ObjectiveSubject.of(family, conditions.tableau, order, family.further)
+        self._setting = goals.Setting(subject, ring, self._trees)
         self._caps: tuple[Equations, ...] = tuple(
             capped(
-                goal_of(level, self._setting),
+                goals.goal_of(level, self._setting),
                 level.inside(as_float(bound)),
-                INSIDE / 10 if level.key == "-ssp" else 0.0,
+                aims.INSIDE / 10 if level.key == "-ssp" else 0.0,
             )
-            for level, bound in levels_of(family)
+            for level, bound in goals.levels_of(family)
         )
         self._aim(objective)
         positive = polynomial_functions(family.positive, ring)
@@ -120,29 +105,31 @@ class Optimisation:
         self._margin = np.zeros(self._signs.shape[0])
         self._margin[: len(positive)] = MARGIN
         self.stable = [
-            AStable(family.tested(wanted), wanted.colour, order)
+            goals.AStable(family.tested(wanted), wanted.colour, order)
             for wanted in family.stable
             if wanted.kind in ("a-stable", "l-stable")
         ]
 
-    def _aim(self, objective: Single | WeightedSum) -> None:
-        terms = terms_of(objective, self.conditions.tableau)
-        goals = [(as_float(w), goal_of(x, self._setting)) for w, x in terms]
-        self.total = Total(goals, self.within)
-        is_count = isinstance(objective, SearchMeasure) and objective.key == "nonzero"
+    def _aim(self, objective: aims.Single | aims.WeightedSum) -> None:
+        terms = goals.terms_of(objective, self.conditions.tableau)
+        weighted = [(as_float(w), goals.goal_of(x, self._setting)) for w, x in terms]
+        self.total = Total(weighted, self.within)
+        is_count = isinstance(objective, aims.SearchMeasure) and objective.key == "nonzero"
         setting = self._setting
-        self._entries = entries_of(setting.tableau, setting.ring) if is_count else []
+        self._entries = goals.entries_of(setting.tableau, setting.ring) if is_count else []
         # measures are no squares
-        self._rounding = ROUNDING**0.5 if isinstance(objective, SearchMeasure) else ROUNDING
+        self._rounding = ROUNDING**0.5 if isinstance(objective, aims.SearchMeasure) else ROUNDING
 
     def aimed(
-        self, objective: Single | WeightedSum, cap: tuple[Single, float] | None = None
+        self,
+        objective: aims.Single | aims.WeightedSum,
+        cap: tuple[aims.Single, float] | None = None,
     ) -> Optimisation:
         """For another objective; ``cap`` is one with its bound, which is a lower one for levels."""
         other = copy(self)
         if cap is not None:
             one, bound = cap
-            other._caps = (*self._caps, capped(goal_of(one, self._setting), bound))
+            other._caps = (*self._caps, capped(goals.goal_of(one, self._setting), bound))
         other._aim(objective)
         return other
 
@@ -228,7 +215,7 @@ class Optimisation:
 
         values = with_gradients(self._entries, np.array(at.point)[:, None])[0][:, 0]
         pairs = zip(np.abs(values), self._entries, strict=True)
-        return [f for x, f in sorted(pairs, key=lambda pair: pair[0]) if x > NOTHING]
+        return [f for x, f in sorted(pairs, key=lambda pair: pair[0]) if x > goals.NOTHING]
 
     def _zeros(self, at: Optimum) -> list[Fixed]:
         # keeps zero coefficients zero

@@ -9,25 +9,9 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mpoly
 
+from garkcli.design import member as members
 from garkcli.design.design import order_of
-from garkcli.design.member import (
-    TABLEAUS,
-    Whose,
-    further_member,
-    is_admissible,
-    is_as_stable,
-    member,
-    method_at,
-    not_negative,
-    value_of,
-)
-from garkcli.design.minimise.objective import (
-    LevelObjective,
-    ObjectiveSubject,
-    SearchMeasure,
-    Single,
-    WeightedSum,
-)
+from garkcli.design.minimise import objective as aims
 from garkcli.design.search.goals import levels_of, objective_on, terms_of
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.optimum import Optimisation, Optimum
@@ -72,7 +56,7 @@ class Signs:
         self.bits = bits
         self.nonzero = polynomial_functions(family.nonzero, family.ring)
         self.positive = polynomial_functions(family.positive, family.ring)
-        self.not_negative = polynomial_functions(not_negative(family), family.ring)
+        self.not_negative = polynomial_functions(members.not_negative(family), family.ring)
 
     def seem_kept(self, x: Array) -> bool:
         """In floats, up to rounding where zero is allowed; x has the shape (unknowns, 1)."""
@@ -145,12 +129,16 @@ class Search:
     """A search for methods of an order among those of a family; ZeroWeight without a conjugate."""
 
     def __init__(
-        self, family: Family, order: int, whose: Whose = "method", objective: str | None = None
+        self,
+        family: Family,
+        order: int,
+        whose: members.Whose = "method",
+        objective: str | None = None,
     ) -> None:
         self.family = family if whose != "method" else _damped(family)
         self.order = order
         self.whose = whose
-        self.tableau = TABLEAUS[whose](family.tableau)
+        self.tableau = members.TABLEAUS[whose](family.tableau)
         self.text = objective
         self.objective = None if objective is None else objective_on(objective, self.tableau)
 
@@ -252,7 +240,7 @@ class Search:
             (w, self._size(one, find, k))
             for k, (w, one) in enumerate(terms_of(self.objective, self.tableau))
         ]
-        if not isinstance(self.objective, WeightedSum):
+        if not isinstance(self.objective, aims.WeightedSum):
             [(_, size)] = terms
             if isinstance(size, RealRoot):
                 return root_decimal(size, SHORT)
@@ -264,15 +252,15 @@ class Search:
             total = sum((arb(w) * _ball(size) for w, size in terms if size is not None), arb(0))
         return f"{float(total):.{digits}g}"
 
-    def _size(self, one: Single, find: Find, place: int) -> RealRoot | float | None:
+    def _size(self, one: aims.Single, find: Find, place: int) -> RealRoot | float | None:
         """The value of the objective at a place, for a find; None for infinity."""
         import numpy as np
 
         names, ring = self.family.ring.names, self.family.ring
-        if isinstance(one, LevelObjective) and find.found is not None:
+        if isinstance(one, aims.LevelObjective) and find.found is not None:
             solution = find.found.solution
             with suppress(NotDecided):
-                method = method_at(self.tableau, ring, solution, solution.real[0])
+                method = members.method_at(self.tableau, ring, solution, solution.real[0])
                 if method is not None:
                     return one.measured(one.value(method))
         values: dict[str, Number] = {}
@@ -281,17 +269,17 @@ class Search:
             values = dict(find.found.solution.values)
             digits = _digits_of(find.found.solution)
         is_rational = all(isinstance(values.get(name), fmpq) for name in names)
-        if isinstance(one, LevelObjective) and not is_rational:
+        if isinstance(one, aims.LevelObjective) and not is_rational:
             return self.program.level(place, np.array([float(digits[x].mid()) for x in names]))
         if not is_rational:
             with ctx.workprec(BITS):
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
-        tableau = member(self.tableau, ring, values)
-        if isinstance(one, LevelObjective):
+        tableau = members.member(self.tableau, ring, values)
+        if isinstance(one, aims.LevelObjective):
             return one.measured(one.value(tableau))
-        further = further_member(self.family.further, ring, values)
-        subject = ObjectiveSubject.of(self.family, tableau, self.order, further)
-        if isinstance(one, SearchMeasure):
+        further = members.further_member(self.family.further, ring, values)
+        subject = aims.ObjectiveSubject.of(self.family, tableau, self.order, further)
+        if isinstance(one, aims.SearchMeasure):
             return square_root(RealRoot.rational(one.squared(subject)))
         quotient = one.formula(subject, None)
         return RealRoot.rational(quotient.numerator / quotient.denominator)
@@ -303,7 +291,7 @@ class Search:
             return wanted if self.whose == "method" else None
         tableau = with_weights(self.family.tableau, embedded)
         values = find.found.solution.values
-        return find_order(member(tableau, self.family.ring, values)).order
+        return find_order(members.member(tableau, self.family.ring, values)).order
 
     def find(self, start: int, point: list[float]) -> Find | None:
         """A solution in floats with its proof; None if it is no solution after all."""
@@ -386,16 +374,16 @@ class Search:
         field = next((x.field for x in guess.values.values() if not isinstance(x, fmpq)), None)
         solution = Solution(guess.modulus, field, dict(guess.values), 1, (guess.root,))
         ring = self.family.ring
-        if any(value_of(x, ring, solution.values) for x in self._relations):
+        if any(members.value_of(x, ring, solution.values) for x in self._relations):
             return None
-        if not all(value_of(p, ring, solution.values) for p in self.family.nonzero):
+        if not all(members.value_of(p, ring, solution.values) for p in self.family.nonzero):
             return None
-        if not is_admissible(self.family, solution, guess.root):
+        if not members.is_admissible(self.family, solution, guess.root):
             return None
         order = order_of(self.family, self.whose, solution)
         if order is None or order.order < self.order:
             return None
-        stable = is_as_stable(self.family, self.whose, solution, guess.root)
+        stable = members.is_as_stable(self.family, self.whose, solution, guess.root)
         is_meant = bool(stable) and self._has_levels(solution)
         return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, is_meant)
 
@@ -405,7 +393,7 @@ class Search:
         if not wanted:
             return True
         with suppress(NotDecided):
-            method = method_at(self.tableau, self.family.ring, solution, solution.real[0])
+            method = members.method_at(self.tableau, self.family.ring, solution, solution.real[0])
             if method is not None:
                 return all(level.reaches(level.value(method), bound) for level, bound in wanted)
         return False
