@@ -200,10 +200,7 @@ def method_files(data: Path) -> list[tuple[str, Path]]:
 
 
 def made(data: Path, before: str, tell: Tell) -> str:
-    """The text of the index; NoMethod if a file is not a method or a claim fails. Entries of
-    ``before``, an earlier index or empty, are kept if their files are unchanged; ``tell`` is called
-    with the name of each file that is analysed.
-    """
+    """The text of the index; entries of ``before`` stay if their files do; NoMethod for a fault."""
     known = _known(before)
     entries = []
     for name, path in method_files(data):
@@ -235,10 +232,7 @@ def _text(entries: list[Entry]) -> Iterator[str]:
 
 
 def recovered(data: Path, before: dict[str, dict[str, Any]], index: str) -> str:
-    """The text of ``order/recovered.json``: starts of searches for the rounded methods. Entries of
-    ``before`` are kept if their files are unchanged. ``index`` is the index made together with it,
-    or empty.
-    """
+    """The text of ``order/recovered.json``; entries of ``before`` stay if their files do."""
     known = {(x["method"], x["digest"]): (key, x) for key, x in before.items()}
     entries = _known(index).items() if before else ()
     exact = {(Path(file).name, text) for (file, text), entry in entries if entry["exact"]}

@@ -76,9 +76,7 @@ def _floats(rows: Sequence[Row]) -> list[list[float]]:
 
 
 def find_known(analysis: Analysis, file: str, text: str) -> Known | None:
-    """The method of the catalogue that an analysis is about, or one next to it. ``file`` and
-    ``text`` were read: a file of the catalogue is not compared with itself.
-    """
+    """The method of the catalogue that an analysis is about or next to, except its own file."""
     from garkcli.methodfile.shelves import key_of, package
 
     if any(own.read() == text for own in package().named(key_of(file))):

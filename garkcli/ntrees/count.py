@@ -49,9 +49,7 @@ class Admissible(Frozen):
     def of(
         cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> Admissible:
-        """The class with some linear colours, by default with every edge. Raises ``TreeError`` if
-        ``edges`` has not a row for each colour, or a colour does not exist.
-        """
+        """The class with some linear colours, by default with every edge; TreeError for misfits."""
         if colours < 1:
             message = f"an N-tree needs at least one colour, not {colours}"
             raise TreeError(message, "ask for 1 or more")
@@ -110,11 +108,7 @@ def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
 def count_by_root(
     colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
 ) -> Counts:
-    """The number of N-trees of one order for each root colour; TreeError for an order below 1.
-
-    >>> count_by_root(2, 4)
-    (26, 26)
-    """
+    """The number of N-trees of one order for each root colour; TreeError for an order below 1."""
     return counts_of(Admissible.of(colours, edges, linear), order)
 
 

@@ -45,10 +45,6 @@ def layout(tree: Tree) -> list[Vertex]:
     """Places every vertex, the root first, parents before branches; the root has parent -1.
 
     Leaves are one unit apart; a vertex is halfway between its first and last branches.
-
-    >>> from garkcli.ntrees.tree import Tree
-    >>> layout(Tree(0, [Tree(1), Tree(1)]))[0]
-    Vertex(x=0.5, y=0, colour=0, parent=-1)
     """
     placed: list[Vertex] = []
     leaves = 0

@@ -98,9 +98,7 @@ class Columns(Frozen):
 
 
 class Segment(Frozen):
-    """The trees of one order and root colour whose last branch has one order and root colour.
-    ``ids`` are consecutive in the table; ``stems`` and ``branches`` are those of the parents.
-    """
+    """Trees of one order and root colour with last branches of one too, at ``ids`` in a row."""
 
     order: int
     root: int
@@ -112,9 +110,7 @@ class Segment(Frozen):
 
 
 class Growth:
-    """The future trees of one segment, counted at once and made in pieces of any size. ``lower``
-    has all trees of lower order; ``kind`` is that of the root.
-    """
+    """The future trees of a segment; ``lower`` has all trees of lower order."""
 
     def __init__(
         self, lower: Columns, order: int, kind: VertexKind, stems: range, branches: range
@@ -295,10 +291,7 @@ class TreeTable(Frozen):
     def upto(
         cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
-        """``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` beyond
-        ``MAX_TREES`` trees: :func:`iter_blocks` streams one order more, and
-        :mod:`garkcli.ntrees.count` counts any order.
-        """
+        """TableTooLarge beyond ``MAX_TREES`` trees: :func:`iter_blocks` streams one order more."""
         return cls.of(Admissible.of(colours, edges, linear), order)
 
     @classmethod

@@ -97,9 +97,7 @@ def are_few(tableau: Tableau, order: int, most: int) -> bool:
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
-    """Groups of root colours whose stages and weights agree, and so all their conditions. Keys are
-    their first colours, as for V^l and F^l of the symplectic pair.
-    """
+    """Groups of root colours with equal stages and weights, so equal conditions, by their first."""
     groups: dict[int, tuple[int, ...]] = {}
     for l in tableau.roots:
         colour = tableau.colours[l]

@@ -35,9 +35,9 @@ FEW_CONDITIONS_UNASKED = 2_000
 
 
 class MissedOrder(Frozen):
-    """``order`` is the first failing one, ``of`` the key of the claim. Of ``is_embedded`` claims
-    only exact weights may be wrong. With ``keeps_shape`` zeros outside the pattern of a block, as
-    on the diagonal of an explicit method, are right.
+    """``order`` is the first failing one, ``of`` the key of the claim. With ``is_embedded`` it is
+    about embedded weights, which alone may be wrong if they are exact. With ``keeps_shape`` zeros
+    outside the pattern of a block, as on the diagonal of an explicit method, are right.
     """
 
     order: int

@@ -102,9 +102,7 @@ class Order(Shown, Frozen):
 def find_order(
     tableau: Tableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
 ) -> Order:
-    """The exact order, at most ``limit``, by affine spans of the trees of the coupling graph.
-    ``spans`` are stage vectors that are known; they do not depend on weights.
-    """
+    """The exact order, at most ``limit``, by affine spans; ``spans`` are known stage vectors."""
     spans = spans or StageSpans(tableau)
     limit = min(limit, tableau.exact_to or limit)
     for order in range(1, limit + 1):
@@ -175,9 +173,7 @@ class StageSpans(Spans):
 def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
-    """By colour, trees with that root whose ψ span those of all: over ℚ at most s + 1. ``orders``
-    are ascending from 1.
-    """
+    """For each colour trees whose ψ span those of all trees with that root, order by order."""
     spans = StageSpans(tableau)
     for order in orders:
         yield tuple(

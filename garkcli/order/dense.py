@@ -137,9 +137,7 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Whether the weights that ``ends`` returns for each end vanish on every problem. ``change``
-    transforms the tableau first.
-    """
+    """Whether the weights of both ``ends`` vanish on every problem, after a ``change`` of it."""
     whole: Tableau | Near
     if isinstance(method, Tableau):
         tableau = change(method)

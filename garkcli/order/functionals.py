@@ -60,9 +60,7 @@ def first_failure(
     orders: Iterable[int],
     spans: StageSpans | None = None,
 ) -> FailedCondition | None:
-    """The first condition, by order, that fails exactly or within rounding; None if all are met.
-    Raises TooManyTrees if an order of a rounded method has more than ``MOST_TREES`` trees.
-    """
+    """The first condition, by order, that is not met, else None; TooManyTrees for rounded ones."""
     if isinstance(method, Tableau):
         return _first_exact(method, functionals, orders, spans)
     from garkcli.order.rounded import tree_missed  # balls, which exact methods do without

@@ -26,9 +26,7 @@ ByRadii: TypeAlias = "Callable[[Radii], tuple[Box, Further]]"
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
-    """The tableau itself, or the rounded tableau within its tolerance, computed once. ``tolerance``
-    is None or 0 for exact coefficients; without ``further`` weights they are ignored.
-    """
+    """The tableau itself if exact, else the rounded tableau within its tolerance, computed once."""
     if not tolerance:
         return tableau
     base, which = tableau.__dict__.get("made of", (None, ""))

@@ -159,9 +159,7 @@ class BoxPlace:
         return self._beyond_slack(name, members, share)
 
     def _bush_missed(self, name: str, order: int) -> Tree | None:
-        """A quadrature condition that no method of the box meets, or None. Its tree has leaves of
-        one colour. Methods of high order seldom integrate better.
-        """
+        """A bush whose condition no method of the box meets: few of high order integrate better."""
         tableau = self.exact(name)
         for l in twin_roots(tableau):
             for m in range(tableau.size):

@@ -36,9 +36,7 @@ class Missed(Frozen):
 
 
 class StageOrder(Frozen):
-    """The orders of the prediction of one stage, and the conditions that fail one order above.
-    ``order`` is for every ratio of step sizes, ``equal_steps`` for ratio 1.
-    """
+    """Orders for every ratio of step sizes and for ratio 1, with conditions that fail one above."""
 
     stage: int
     order: int

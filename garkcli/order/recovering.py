@@ -40,9 +40,7 @@ LOWEST_FLOOR = 1e-16
 
 
 class RecoveryFailure(Frozen, eq=False):
-    """Why no method of the box meets some rows; ``is_proved`` if there is none. ``labels`` are the
-    rows that exclude each other, those with the largest weight first.
-    """
+    """Why no method of the box meets some rows, the heaviest first; ``is_proved`` if none does."""
 
     is_proved: bool
     labels: tuple[tuple[str, Label], ...] = ()
@@ -149,9 +147,7 @@ class Recovery(SearchedBox):
         return order == reached + 1 and failure is not None and failure.is_proved
 
     def note(self, name: str, order: int, missed: Tree) -> bool:
-        """Records the order that printed digits reach, and a ``missed`` tree of the next order.
-        Returns False if the method found so far does not have that order.
-        """
+        """Records the order that printed digits reach; False if the method found is below it."""
         if self.place is not self.origin and name not in self._reached:
             with np.errstate(all="ignore"):
                 if any(self.place.missed(name, q) for q in range(1, order + 1)):
@@ -366,9 +362,7 @@ class Recovery(SearchedBox):
         return None
 
     def _newton(self, system: System, place: BoxPlace) -> BoxPlace | None:
-        """A method of the box at which all rows vanish, or None. Equal digits move together first,
-        as in most methods, which leaves fewer numbers.
-        """
+        """A method of the box at which all rows vanish; equal digits first move together."""
         self._runs += 1
         if self._runs > MOST_RUNS:
             return None

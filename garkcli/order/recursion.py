@@ -83,9 +83,7 @@ class OrderByOrder(ABC, Generic[Value]):
 
     @abstractmethod
     def _image(self, k: int, m: int, order: int, trees: Value) -> Value:
-        """From trees of an order with root colour m: branches order · A ψ in space k. The factor is
-        order (order − 1) ⋯ if vertices count more.
-        """
+        """Branches order · A ψ in space k; order (order − 1) ⋯ A ψ if vertices count more."""
 
     @abstractmethod
     def _joined(self, k: int, parts: Iterable[Value]) -> Value:
@@ -120,9 +118,7 @@ Forests: TypeAlias = Sequence[ForestVector]
 
 
 class Spans(OrderByOrder[Forests]):
-    """Members that span the contributions of all branches and all forests. ``maps`` are the blocks
-    of the tableau times ``scale``, a common denominator.
-    """
+    """Members that span all branches and forests; ``maps`` are blocks times ``scale``."""
 
     def __init__(
         self,

@@ -43,9 +43,7 @@ class Near(Frozen, eq=False):
 
 
 class RoundedTableau(Frozen, eq=False):
-    """A rounded tableau, with the method that it is taken to mean. ``tolerance`` is the rounding of
-    most coefficients at least, ``name`` its name among the tableaus derived from the method.
-    """
+    """A rounded tableau and the method that it is taken to mean; ``tolerance`` is most numbers'."""
 
     tableau: Tableau
     tolerance: fmpq
@@ -69,9 +67,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
-        """Each coefficient is off by the unit of its last digit; ``units`` are for printed ones.
-        Other values are made of printed ones and get the largest.
-        """
+        """Coefficients are off by their ``units``; those made of printed numbers by the largest."""
         largest = max(units.values(), default=fmpq(0))
         return _around(tableau, NOTHING, largest, lambda x: units.get(x, largest))
 
@@ -161,9 +157,7 @@ class RoundedTableau(Frozen, eq=False):
         return replace(self, search=self.search.of_orders())
 
     def one_by_one(self, limit: int) -> RoundedOrder:
-        """The order up to which rounding explains each condition alone; no method need meet all.
-        Below the limit it has a witness.
-        """
+        """The order up to which rounding explains each condition alone; no method need meet all."""
         order, tree = self.search.explained(self.name, limit)
         witness = None if tree is None else _witness(self, tree)
         return RoundedOrder(order, self.tolerance, witness, rounded=self)

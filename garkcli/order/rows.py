@@ -129,9 +129,7 @@ class FormDefects:
         return self._words[path]
 
     def _damping(self, x: Label) -> Forms:
-        """Coefficients of z^k in the numerator of R of l alone, from the denominator's degree on.
-        R(∞) = 0 if they vanish. Empty if all stages are explicit.
-        """
+        """The z^k of the numerator of R, k from the degree of the denominator: 0 if R(∞) = 0."""
         denominator, series = self._fraction(x.l)
         if not x.k:
             return part(series, [])
@@ -148,9 +146,7 @@ class FormDefects:
         return max(k for k in range(len(denominator)) if not may_vanish(denominator, k))
 
     def _fraction(self, l: int) -> tuple[Forms, Forms]:
-        """The coefficients of det(I − zA) up to z^s, and those of R as a power series. They are by
-        Newton's identities from traces of powers of A, and with b A^(k−1) 𝟙.
-        """
+        """Coefficients of det(I − zA) up to z^s, by Newton's identities, and of R as a series."""
         block, stages = self.tableau.block(l, l), len(self.tableau.b[l])
         unit = part(self.tableau.one(l), [0])
         columns = [block.column(i) for i in range(stages)]

@@ -138,9 +138,7 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """B, C and D, or only ``letters``, up to ``limit``. A rounded tableau meets a condition if
-    rounding explains every entry of its defect.
-    """
+    """B, C and D, or only ``letters``, up to ``limit``, as far as rounding explains all defects."""
     defects = defects_of(method)
     tableau = defects.tableau
     alike = _Alike.of(tableau)

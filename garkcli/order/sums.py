@@ -12,9 +12,7 @@ from garkcli.tableau.tableau import Edge
 
 
 class WrongSum(Frozen):
-    """A wrong sum of the weights b^{l}, where ``m`` and ``i`` are None, or of row i of a block.
-    ``wanted`` is 1 or the node; all count from 0.
-    """
+    """A wrong sum of a row of a block, or of b^{l} with ``m`` and ``i`` None; all from 0."""
 
     l: int
     m: int | None

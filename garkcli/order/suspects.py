@@ -48,9 +48,7 @@ LONGEST = 1e9
 
 
 def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) -> dict[Repair, int]:
-    """Single entries whose change gives an order, the others within rounding; with these orders.
-    The smallest change is first, and none is below rounding.
-    """
+    """Single entries that give an order, others within rounding; the smallest change first."""
     search = rounded.search
     changes = _changes(rounded, order, limit, lambda k, change: _repair(search, k, change))
     return {change.made: change.order for change in changes}
