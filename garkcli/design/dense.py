@@ -31,7 +31,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def _dense(asked: Asked, key: str) -> DenseOutput:
-    """Raises MethodError if the method has none, or the want is about some colours only."""
+    """The dense output; MethodError if there is none, or the want is about some colours only."""
     dense = asked.further.dense
     if dense is None or len(asked.colours) < asked.tableau.size:
         message = f"design: {key} is meant of the dense output of the whole method"

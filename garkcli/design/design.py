@@ -88,7 +88,7 @@ class Design(Shown, Frozen):
         return step.is_all and bool(self.family.real)
 
     def parts(self, step: Step) -> list[Part]:
-        """The solution set of a step in parts; coordinates are nodes, for stability diagonals."""
+        """The solution set of a step in parts, with nodes as coordinates; NotDecided."""
         ideal, family = step.ideal, self.family
         assert ideal is not None
         if isinstance(ideal, Pieces):
@@ -212,7 +212,7 @@ class _Finding(Frozen):
         return Ideal(ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
     def _step(self, order: int, lower: Ideal | Pieces | None) -> Step:
-        """The parameters with one order more than ``lower``, and all other wants; NotDecided."""
+        """The values of one order more than ``lower``, with all other wants; or NotDecided."""
         start = self._start()
         criterion = self.criterion
         if lower is None:
@@ -288,7 +288,7 @@ class _Finding(Frozen):
         return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
     def _looked_into(self, step: Step, is_last: bool) -> Step:
-        """With polynomials, solutions, and for the last step real values; or undecided."""
+        """A step with polynomials, solutions, and for the last one real values; or undecided."""
         if not isinstance(step, Decided):
             return step
         ideal = step.ideal
@@ -371,7 +371,7 @@ class _Finding(Frozen):
         return Knowledge(is_real=any(verdicts) or None)
 
     def _with_stable(self, step: Many, known: Knowledge) -> Knowledge:
-        """With methods of the wanted stability; NotDecided if it depends on several unknowns."""
+        """Knowledge of methods of the wanted stability; NotDecided for several unknowns."""
         tableau = members.TABLEAUS[self.whose](self.family.tableau)
         parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
         decided: list[stable_parts.StablePart] = []
@@ -401,7 +401,7 @@ class _Finding(Frozen):
         return replace(known, is_real=is_real, stable=stable)
 
     def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Knowledge:
-        """All transfers, with the ideal of P-stable ones; NotDecided if it is not solved."""
+        """Knowledge of all transfers, with the ideal of the P-stable ones; or NotDecided."""
         stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, order)))
         solved, is_real = criterion.solved(stable), None
         if solved is None:
@@ -484,7 +484,7 @@ def _as_long_as_small(
 
 
 def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
-    """Polynomials whose common zeros are an ideal's, if none of the second ones vanishes there."""
+    """Two lists of polynomials: an ideal's zeros are the first's without zeros of the second."""
     if isinstance(ideal, Pieces):
         return _each_once(ideal.equations), list(ideal.nonzero)
     if ideal.dimension <= 0:
@@ -514,7 +514,7 @@ def _with_lower(steps: Sequence[Step]) -> list[Step]:
 
 
 def order_of(family: Family, whose: members.Whose, solution: Solution) -> Order | None:
-    """By the certificate; None if there is no method."""
+    """The exact order by the certificate; None if there is no method."""
     try:
         return find_order(
             members.TABLEAUS[whose](members.member(family.tableau, family.ring, solution.values))

@@ -157,7 +157,7 @@ class FamilyStep(Frozen):
     def of(
         cls, flat: Flat, unknowns: int, step: Callable[[Tableau], Sequence[Polynomial]]
     ) -> FamilyStep:
-        """D is a determinant of ``unknowns`` equations; ``step`` gives D and N of a member."""
+        """The ``step`` of members in one, where D is a determinant of ``unknowns`` equations."""
         D, *N = flat.polynomials(unknowns + 1, step)
         d = isqrt(len(N))
         common = D

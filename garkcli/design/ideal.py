@@ -137,7 +137,7 @@ class Ideal:
         return self._with_basis(basis, self.is_proved), taken
 
     def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
-        """With x − c for unknowns x, by places, and numbers c, substituted in the basis first."""
+        """The ideal with x − c for unknowns x, by their places; it is shortened by them first."""
         new = []
         for place, value in values.items():
             new.append(self._context.gen(place) * value.q - value.p)
@@ -154,7 +154,7 @@ class Ideal:
         return self._with_basis([], self.is_proved)._with_generators(new)
 
     def with_zeros_unproved(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
-        """By msolve: a larger ideal may result, whose zeros are only some; or NotDecided."""
+        """By msolve: the ideal may be larger, with some of the zeros only; or NotDecided."""
         new = [self._integral(polynomial) for polynomial in polynomials]
         return self._with_basis(
             groebner.unproved_basis([*self.basis, *new], self._context), is_proved=False
@@ -259,7 +259,7 @@ class Ideal:
 
     @cached_property
     def polynomials(self) -> list[fmpz_mpoly]:
-        """Square-free ones without UNIT, with its zeros; of the radical if these are finite."""
+        """Square-free polynomials without UNIT, with its zeros; of the radical in dimension 0."""
         return self.closure.square_free.basis
 
     @property

@@ -34,7 +34,7 @@ TABLEAUS: dict[Whose, Callable[[Tableau], Tableau]] = {
 
 
 def member(tableau: Tableau, ring: Parameters, values: Mapping[str, Number]) -> Tableau:
-    """Raises VanishingDenominator if one is zero at the values, all of one field."""
+    """The tableau at values of one field; VanishingDenominator if a denominator is zero there."""
     return tableau.changed(_At([values[name] for name in ring.names]).number)
 
 
@@ -175,7 +175,7 @@ MOST_DEGREE = 6
 def method_at(
     tableau: Tableau, ring: Parameters, solution: Solution, root: RealRoot
 ) -> Tableau | None:
-    """None if its field is too large; raises ZeroDivisionError if a denominator is zero there."""
+    """The method at a root; None if its field is too large, ZeroDivisionError at a pole."""
     u = number_of(root, MOST_DEGREE)
     if u is None:
         return None
@@ -195,7 +195,7 @@ def refuse_levels(family: Family) -> None:
 
 
 def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoot) -> bool | None:
-    """None if undecided."""
+    """Whether a method is as stable as wanted; None if undecided."""
     if not family.stable:
         return True
     with suppress(NotDecided):
@@ -210,7 +210,7 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
 
 
 def is_stable(wanted: RequiredStability, tableau: Tableau) -> bool:
-    """False if it is not applicable."""
+    """Whether a method has a kind of stability; False if it is not applicable."""
     if wanted.kind in OSCILLATING:
         oscillator = usual_oscillator(tableau)
         if oscillator is None:

@@ -94,7 +94,7 @@ class PairConditions:
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
     def point(self, ideal: Ideal, draw: Draw | None = None) -> Ideal | None:
-        """The zeros with free unknowns at 0, or drawn from multiples of 1/8; None if not finite."""
+        """The zeros with free unknowns at 0, or drawn as multiples of 1/8; None if infinite."""
         solved = self.solved(ideal)
         if solved is None:
             return None

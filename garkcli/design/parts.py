@@ -312,7 +312,7 @@ class Pieces(Frozen):
         changes: Changes,
         kept: Sequence[str] = (),
     ) -> Pieces:
-        """Raises NotDecided if it takes too many steps, or a Gröbner basis that is not small."""
+        """The zeros in pieces; NotDecided after too many steps, or if a Gröbner basis is large."""
         monic = (p / p.leading_coefficient() for p in equations if p)
         equations, nonzero = tuple({str(p): p for p in monic}.values()), tuple(nonzero)
         kept = (*(kept or changes.nodes),)

@@ -43,7 +43,7 @@ PARTS = 12
 
 
 def without_complex(ideal: Ideal) -> Ideal:
-    """With the same real zeros, without complex zeros of polynomials with constant sign."""
+    """An ideal with the same real zeros, without complex ones of polynomials of one sign."""
     zeros: list[fmpq_mpoly] = []
     for p in ideal.without_unit:
         if len(p) <= MOST_TERMS:
@@ -141,7 +141,7 @@ class _MethodSearch:
         )
 
     def _slices(self) -> Iterator[Ideal]:
-        """With rational values for as many unknowns as the dimension."""
+        """The ideal with rational values for as many unknowns as its dimension."""
         chosen = self.real.independent
         if chosen is None:
             return

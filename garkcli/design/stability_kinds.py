@@ -63,7 +63,7 @@ class Members(Frozen):
         return None
 
     def known(self, t: Point, is_closed: bool) -> bool | None:  # noqa: ARG002 -- slices know some
-        """None without a computation; ``is_closed``: limits of stable methods are stable."""
+        """Whether t is stable, if known; ``is_closed``: limits of stable methods are stable."""
         return None
 
     @cached_property
@@ -72,7 +72,7 @@ class Members(Frozen):
         return self._numbers({}, MOST_CONSTANT) if self.family.radicals else {}
 
     def at(self, t: Point) -> Tableau | None:
-        """None if a weight or denominator is zero; NotDecided if the field is too large."""
+        """The method at a value; None if there is none, NotDecided if its field is too large."""
         rational = t.exact if isinstance(t, RealRoot) else t
         [name] = self.family.parameters
         if rational is None:
@@ -117,7 +117,7 @@ class Members(Frozen):
             yield from ((x, root) for x in solutions(ideal) for root in x.real)
 
     def flat(self, tableau: Tableau) -> Flat:
-        """Raises NotDecided if the field of the roots among the coefficients is too large."""
+        """The methods in the parameters; NotDecided if the field of radicals is too large."""
         if self.constants is None:
             raise NotDecided
         return Flat(tableau, self.family.ring, self.constants)
@@ -207,7 +207,7 @@ class StabilityKind(ABC):
         return all(sign_of(self.step.in_t(p), t) == 0 for p in self.narrowing)
 
     def decide(self, t: Point) -> bool:
-        """False if there is no method; NotDecided if its field is too large."""
+        """Whether the method at t has it; False without a method, or NotDecided."""
         tableau = self.members.at(t)
         return tableau is not None and self.holds(tableau)
 

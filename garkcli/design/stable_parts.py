@@ -269,7 +269,7 @@ class PartMembers(Members):
     tableau: Tableau
 
     def at(self, t: Point) -> Tableau | None:
-        """None if there is no method; NotDecided if no tried point gives one, or a large field."""
+        """A method at a value; None if there is none, NotDecided if none is found."""
         value = number_of(t, MOST_DEGREE) if isinstance(t, RealRoot) else t
         if value is None:
             raise NotDecided
@@ -315,7 +315,7 @@ class PartMembers(Members):
 
     @property
     def poles(self) -> tuple[Polynomial, ...]:
-        """It vanishes if no line has a method there."""
+        """A polynomial that vanishes if no line has a method there."""
         common = common_denominator(self.tableau.entries, self.part.ring)
         return (content_in(common, self.part.ring, self.name),)
 
@@ -467,7 +467,7 @@ def _is_meant(family: Family, part: Part, chart: RationalChart) -> bool:
 def _on_chart(
     family: Family, whose: Whose, part: Part, chart: RationalChart, wanted: RequiredStability
 ) -> StableValues | None:
-    """None if no value is admissible."""
+    """The stable values of free coordinates; None if no value is admissible."""
     known = tuple(chart.one.values) if len(chart.one.values) < 2 else (UNIT,)
     ring, root = Parameters([*chart.names, *known]), chart.root
     one = ring.constant(fmpq(1))

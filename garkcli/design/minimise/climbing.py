@@ -53,7 +53,7 @@ def climbed(rank: Rank, coordinates: int) -> Point | None:
 
 
 def _shortened(known: Rank, point: Point) -> Point:
-    """With short numbers near by for its coordinates, if that is no worse."""
+    """The point with short numbers near by for its coordinates, if it is no worse."""
     for q in DENOMINATORS:
         others = tuple(_near(x, q) for x in point)
         if others != point and _is_as_good(known, others, point):

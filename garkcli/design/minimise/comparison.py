@@ -223,14 +223,14 @@ class Minimisation(Mutable):
         return None if best is None else best[1:]
 
     def at_point(self, part: Part, chart: RationalChart, point: Point) -> Solution | None:
-        """None if there is no method of the comparison."""
+        """A method by its free coordinates; None if there is none in the comparison."""
         solution = chart.point(part, point)
         if solution is None or not self.takes(solution, solution.real[chart.index], part):
             return None
         return solution
 
     def edges(self, part: Part) -> Iterator[fmpq_mpoly]:
-        """They vanish at the boundary of the compared methods."""
+        """Polynomials that vanish at the boundary of the compared methods."""
         family = self.design.family
         for end in not_negative(family):
             yield fraction(part.expressed(end, family.ring), part.ring)[0]

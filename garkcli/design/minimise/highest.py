@@ -68,7 +68,7 @@ def height(level: Size) -> tuple[bool, RealRoot]:
 
 
 def on_levels(level: Callable[[fmpq], Size], signs: LevelSigns, allowed: Constraints) -> Levels:
-    """``level`` is for a rational t, by the engine for one method."""
+    """The greatest level; ``level`` is for a rational t, by the engine for one method."""
     line = _Line(level, signs, allowed)
     attained = sorted(line.attained(), key=lambda pair: pair[0].t)
     if not attained:
@@ -228,7 +228,7 @@ def _cells(points: Sequence[RealRoot]) -> list[tuple[RealRoot | None, RealRoot |
 
 
 def _length(one: HighAt) -> tuple[bool, int]:
-    """Samples are first, short ones before."""
+    """A key that sorts samples first, short ones first."""
     t = one.t.exact
     bits = 0 if t is None else int(t.p).bit_length() + int(t.q).bit_length()
     return not one.is_sample, bits

@@ -103,7 +103,7 @@ class ObjectiveSubject(Frozen):
 
     @property
     def embedded(self) -> tuple[Tableau, int]:
-        """With the embedded weights in place of b, and their order; UsageProblem without any."""
+        """Methods with the embedded weights as b, and their order; or UsageProblem."""
         if self.further.embedded is None or self.embedded_order is None:
             message = "the objective is about embedded weights with an order: the file wants none"
             cure = "write embedded: true under unknown, and embedded-order: 3 under design"
@@ -123,7 +123,7 @@ Single: TypeAlias = Objective | LevelObjective | SearchMeasure
 
 
 class WeightedSum(Frozen):
-    """Weights are negative for levels, positive for others."""
+    """A sum of objectives; weights are negative for levels, positive for others."""
 
     key: str
     terms: tuple[tuple[fmpq, Single], ...]

@@ -59,7 +59,7 @@ def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> li
 
 
 def is_of_one_dimension(part: Part) -> bool:
-    """As many equations as the codimension imply one dimension (F. S. Macaulay, 1916)."""
+    """Whether all components have one dimension, as by codimension many equations (Macaulay)."""
     codimension = len(part.ring.names) - part.dimension
     return part.is_free or len(part.equations) == codimension
 
@@ -241,7 +241,7 @@ class Smallest(Minimisation):
         )
 
     def _allowed(self, part: Part, place: int) -> tuple[Interval, ...] | None:
-        """By the conditions on it alone; None if there are none."""
+        """The values that conditions on a coordinate alone allow; None without any."""
         family = self.design.family
         ends = (part.expressed(p, family.ring) for p in not_negative(family))
         signs = [sign_polynomial(x, part.ring) for x in ends]
@@ -300,7 +300,7 @@ class Smallest(Minimisation):
         self.add(part.extended(at_root(name, root)), root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
-        """Critical points of a part of larger dimension, and of its edges."""
+        """Adds the critical points of a part of larger dimension, and of its edges."""
         if not is_of_one_dimension(part):
             self.extent = "found"
         elif self.extent == "all":

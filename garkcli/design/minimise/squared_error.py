@@ -121,7 +121,7 @@ def squared(x: Pair) -> Tensor:
 
 
 class Quotient(Frozen):
-    """The denominator is a square, and zero at no method."""
+    """A value whose denominator is a square, and zero at no method."""
 
     numerator: Entry
     denominator: Entry
@@ -290,7 +290,7 @@ class _Sums(OrderByOrder[Tensor]):
     def _all_forests(
         self, k: int, order: int, largest: int, least: int, most: int
     ) -> Iterator[_Branch]:
-        """With ``least`` to ``most`` trees, those of the largest order first."""
+        """Every forest of ``least`` to ``most`` trees, those of the largest order first."""
         algebra = self._algebras[k]
         if order == 0:
             if least <= 0 <= most:

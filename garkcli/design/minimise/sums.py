@@ -49,7 +49,7 @@ def objective_of(text: str) -> Wanted:
 
 
 def refuse(text: str, is_search: bool = False) -> None:
-    """Raises UsageProblem for no objective, or one that only a search minimises."""
+    """Raises UsageProblem if a text is no objective, or if a search alone minimises it."""
     objective = objective_of(text)
     if not is_search and not isinstance(objective, aims.Either):
         exactly(objective)
@@ -112,7 +112,7 @@ def _added(signs: str, forms: list[dict[str, fmpq]]) -> dict[str, fmpq]:
 def exactly(
     objective: aims.Objective | aims.LevelObjective | aims.SearchMeasure | aims.WeightedSum,
 ) -> aims.Objective | aims.LevelObjective:
-    """Raises UsageProblem if it is no rational function of the coefficients."""
+    """An objective for the exact engines; UsageProblem if it is no rational function."""
     if isinstance(objective, aims.Objective) or (
         isinstance(objective, aims.LevelObjective) and objective.signs
     ):

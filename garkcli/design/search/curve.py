@@ -100,7 +100,7 @@ def _parts(text: str) -> list[int]:
 
 
 def _single(text: str, search: Search) -> Single:
-    """Raises UsageProblem for a sum."""
+    """An objective that may be bounded; UsageProblem for a sum."""
     objective = objective_on(text, search.tableau)
     if isinstance(objective, WeightedSum):
         message = f"--front is of two objectives, and {text} is a sum"

@@ -56,7 +56,7 @@ class OptimiserTask(ABC):
 
     @abstractmethod
     def at(self, z: Array) -> TaskValues:
-        """At a point of the unknowns, then of the further variables."""
+        """The functions at a point: the unknowns, then the further variables."""
 
     @abstractmethod
     def value(self, x: Array) -> float:

@@ -53,7 +53,7 @@ FAR = 1.5
 
 
 class TreeConditions:
-    """All order conditions at a point are remembered: values and gradients are asked separately."""
+    """The order conditions at the last point, remembered for values and gradients apart."""
 
     def __init__(self, conditions: Residuals) -> None:
         self.table = conditions.table
@@ -144,7 +144,7 @@ class Setting:
 
 
 def goal_of(objective: aims.Single, setting: Setting) -> Goal:
-    """Raises UsageProblem if it is not applicable."""
+    """An objective in floats; UsageProblem if it is not applicable."""
     if objective.key in GOALS:
         return GOALS[objective.key](setting)
     assert isinstance(objective, aims.Objective)
@@ -155,7 +155,7 @@ def goal_of(objective: aims.Single, setting: Setting) -> Goal:
 
 
 def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, aims.Single]]:
-    """Weights of levels are negative."""
+    """Objectives with their weights, which are negative for levels."""
     if isinstance(wanted, aims.WeightedSum):
         return list(wanted.terms)
     one = wanted.meant(tableau) if isinstance(wanted, aims.Either) else wanted
@@ -317,7 +317,7 @@ def _matrix(rows: Matrix, ring: Parameters) -> Entries:
 
 
 class _Contractive:
-    """With M = (I + rK)⁻¹, M K_l ≥ 0 for each colour and M 𝟙 ≥ 0 (``garkcli.stability.ssp``)."""
+    """M K_l ≥ 0 for each colour and M 𝟙 ≥ 0, M = (I + rK)⁻¹ (``garkcli.stability.ssp``)."""
 
     def __init__(self, tableau: Tableau, ring: Parameters) -> None:
         import numpy as np
@@ -409,7 +409,7 @@ class _Bounded:
         return near
 
     def over(self, x: Array, length: float, points: Array, weight: Array | None = None) -> Gradient:
-        """At multiples of a length, with derivatives in the unknowns and the length."""
+        """Inequalities at multiples of a length, with derivatives by unknowns and by length."""
         import numpy as np
 
         z = self.direction * length * points

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 class Functions:
-    """Each monomial is computed once; the order of summation depends on the machine."""
+    """Rational functions at one point, each monomial once; sums depend on the machine."""
 
     def __init__(self, functions: Sequence[RationalFunction], unknowns: int) -> None:
         self.shape = len(functions), unknowns
@@ -88,7 +88,7 @@ class Matrix:
         self._functions = Functions([rows[i][j] for i, j in places], unknowns)
 
     def at(self, point: Array) -> Array:
-        """With derivatives in each unknown, shape (1 + unknowns, rows, columns)."""
+        """The matrix with its derivatives, shape (1 + unknowns, rows, columns)."""
         values, gradients = self._functions.at(point)
         matrix = np.zeros((1 + gradients.shape[1], *self.shape))
         matrix[0, self._rows, self._columns] = values

@@ -125,7 +125,7 @@ class Optimisation:
         objective: aims.Single | aims.WeightedSum,
         cap: tuple[aims.Single, float] | None = None,
     ) -> Optimisation:
-        """For another objective; ``cap`` is one with its bound, which is a lower one for levels."""
+        """The minimisation of another objective, with a ``cap`` on one, from below for levels."""
         other = copy(self)
         if cap is not None:
             one, bound = cap

@@ -177,7 +177,7 @@ class Best(Frozen):
 
 
 def _method(search: Search, find: Find | None) -> object:
-    """As text; None if there is none, False if its wanted stability is not proved."""
+    """A find as text; None if there is none, False if its stability is not proved."""
     if find is None or not find.is_stable:
         return None if find is None else False
     if find.found is not None:
@@ -277,7 +277,7 @@ class _Run:
         self._known: dict[int, FoundMethod | None] = {}
 
     def take(self, group: Sequence[Start], size: int) -> Iterator[SearchResult]:
-        """``size`` starts make a task; new solutions are proved."""
+        """Takes starts, ``size`` for each task, and proves the new solutions."""
         parts = range(0, len(group), size)
         batches = [Batch(list(group[k : k + size])) for k in parts]
         first = self.result.starts + 1

@@ -59,13 +59,13 @@ class Signs:
         self.not_negative = polynomial_functions(members.not_negative(family), family.ring)
 
     def seem_kept(self, x: Array) -> bool:
-        """In floats, up to rounding where zero is allowed; x has the shape (unknowns, 1)."""
+        """Whether they hold in floats, up to rounding if zero is allowed; x is (unknowns, 1)."""
         return all(float_at(f, x) > ROUNDING for f in self.positive) and all(
             float_at(f, x) > -ROUNDING for f in self.not_negative
         )
 
     def decided(self, x: Array) -> Answer:
-        """For all numbers near x, balls; ``open`` if only a zero may be negative instead."""
+        """Whether numbers near x have them; ``open`` if a function wanted ≥ 0 may be 0."""
         with ctx.workprec(self.bits):
             box = x + arb(0, arb(1) / arb(2) ** (self.bits // 2))
             values = dict(zip(self.family.ring.names, box[:, 0], strict=True))
@@ -197,7 +197,7 @@ class Search:
 
     @cached_property
     def program(self) -> Optimisation:
-        """Raises UsageProblem without SciPy, or if the objective is not applicable."""
+        """The minimisation; UsageProblem without SciPy, or if it is not applicable."""
         assert self.objective is not None
         return Optimisation(self.family, self.conditions, self.objective)
 
@@ -285,7 +285,7 @@ class Search:
         return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def embedded_order(self, find: Find) -> int | None:
-        """By the certificate if numbers are exact; None if no order of these weights is wanted."""
+        """The embedded order, by the certificate if numbers are exact; None if not wanted."""
         wanted, embedded = self.family.embedded_order, self.family.further.embedded
         if wanted is None or embedded is None or self.whose != "method" or find.found is None:
             return wanted if self.whose == "method" else None
@@ -410,7 +410,7 @@ def _digits_of(solution: Solution) -> Mapping[str, arb]:
 
 
 def _damped(family: Family) -> Family:
-    """With the equation R(∞) = 0 of L-stable methods, which random methods never have."""
+    """The family with R(∞) = 0, which random methods never meet, if L-stable ones are wanted."""
     from garkcli.design.wants import at_infinity
 
     for wanted in family.stable:
