@@ -36,9 +36,8 @@ Colours: TypeAlias = tuple[int, ...]
 
 
 class Admissible(Frozen):
-    """A class of N-trees: the colours, the edges between them, and the kinds of vertices.
-    ``branches[l]`` are the colours, ascending, that may be on a vertex of colour l, and
-    ``kinds[l]`` says how many of them, and how many orders the vertex counts.
+    """A class of N-trees: ``branches[l]`` are the colours, ascending, that may be on a vertex of
+    colour l, and ``kinds[l]`` says how many of them, and how many orders the vertex counts.
     """
 
     colours: int

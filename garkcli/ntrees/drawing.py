@@ -228,9 +228,8 @@ def draw_svg(tree: Tree) -> str:
 def draw_svg_sheet(
     trees: Sequence[Tree], captions: Lines | None = None, columns: int = 0, title: str = ""
 ) -> str:
-    """An SVG document with the trees in rows of ``columns``, each above its caption, σ and γ. By
-    default a row has six trees, or three if there are few, for phones. Dots are plain if colour 1
-    is the only one. ``title`` is for screen readers, by default the tree or their number.
+    """An SVG document with the trees in rows of ``columns``, by default six, or three if there are
+    few, each above its caption, σ and γ. Dots are plain if colour 1 is the only one.
     """
     from html import escape  # brings a table of entities along
 

@@ -16,9 +16,8 @@ _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
 
 
 class VertexKind(Frozen):
-    """The kind of the vertices of a colour. ``weight`` counts the integrations of the exact
-    solution at a vertex. If it has no such vertices (``is_exact``) elementary weights should be 0.
-    ``is_field`` is False for arguments of a field.
+    """The kind of the vertices of a colour; ``weight`` counts integrations of the exact solution.
+    Without ``is_exact`` the exact solution has no such vertices; ``is_field`` is not for arguments.
     """
 
     arity: Arity = ANY

@@ -20,9 +20,8 @@ CHUNK = 1 << 16
 
 
 class StageVectors(ABC, Generic[Vectors]):
-    """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of a table.
-    ``Vectors`` holds those of several trees, in the order of their ids. Tables of different orders
-    share vectors, and so do colours with the same stages and branches.
+    """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]) of several trees by ids, one product a segment.
+    Tables of different orders share vectors, and so do colours with the same stages and branches.
     """
 
     def __init__(self, admissible: Admissible, rows: Sequence[int]) -> None:

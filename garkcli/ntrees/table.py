@@ -44,11 +44,9 @@ def exact_dtype(order: int) -> DTypeLike:
 
 
 class Columns(Frozen):
-    """Trees as columns of equal length, one entry per tree.
-
-    ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root
-    colour, from 0; ``order``: ρ(u); ``multiplicity`` is that of the last branch at the root (0 for
-    a single vertex); ``sigma``: σ(u); ``gamma``: γ(u), both exact.
+    """Trees as columns of equal length. ``stem`` and ``branch`` are the ids of the two parents, -1
+    for a single vertex; ``root`` the root colour, from 0; ``order`` ρ(u); ``multiplicity`` that of
+    the last branch at the root, 0 for a single vertex; ``sigma`` σ(u) and ``gamma`` γ(u), exact.
     """
 
     stem: Column
