@@ -110,3 +110,9 @@ def test_an_item_has_a_limit(size: int) -> None:
         found = dict(crew.as_they_come([0, 2, 1, 3, 1]))
         assert dict(crew.as_they_come([1])) == {0: 1}
     assert found == {0: 0, 1: "2 is late", 2: 1, 3: "3 is late", 4: 1}
+
+
+def test_how_a_process_ended() -> None:
+    """A signal has its name, and the one that systems send for want of memory its reason."""
+    assert processes._cause(-9) == "by SIGKILL, as the system does where memory is short"
+    assert processes._cause(3) == "with exit code 3"

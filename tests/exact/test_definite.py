@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.exact.cells import Interval
+from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.projection import Along, kept_sign
-from garkcli.exact.roots import RealRoot, square_root
+from garkcli.exact.roots import RealRoot, is_nonnegative, square_root
 from tests.whole import at_most
 
 CONTEXT = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex)
@@ -117,3 +118,10 @@ def test_two_variables_are_always_decided(numbers: list[int]) -> None:
         values += [p(x, y, fmpq(0)) for x, y in product((*GRID, *far), repeat=2)]
         # a window that the grid misses is narrow
         assert min(values) < 0 < max(values) or min(map(abs, values)) < fmpq(1, 2)
+
+
+def test_nonnegative_polynomials() -> None:
+    """A square is never negative; with two simple roots a polynomial is, between them."""
+    assert is_nonnegative(Polynomial([1, -2, 1]))
+    assert not is_nonnegative(Polynomial([1, -3, 1]))
+    assert is_nonnegative(Polynomial([]))

@@ -29,6 +29,8 @@ from garkcli.exact.display import (
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import polynomial_decimals
 
 FRACTIONS = st.one_of(
     st.fractions(-50, 50, max_denominator=40),
@@ -173,3 +175,10 @@ def test_latex_is_worth_the_number(root: str, x: Fraction, y: Fraction) -> None:
             exact_parts = re.sub(r"(?<![\w.*])(\d+(?:\.\d+)?)(?![\w.])", r"mpf('\1')", text)
             value = eval(exact_parts, {**names, "mpf": mpmath.mpf})
             assert float(value) == pytest.approx(to_float(number), rel=1e-14, abs=1e-300)
+
+
+def test_polynomials_in_decimals() -> None:
+    """Coefficients are rounded, and have no zeros at the end."""
+    third = Polynomial([fmpq(1), fmpq(10**30 + 1, 7 * 10**30)])
+    assert polynomial_decimals(third, "z") == "0.14285714*z + 1"
+    assert polynomial_decimals(Polynomial([fmpq(8), fmpq(0), fmpq(-1)]), "x") == "-x^2 + 8"

@@ -155,3 +155,10 @@ def test_few_trees_are_listed_as_many_are(monkeypatch: pytest.MonkeyPatch) -> No
             assert [*trees_of(admissible, n)] == some
             assert [*trees_of(admissible, n, [0])] == first
         assert first == [u for u in some if u.root == 0]
+
+
+def test_words_of_kinds() -> None:
+    """Numbers of branches in words; a linear field has one at most."""
+    assert LINEAR.branches == "no branch or one branch"
+    assert NOT_ONE.branches == "no branch or several branches"
+    assert PLAIN.of_linear_field == LINEAR
