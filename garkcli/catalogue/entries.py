@@ -23,7 +23,7 @@ FOUND, CLAIMED, UNREAD = "found", "claimed", "unread"
 
 
 def all_entries(judges: bool = False) -> Iterator[Entry]:
-    """With ``judges``, methods outside the index are analysed."""
+    """An entry for each named method; with ``judges`` those outside the index are analysed."""
     for shelf, method in visible(every_shelf()):
         yield entry_on(shelf, method, judges)
 
@@ -183,7 +183,7 @@ ORDERS = ("name", "order", "stages", "error")
 
 
 def sorted_by(entries: Sequence[Entry], column: str) -> list[Entry]:
-    """Unknown values are last."""
+    """Entries in the order of a column, unknown values last."""
 
     def place(entry: Entry) -> tuple[Any, ...]:
         value = _measure(entry, column)

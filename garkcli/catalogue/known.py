@@ -134,7 +134,7 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
 
 
 def _in_few_digits(rounding: fmpq) -> fmpq:
-    """One with many digits, a sum of two, is rounded up."""
+    """A rounding; one with many digits, a sum of two, is rounded up."""
     return rounding if len(decimal(rounding)) <= LONGEST else rounded_up(arb(rounding))
 
 

@@ -72,7 +72,7 @@ class Cluster(Generic[Item, Outcome]):
 
     @property
     def size(self) -> int:
-        """At least one, as workers may come later."""
+        """The number of workers, at least one, as workers may come later."""
         return max(1, len(self._client.nthreads()))
 
     def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:

@@ -268,7 +268,7 @@ def terms_of_sum(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
 
 
 def terms_of_power(p: fmpq_mpoly, exponent: int) -> int:
-    """An upper bound; the exponent is at least 0."""
+    """An upper bound of the number of terms of a power with an exponent ≥ 0."""
     if not p:
         return 1
     degrees = [exponent * a for a in p.degrees()]

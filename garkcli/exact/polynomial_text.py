@@ -47,7 +47,7 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
 
 
 def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
-    """Coefficients are rounded, without trailing zeros."""
+    """A polynomial with coefficients rounded to decimals, without trailing zeros."""
     powers = reversed([*enumerate(p.coefficients)])
     return sum_text([(_rounded(a, digits), power_text(variable, k)) for k, a in powers])
 

@@ -65,13 +65,13 @@ LARGE = 30_000
 
 
 def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
-    """With respect to the first variable; NotDecided if the time is over."""
+    """The discriminant in the first variable; NotDecided if the time is over."""
     variable = p.context().name(0)
     return _without(variable, p, p, methodcaller("discriminant", variable))
 
 
 def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str | None = None) -> fmpq_mpoly:
-    """With respect to a variable, by default the first; NotDecided if the time is over."""
+    """The resultant in a variable, by default the first; NotDecided if the time is over."""
     variable = variable or p.context().name(0)
     return _without(variable, p, q, methodcaller("resultant", q, variable))
 
@@ -210,7 +210,7 @@ SPACE = fmpq_mpoly_ctx.get(["y", "x", "t"], Ordering.lex)
 
 
 def _beside_number(p: fmpq_mpoly, variables: tuple[int, int], along: Along) -> int | None:
-    """By one line in each strip between the critical values of a variable."""
+    """``kept_sign`` beside a number, by one line in each strip between critical values."""
     x, y = sorted(variables, key=lambda i: p.degrees()[i], reverse=True)
     moved = p.project_to_context(SPACE, {y: 0, x: 1, along.place: 2})
     root = along.values.start

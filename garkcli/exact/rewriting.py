@@ -221,7 +221,7 @@ _GREEK = {
 
 
 def name_latex(name: str) -> str:
-    """a21 is an a with indices."""
+    """The LaTeX of a parameter: a21 is an a with indices."""
     letters = name.rstrip("0123456789_")
     index = name[len(letters) :].strip("_").replace("_", ",")
     head = letters.replace("_", r"\_")

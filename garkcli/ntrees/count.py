@@ -174,7 +174,7 @@ class _Growing:
                 self.c[multiple] += n * t
 
     def grow(self, n: int, start: int) -> None:
-        """Contributions of blocks before ``start`` are known."""
+        """Counts the forests of n vertices; blocks before ``start`` have contributed."""
         if not self.has_several:
             self.f.append(self.t[n])
             return

@@ -61,7 +61,7 @@ class Structure(Frozen):
 
     @classmethod
     def self_conjugate(cls, colours: int) -> Structure:
-        """b^l_i b^m_j = b^l_i a^{l,m}_{ij} + b^m_j a^{m,l}_{ji}."""
+        """A symplectic tableau: b^l_i b^m_j = b^l_i a^{l,m}_{ij} + b^m_j a^{m,l}_{ji}."""
         natures: list[Nature] = [(l, "y") for l in range(colours)]
         return cls(tuple(natures))
 

@@ -241,7 +241,7 @@ class Texts:
 
 
 def _inserted(stem: Inside, text: str, order: int) -> Inside:
-    """Only two cases: a last branch is never smaller than the others."""
+    """Inserts a branch, in two cases: a last branch is never smaller than the others."""
     inside, end, largest = stem
     length = len(text)
     if not inside:
@@ -393,7 +393,7 @@ class TreeTable(Frozen):
         return self.texts(self.columns.part(which), colours)
 
     def texts(self, trees: Columns, colours: bool = True) -> list[str]:
-        """The parents of the trees are in this table, as those of a block."""
+        """Bracket text of trees whose parents are in this table, as those of a block."""
         if colours not in self._texts:
             self._texts[colours] = Texts(self.columns, colours)
         return self._texts[colours].of(trees)

@@ -117,7 +117,7 @@ def _are_twins(one: Colour, other: Colour) -> bool:
 
 
 def count_conditions(tableau: Tableau, order: int) -> int:
-    """Twin roots are counted once."""
+    """The number of conditions of ``order``, twin roots counted once."""
     by_root = counts_of(coupling_graph(tableau), order)
     return sum(by_root[root] for root in twin_roots(tableau))
 

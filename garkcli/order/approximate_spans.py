@@ -56,7 +56,7 @@ class HullSizes(Frozen, eq=False):
 
 
 class ApproximateSpans(OrderByOrder[_Hull]):
-    """``grain``: remainders below it are errors, not members."""
+    """Members and bounds by stage space; remainders below ``grain`` are errors, not members."""
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
         self.enclosure = enclosure

@@ -62,7 +62,7 @@ class ErrorConstants(Frozen):
 
 
 def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
-    """None if there are more than ``MAX_TREES`` trees."""
+    """The error constants at ``order``; None if there are more than ``MAX_TREES`` trees."""
     return _constants(tableau, order, 1, EXACT_CONDITIONS)
 
 

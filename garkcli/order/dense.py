@@ -137,7 +137,7 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Whether the weights of both ``ends`` vanish on every problem, after a ``change`` of it."""
+    """Whether the weights of both ``ends`` vanish on every problem, the tableau changed first."""
     whole: Tableau | Near
     if isinstance(method, Tableau):
         tableau = change(method)

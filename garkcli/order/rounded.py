@@ -125,7 +125,7 @@ class RoundedTableau(Frozen, eq=False):
         return self.derive("pair", pair)
 
     def with_time(self) -> RoundedTableau | None:
-        """With time as its last colour, whose blocks are the nodes; None if it is not defined."""
+        """The tableau with time as last colour, whose blocks are the nodes; None if undefined."""
         timed = with_time(self.tableau)
         if timed is None:
             return None
@@ -133,7 +133,7 @@ class RoundedTableau(Frozen, eq=False):
         return self.derive("with time", _with_time)
 
     def with_embedded(self) -> RoundedTableau | None:
-        """With the embedded weights as b; None if no rounded number is in it."""
+        """The method with the embedded weights as b; None if no rounded number is in it."""
         self.search.settled  # noqa: B018 -- it adds the tableau
         tolerance = self.search.largest_in("embedded")
         if not tolerance:
@@ -142,18 +142,18 @@ class RoundedTableau(Frozen, eq=False):
         return RoundedTableau(printed, tolerance, self.search, "embedded")
 
     def with_dense(self) -> RoundedTableau | None:
-        """With the rounding of dense output; None if no rounded number is in it."""
+        """The method with the rounding of dense output; None if no rounded number is in it."""
         powers = range(1, len(self.search.printed_further.powers) + 1)
         self.search.settled  # noqa: B018 -- it adds the tableaus
         tolerance = max(self.search.largest_in(f"power {power}") for power in powers)
         return replace(self, tolerance=tolerance) if tolerance else None
 
     def aside(self) -> RoundedTableau:
-        """With a search of its own: further orders move another method."""
+        """The tableau with a search of its own: further orders move another method."""
         return replace(self, search=self.search.aside())
 
     def of_orders(self) -> RoundedTableau:
-        """For questions about orders alone, which take less time."""
+        """The tableau for questions about orders alone, which take less time."""
         return replace(self, search=self.search.of_orders())
 
     def one_by_one(self, limit: int) -> RoundedOrder:

@@ -30,7 +30,7 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """For the method that a rounded tableau is taken to mean; MethodError if it is not GARK."""
+    """The defects of the method that is meant; MethodError if it is not GARK."""
     tableau = method if isinstance(method, Tableau) else method.tableau
     tableau.demand_fields("a simplifying condition", with_flow=True)
     if isinstance(method, Tableau):
