@@ -84,7 +84,7 @@ def digest(text: str) -> str:
 
 
 def entry_of(path: str, name: str, file: str, text: str) -> Entry:
-    """``file`` is the path within the catalogue; NoMethod if it cannot be read or a claim fails."""
+    """The entry of a file, by its path in the catalogue; NoMethod also if a claim fails."""
     outcome = check_file(path)
     analysis = outcome.analysis or outcome.of_other_kind
     if analysis is None or not outcome.ok:

@@ -289,7 +289,7 @@ class TreeTable(Frozen):
     def upto(
         cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
-        """TableTooLarge beyond ``MAX_TREES`` trees: :func:`iter_blocks` streams one order more."""
+        """The table; TableTooLarge beyond ``MAX_TREES``: :func:`iter_blocks` goes one order on."""
         return cls.of(Admissible.of(colours, edges, linear), order)
 
     @classmethod

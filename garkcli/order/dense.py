@@ -124,7 +124,7 @@ class Slopes(Frozen):
 
 
 def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
-    """Right if stages at x_0 or x_1 alone have weights in it, wrong if an elementary weight is."""
+    """A slope is right if stages at x_0 or x_1 alone weigh in it, wrong if a weight differs."""
     return slopes_where(method, dense, lambda known, _: slopes_at_ends(known), with_ends)
 
 

@@ -80,7 +80,7 @@ def nearness(search: Recovery, order: int) -> Nearness:
 
 
 def _two_digits(x: float) -> fmpq:
-    """Hundredths, after millionths: floats end in noise."""
+    """A size in hundredths, after millionths: floats end in noise."""
     millionths = fmpq(round(x * 10**6), 10**6)
     unit = fmpq(1, 100)
     return unit * (millionths / unit + fmpq(1, 2)).floor()

@@ -36,7 +36,7 @@ Derive: TypeAlias = Callable[[Tableau], Tableau]
 
 @contextmanager
 def arithmetic(bits: int) -> Iterator[None]:
-    """Floats that overflow leave questions open."""
+    """Computes with ``bits`` bits inside; floats that overflow leave questions open."""
     with ctx.workprec(bits), np.errstate(all="ignore"):
         yield
 
@@ -101,7 +101,7 @@ class BoxPlace:
         return self._exact[name]
 
     def defects(self, name: str) -> FormDefects:
-        """Forms around this method."""
+        """The defects of a derived tableau, as forms around this method."""
         if name not in self._defects:
             with arithmetic(self.search.bits):
                 made = self.search.targets[name](self._made.made)

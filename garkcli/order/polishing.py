@@ -169,7 +169,7 @@ class _Polishing:
 
 
 def _independent(rows: Sequence[Sequence[arb]], grain: arb) -> list[int]:
-    """The largest rest is eliminated first."""
+    """Independent rows by elimination, the largest rest first."""
     rest = {i: arb_mat([list(row)]) for i, row in enumerate(rows) if row}
     chosen: list[int] = []
     while rest:

@@ -43,7 +43,7 @@ class Near(Frozen, eq=False):
 
 
 class RoundedTableau(Frozen, eq=False):
-    """A rounded tableau and the method that it is taken to mean; ``tolerance`` is most numbers'."""
+    """A rounded tableau with the method that it means; ``tolerance`` holds for most numbers."""
 
     tableau: Tableau
     tolerance: fmpq

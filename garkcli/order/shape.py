@@ -110,7 +110,7 @@ def _of_diagonal(label: Label, defects: FormDefects) -> range:
 
 
 def _symplectic(defects: FormDefects) -> list[Label]:
-    """Empty if a block has no opposite."""
+    """Symplecticity row by row; empty if a block has no opposite."""
     made = defects.tableau.made
     labels = []
     for l, m in made.edges():

@@ -39,7 +39,7 @@ def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
 
 
 def wrong_weights(defects: Defects, is_embedded: bool = False) -> Iterator[WrongSum]:
-    """Shared weights occur once."""
+    """Weights that do not sum to 1 beyond rounding, shared ones once."""
     seen = []
     for l, colour in enumerate(defects.tableau.colours):
         is_of_points = isinstance(defects.tableau.space(l), PointSpace)

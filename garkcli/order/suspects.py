@@ -139,7 +139,7 @@ _Rank: TypeAlias = tuple[bool, int]
 
 
 def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_Rank, _Candidate]]:
-    """Sure ones are first, then by order and change."""
+    """The numbers that may be wrong: sure ones first, then by order and change."""
     best: dict[int, tuple[_Rank, _Candidate]] = {}
     among = None
     for q in range(order, limit + 1):
