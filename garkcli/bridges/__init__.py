@@ -1,1 +1,1 @@
-"""Other people's formats: one file a target under ``targets``, one a source under ``readers``."""
+"""Other people's formats: a file per target under ``targets``, per source under ``readers``."""

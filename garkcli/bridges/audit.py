@@ -1,6 +1,4 @@
-"""The audit of the tables of a source tree: orders, nodes, weights and flags compared with the
-declared ones.
-"""
+"""The audit of tables: orders, nodes, weights and flags compared with the declared ones."""
 
 from __future__ import annotations
 
@@ -36,9 +34,8 @@ from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
 ONE = at_least(1)
-"""The claim of order 1, at least: the weights sum to 1."""
 ROW_SUMS = {"stage-order": at_least(1)}
-"""The claim of a method file whose nodes are row sums."""
+"""The claim of files whose nodes are row sums."""
 LINKED, ENOUGH = 12, 10
 """Bits of evidence that link matrix and weights, from which another reading of the same numbers is
 wrong; the second number if it only has order 1 and no order is declared.
@@ -94,16 +91,8 @@ class Audited(Frozen, eq=False):
 def audited(
     paths: Iterable[str], jobs: int = 1, told: Callable[[str], None] = no_one
 ) -> Iterator[Audited]:
-    """Every table of some sources, in order.
-
-    Args:
-        paths: of the sources.
-        jobs: the number of processes; 0 is one per processor.
-        told: receives a text for arrays with the names of a method but other shapes, with their
-            place and the reason.
-
-    Raises:
-        UsageProblem: a source cannot be read, or its grammar is not installed.
+    """Every table of some sources, in order; ``told`` receives why arrays are left out. Raises
+    UsageProblem if a source cannot be read, or its grammar is not installed.
     """
     sources = list(paths)
     demand_grammars(sources)
@@ -129,8 +118,8 @@ def _late(table: FoundTable, seconds: str) -> Audited:
 
 
 def audit(table: FoundTable) -> Audited | None:
-    """The verdict on a table; None if it is no method. No finding is an error if another reading of
-    the same numbers is a method, and an undeclared order 1 is not final either.
+    """The verdict on a table; None if it is no method. No finding is an error if another reading is
+    a method.
     """
     verdict = _audit(table)
     order = 0 if verdict is None or verdict.order is None else verdict.order.order
@@ -169,7 +158,7 @@ def _is_turned(found: Audited, other: Audited) -> bool:
 
 
 def _transposed(found: Audited, other: Audited) -> Audited:
-    """An error: a caller of a library must store the matrix as the library reads it."""
+    """A caller of a library must store the matrix as the library reads it."""
     assert other.order is not None
     order = other.order.order
     message = f"with the matrix transposed the order is {order}"
@@ -179,15 +168,12 @@ def _transposed(found: Audited, other: Audited) -> Audited:
 
 
 def settled(table: FoundTable) -> FoundTable:
-    """The reading of a table in which its numbers fit."""
     verdict = audit(table) if table.rivals else None
     return table if verdict is None else verdict.table
 
 
 def fits(found: Audited, told: FoundTable) -> bool:
-    """Whether another reading of a table has the declared order, or at least order 2, which
-    fractions in place of rounded numbers fail by their rounding.
-    """
+    """Whether a reading has the declared order, or order 2: fractions for decimals fail it."""
     if found.order is None or found.has_errors:
         return False
     if not told.order and found.table.linked >= SURE:
@@ -196,9 +182,7 @@ def fits(found: Audited, told: FoundTable) -> bool:
 
 
 def readings_of(table: FoundTable) -> Iterator[FoundTable]:
-    """Other readings of the numbers of a table, with its names and orders; kicks and drifts also as
-    a method for second-order equations.
-    """
+    """Other methods of the same numbers; kicks and drifts also for second-order equations."""
     if [[x is None for x in row] for row in table.A] == [[True, False], [False, True]]:
         yield replace(
             table, parts=("q", "p"), structure="nystrom", how="for q'' = f(q)", linked=LINKED
@@ -246,7 +230,6 @@ def _audit(table: FoundTable) -> Audited | None:
 
 
 def subject_of(table: FoundTable, method: MethodFile) -> TableSubject:
-    """A table with its orders, up to the limit of an audit."""
     is_high = not table.order or table.order >= HIGH
     return with_orders(table, method, HIGH if is_high else None)
 
@@ -281,8 +264,8 @@ def findings_of(subject: TableSubject) -> tuple[Remark, ...]:
 
 
 def is_unrecognised(subject: TableSubject) -> bool:
-    """Whether an assembled table is no method: its order is too low, or several rows do not sum to
-    their nodes.
+    """Whether an assembled table has too low an order, or several rows that do not sum to their
+    nodes.
     """
     is_far_off = subject.order.order < 2 and not subject.is_slightly_off
     return subject.table.is_assembled and (is_far_off or len(subject.wrong_rows) > 1)
@@ -291,14 +274,12 @@ def is_unrecognised(subject: TableSubject) -> bool:
 def _noted(
     table: FoundTable, message: str, code: str = "unread", level: Severity = "note"
 ) -> Audited:
-    """A table that is not judged, with the reason."""
     return Audited(table, findings=(Remark(message, code=code, level=level),))
 
 
 def _weighed(finding: Remark, subject: TableSubject) -> Remark:
-    """An error with its proper level: a doubt if the table was assembled from single numbers or
-    with constants of other sources, or recognised and no single repair mends it; a note if careless
-    rounding explains it.
+    """The finding; a doubt if the table was assembled or recognised and no single repair mends it,
+    a note if careless rounding explains it.
     """
     if finding.level != "error":
         return finding
@@ -319,15 +300,14 @@ def _weighed(finding: Remark, subject: TableSubject) -> Remark:
 
 
 def _is_mended(finding: Remark, subject: TableSubject) -> bool:
-    """Whether one repaired entry makes the table a method."""
     if finding.code != "nodes":
         return bool(finding.help)
     return is_one_row(subject)
 
 
 def is_one_row(subject: TableSubject) -> bool:
-    """Whether all rows but one sum to their nodes, and order 2 holds with these. Excluded is a
-    first stage at a later time, as in methods of Oliver.
+    """Whether order 2 holds, and all rows but one sum to their nodes; no first stage is at a later
+    time, as in methods of Oliver.
     """
     colour = subject.tableau.colours[0]
     several = sum(sum(map(bool, row)) > 1 for row in subject.block)
@@ -355,7 +335,6 @@ def _is_explained(code: str, subject: TableSubject) -> bool:
 
 
 def _order(subject: TableSubject) -> Iterator[Remark]:
-    """Compares the declared order with the true one."""
     declared = subject.table.order
     finding = _held(subject.order, declared, "order", subject.tableau)
     if finding is None or declared is None:
@@ -382,7 +361,7 @@ def _held(found: Judged | None, declared: int | None, what: str, tableau: Tablea
 
 
 def _said(subject: TableSubject) -> Iterator[Remark]:
-    """Compares the order in comments with the true one; these may be about something else."""
+    """Compares the order with that in comments, which may be about something else."""
     declared, found = subject.table.said_order or 0, subject.order
     is_known = not (subject.table.order or found.is_limited or found.is_open)
     if not is_known or not found.order < declared <= HIGH:
@@ -399,7 +378,6 @@ def _witness(found: Judged, tableau: Tableau) -> str:
 
 
 def _culprit(subject: TableSubject, declared: int) -> str:
-    """The row that does not sum to its node, and the entry that restores the order."""
     row = subject.wrong_rows[0] if len(subject.wrong_rows) == 1 else ""
     return "; ".join(filter(None, [row, _entry(subject, declared)]))
 
@@ -407,7 +385,6 @@ def _culprit(subject: TableSubject, declared: int) -> str:
 def _entry(
     subject: TableSubject, declared: int | None, embedded: tuple[Vector, ...] | None = None
 ) -> str:
-    """The only entry that restores an order, or that of embedded weights; empty if none does."""
     tableau, what = subject.tableau, "order"
     found: Judged | None = subject.order
     if embedded is not None:
@@ -427,15 +404,8 @@ def repairs_of(
     declared: int | None,
     is_embedded: bool = False,
 ) -> tuple[Sequence[Repair], int, bool]:
-    """The single entries that restore the declared order, or without one several orders; that
-    order, and whether it holds exactly with them. Within the rounding if it does not.
-
-    Args:
-        subject: the table.
-        tableau: the method, or the one with its embedded weights.
-        found: its order.
-        declared: the order declared in the source.
-        is_embedded: whether these are embedded weights.
+    """The entries that restore the declared order, or without one several orders; that order;
+    whether it holds exactly.
     """
     stages = sum(space.stages for space in tableau.spaces)
     if found is None or found.witness is None or stages > MAX_BLAMED:
@@ -455,7 +425,6 @@ def repairs_of(
 
 
 def _embedded(subject: TableSubject) -> Iterator[Remark]:
-    """Compares the declared order of the embedded weights with the true one."""
     found, embedded = subject.embedded_order, subject.method.embedded
     if found is None or embedded is None:
         return
@@ -477,7 +446,6 @@ def _embedded(subject: TableSubject) -> Iterator[Remark]:
 
 
 def _sign(subject: TableSubject) -> Iterator[Remark]:
-    """An error estimate that may be b − b̂ or b̂ − b."""
     if subject.is_sign_open:
         yield Remark(subject.sign, code="sign", level="note")
 
@@ -522,7 +490,6 @@ def _listed(rows: Sequence[str]) -> str:
 
 
 def _flags(subject: TableSubject) -> Iterator[Remark]:
-    """Properties declared in the source."""
     if not subject.table.flags.get("fsal") or not subject.block:
         return
     tolerance = 2 * subject.rounded.tolerance
@@ -533,7 +500,6 @@ def _flags(subject: TableSubject) -> Iterator[Remark]:
 
 
 def _rounded(subject: TableSubject) -> Iterator[Remark]:
-    """Within which rounding the order holds, if a table has short decimals alone."""
     found, tolerance = subject.order, subject.order.tolerance
     if subject.digits.short and tolerance:
         places = len(str(max(x.q for x in subject.digits.short.values()))) - 1
@@ -543,7 +509,6 @@ def _rounded(subject: TableSubject) -> Iterator[Remark]:
 
 
 def _stored(subject: TableSubject) -> Iterator[Remark]:
-    """The storage of the numbers, if it was recognised from them."""
     if subject.table.how:
         yield Remark(f"as its numbers say: {subject.table.how}", code="stored", level="note")
     for name in subject.table.idle:
@@ -552,7 +517,6 @@ def _stored(subject: TableSubject) -> Iterator[Remark]:
 
 
 def _unread(subject: TableSubject) -> Iterator[Remark]:
-    """Nodes and embedded weights that could not be read."""
     lost = (x for x in subject.table.notes if " not read: " in x)
     yield from (Remark(x, code="unread", level="note") for x in lost)
 
@@ -561,4 +525,3 @@ _Check: TypeAlias = Callable[[TableSubject], Iterator[Remark]]
 CHECKS: tuple[_Check, ...] = (
     *(_order, _said, _weights, _nodes, _embedded, _rounded, _sign, _flags, _stored, _unread),
 )
-"""The checks, in the order of reports."""

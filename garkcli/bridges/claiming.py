@@ -19,16 +19,7 @@ _OF_TABLE = {"order", "nonautonomous-order", "stage-order"}
 
 
 def imported(table: FoundTable, name: str, is_as_found: bool = False) -> TableSubject:
-    """The method of a table, with its file and findings.
-
-    Args:
-        table: as found in the source.
-        name: its name in the method file.
-        is_as_found: whether the file claims the true orders instead of the declared ones.
-
-    Raises:
-        MethodFileError: its numbers give no method.
-    """
+    """The method of a table with its file and findings; MethodFileError if it is none."""
     subject = with_orders(table, read(table, name))
     subject = replace(subject, findings=findings_of(subject))
     tolerances = [fmpq_of(table.tolerance)] if table.tolerance else []
@@ -40,12 +31,11 @@ def imported(table: FoundTable, name: str, is_as_found: bool = False) -> TableSu
 
 
 def true_claims(found: TableSubject) -> Mapping[str, str]:
-    """The claims of the true orders."""
     return {key: x.claim for key, x, _ in _orders(found) if x.order}
 
 
 def declared_claims(found: TableSubject) -> Mapping[str, str]:
-    """The claims of a table: the declared ones, and true ones if the source declares nothing.
+    """The declared orders, or the true ones if the source declares nothing.
 
     A declared order that is too low becomes a bound; one that the digits leave open is not claimed.
     """

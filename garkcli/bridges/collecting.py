@@ -27,7 +27,6 @@ from garkcli.sources.found import FoundTable
 
 SUFFIX = ".gark.yaml"
 _SAID = {"unread", "sign"}
-"""Findings that are notes already."""
 _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
@@ -35,9 +34,7 @@ class TableResult(Frozen, eq=False):
     """The result for one table.
 
     Attributes:
-        table: as found in the source.
         stem: the unique stem of the name of its method file.
-        method: of the table; None if it has none.
         recognised: the exact forms of its decimals, if requested.
         trouble: the reason why there is no method; empty if there is one.
     """
@@ -59,7 +56,6 @@ class TableResult(Frozen, eq=False):
         return f"{self.stem}{SUFFIX}"
 
     def notes(self) -> Iterator[str]:
-        """Further remarks for users, one sentence each."""
         yield from self.table.notes
         if self.trouble:
             yield self.trouble
@@ -85,18 +81,9 @@ def collected(
     is_as_found: bool = False,
     left_out: Callable[[FoundTable], None] = no_one,
 ) -> Iterator[TableResult]:
-    """The tables of all sources, in order.
-
-    Args:
-        paths: files, ``-`` for standard input.
-        format: of the sources; None for that of the endings of their names.
-        is_recognising: whether to seek exact forms of decimals.
-        is_as_found: whether files claim the true orders instead of the declared ones.
-        left_out: receives the tables that are left out since they may be no methods.
-
-    Raises:
-        UsageProblem: a source cannot be read, its grammar is not installed, or there is no such
-            format.
+    """The tables of all sources, in order; ``left_out`` receives tables that may be no methods.
+    Raises UsageProblem if a source cannot be read, its grammar is not installed, or there is no
+    such format.
     """
     if format is not None:
         reader_named(format)
@@ -153,14 +140,13 @@ def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: boo
 
 
 def default_name(source: str) -> str:
-    """The name of a method whose source gives none."""
     if source == STDIN_NAME:
         return "method"
     return PurePath(source).name.split(".")[0] or "method"
 
 
 def stem_of(name: str) -> str:
-    """The stem of a file name for the name of a method: lower case, words joined by hyphens.
+    """The stem of a file name: lower case, words joined by hyphens.
 
     >>> stem_of("RalstonEuler"), stem_of("3/8 rule"), stem_of("...")
     ('ralston-euler', '3-8-rule', 'method')
@@ -170,7 +156,6 @@ def stem_of(name: str) -> str:
 
 
 def _unique(stem: str, used: set[str]) -> str:
-    """The stem, with a number if it is used already."""
     names = chain([stem], (f"{stem}-{number}" for number in count(2)))
     unused = next(x for x in names if x not in used)
     used.add(unused)

@@ -1,7 +1,4 @@
-"""Comments of languages, safe for any name and any reference: lines of ASCII.
-
-Signs that end or begin a comment in some language are separated: ``*/`` becomes ``* /``.
-"""
+"""Comments of any text as lines of ASCII; ``*/`` becomes ``* /``, as do other signs of comments."""
 
 from __future__ import annotations
 
@@ -24,7 +21,6 @@ class Comment(Frozen):
     """The marks of comments in a language.
 
     Attributes:
-        mark: before each line.
         begin: a line before all; empty for none.
         end: a line after all.
     """
@@ -35,12 +31,11 @@ class Comment(Frozen):
 
     @property
     def _pairs(self) -> tuple[str, ...]:
-        """The pairs of signs in its begin and its end: ``--`` and ``->`` for XML."""
         marks = (self.begin.strip(), self.end.strip())
         return tuple(x[i : i + 2] for x in marks for i in range(len(x) - 1))
 
     def lines(self, texts: Iterable[str]) -> list[str]:
-        """Texts as comment lines, long ones broken except commands, which begin with a blank."""
+        """Comment lines; long texts are broken, except commands, which begin with a blank."""
         lines = [self.begin] if self.begin else []
         for text in texts:
             plain = harmless(text, self._pairs)
@@ -60,11 +55,7 @@ XML = Comment("  ", begin="<!--", end="-->")
 
 
 def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:
-    r"""A text that stays within a comment in each of the languages.
-
-    Args:
-        text: of any source.
-        forbidden: further pairs of signs to separate.
+    r"""A text that stays within any comment; ``forbidden`` are further pairs of signs to separate.
 
     >>> harmless("Größe */ int x; \\"), harmless("a-->b\n??/", ("--",))
     ('Grosse * / int x; /', 'a- ->b\\n? ?/')
@@ -79,14 +70,9 @@ def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:
 
 
 def head(payload: Payload, *notes: str) -> list[str]:
-    """The head of every file: the writer, the method, its orders, its reference.
+    """The writer, the method, its orders, its reference.
 
-    The first two lines contain no foreign text, since a name in the first two lines of Python could
-    set the encoding.
-
-    Args:
-        payload: the method.
-        notes: further lines of the target.
+    No text from the method is in the first two lines, where Python looks for an encoding.
     """
     colours = counted(payload.size, "vector field")
     stages = ", ".join(map(str, payload.stages[payload.kind == "mri" :]))
@@ -120,7 +106,6 @@ _CLASSES = {
 
 
 def problem_class(payload: Payload) -> str:
-    """The problems of the method, in ASCII."""
     if payload.own is not None:
         is_in_positions = payload.kind == "nystrom" and "A" not in payload.own
         return _CLASSES["positions" if is_in_positions else payload.kind]

@@ -1,4 +1,4 @@
-"""Constants that a source takes from others of its tree, such as a module of fractions."""
+"""Constants that a source takes from others of its tree."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Reader
 
 MAX_SOUGHT = 5_000_000
-"""Most characters of other sources in which constants of one source are sought, near ones first."""
+"""Most characters of other sources in which constants are sought, near sources first."""
 MAX_ROUNDS = 6
 """Most times a source is read again: constants are made of others."""
 _UNKNOWN = re.compile(r"the name (?P<name>\w{2,40}), line [0-9]+, is not known")
@@ -30,9 +30,7 @@ _TAKING = re.compile(r"[ \t]*(?:#[ \t]*include|use|using|import|from)\b", re.IGN
 
 
 def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list[FoundTable]:
-    """The tables of a source; names without values there have those that all constants of their
-    name in other sources of its language have.
-    """
+    """The tables of a source, with constants on whose values all sources of its language agree."""
     readers = readers_for(source)
     fold = _fold(readers)
     tables = find_tables(text, source, readers)
@@ -53,12 +51,11 @@ def tables_with_constants(text: str, source: str, others: Sequence[str]) -> list
 
 
 def _fold(readers: Sequence[Reader]) -> Callable[[str], str]:
-    """Makes names equal that the language of the readers takes for one: Fortran has no case."""
+    """Makes names equal that differ in case, for Fortran."""
     return str.lower if [x.name for x in readers] == ["fortran"] else str
 
 
 def _constants(names: Collection[str], source: str, others: Sequence[str]) -> Mapping[str, str]:
-    """The values of constants by their names."""
     readers, left = readers_for(source), MAX_SOUGHT
     fold = _fold(readers)
     pattern = _DECLARED.format(names="|".join(map(re.escape, sorted(names))))
@@ -95,7 +92,7 @@ def _declared_in(text: str, declared: re.Pattern[str]) -> Iterator[tuple[str, st
 
 
 def _with_values(line: str, constants: Mapping[str, str], fold: Callable[[str], str]) -> str:
-    """A line with the values of constants, unless it says where they are from."""
+    """A line with the values of constants, unless it imports them."""
     if _TAKING.match(line):
         return line
 

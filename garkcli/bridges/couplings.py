@@ -12,11 +12,6 @@ from garkcli.exact.matrix import Vector
 
 
 def coupling_of(payload: Payload) -> Coupling:
-    """The coupling of the slow stages.
-
-    Raises:
-        CannotExport: the method has no coupling.
-    """
     if payload.coupling is None:
         message = f"{payload.name} is no multirate infinitesimal step"
         cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
@@ -29,15 +24,12 @@ _NAMES["sr"] = (("omega",), ("omega", "gamma"))
 
 
 def names_of(coupling: Coupling) -> Sequence[str]:
-    """Names of the matrices of each slow part."""
     assert coupling.matrices is not None
     return _NAMES[coupling.restart][len(coupling.matrices) - 1]
 
 
 def embedded_rows(coupling: Coupling) -> Mapping[str, Sequence[Vector]]:
-    """The rows of the embedded value by the names of the matrices; empty without embedded
-    weights.
-    """
+    """The rows of the embedded value by the names of the matrices; empty without it."""
     last = coupling.embedded
     if last is None:
         return {}

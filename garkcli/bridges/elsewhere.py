@@ -30,7 +30,7 @@ _MADE_FOR = re.compile(
 
 
 def declared_orders(paths: Iterable[str]) -> Mapping[str, int]:
-    """Orders by the names of algorithms and of tables; a name with two orders is left out."""
+    """Orders by the names of algorithms and tables, without those of names with two orders."""
     by_name: dict[str, set[int]] = {}
     for path in paths:
         if not path.endswith((".jl", ".py")):
@@ -68,8 +68,8 @@ def orders_in(text: str) -> list[tuple[str, int]]:
 def with_bases(
     tables: Sequence[FoundTable], source: str, others: Sequence[str]
 ) -> Sequence[FoundTable]:
-    """Tables of a source, with the coefficients of other tables that they name: in the same source,
-    or in a list of macros in another source.
+    """The tables with coefficients of others that they name: here, or in a list of macros
+    elsewhere.
     """
     missing = {x.base for x in tables if x.base}
     if not missing:
@@ -88,7 +88,6 @@ def with_bases(
 
 
 _LISTS = (".def", ".c", ".h", ".cpp", ".hpp")
-"""Endings of files with lists of macros."""
 
 
 def _with_base(table: FoundTable, base: FoundTable | None) -> FoundTable:
@@ -105,13 +104,7 @@ def _with_base(table: FoundTable, base: FoundTable | None) -> FoundTable:
 def with_declared(
     tables: Iterable[FoundTable], text: str, orders: Mapping[str, int]
 ) -> Iterator[FoundTable]:
-    """Tables with the order declared in their source tree, and the order in comments.
-
-    Args:
-        tables: as found in the source.
-        text: of the source.
-        orders: of the source tree, by names.
-    """
+    """The tables with the orders declared in their source tree and in comments."""
     lines = text.split("\n")
     for table in tables:
         if table.order or table.kind:
@@ -122,7 +115,6 @@ def with_declared(
 
 
 def order_of(table: FoundTable, orders: Mapping[str, int]) -> int | None:
-    """The order declared for a table by its name; None if there is none."""
     if table.name in orders:
         return orders[table.name]
     made_for = _MADE_FOR.fullmatch(table.name)

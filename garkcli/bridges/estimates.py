@@ -14,10 +14,8 @@ def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None)
     For an estimate E the embedded weights are b − E or b + E: those with the declared order, else
     those with the higher order, else those of a published pair. Conditions are linear in the
     weights: if E fails one that b meets, both b − E and b + E fail it. So their orders differ only
-    if b̂ has the higher order, or if rounding spoils one of them.
-
-    Raises:
-        MethodFileError: the numbers of the other sign give no method.
+    if b̂ has the higher order, or if rounding spoils one of them. Raises MethodFileError if the
+    numbers of the other sign give no method.
     """
     minus = TableSubject(table, method, *orders_of(method, table, limit))
     if table.turned is None or minus.embedded_order is None:
@@ -40,7 +38,6 @@ def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None)
 
 
 def _turned(minus: TableSubject, limit: int | None) -> TableSubject:
-    """The estimate with the other sign."""
     table = replace(minus.table, embedded=minus.table.turned, turned=None)
     plus = TableSubject(table, read(table, minus.method.name), minus.order, minus.embedded_order)
     embedded, declared = minus.embedded_order, table.embedded_order
@@ -51,7 +48,7 @@ def _turned(minus: TableSubject, limit: int | None) -> TableSubject:
 
 
 def _fit(found: TableSubject) -> tuple[bool, int]:
-    """A key for the fit of an estimate: whether it has the declared order, and its order."""
+    """Whether the estimate has the declared order, and its order."""
     order = _number(found)
     return order == found.table.embedded_order, order
 
@@ -65,9 +62,7 @@ def _order(found: TableSubject) -> str:
 
 
 def _published(found: TableSubject) -> str:
-    """The name of the published pair of a method with its embedded weights; empty if there is
-    none.
-    """
+    """The published pair of a method with its embedded weights; empty if there is none."""
     from garkcli.catalogue.known import known_of
 
     known = known_of(found.method)

@@ -1,6 +1,4 @@
-"""Methods of further kinds in JSON written by gark: the keys of their files, the declared orders,
-and the verdict on them.
-"""
+"""Methods of further kinds in JSON of gark: the keys of their files, and the verdict on them."""
 
 from __future__ import annotations
 
@@ -25,7 +23,6 @@ _KEYS: Mapping[Kind, tuple[str, ...]] = {
     "derivatives": ("A", "b", "c", "embedded"),
     "mri": ("c", "alpha", "beta", "omega", "gamma", "embedded"),
 }
-"""The arrays of each kind of methods."""
 _DEEPEST = 5
 _TOLERANCE = re.compile(r"[0-9.]+(e-?[0-9]+)?", re.IGNORECASE)
 _RESTARTS = ("merk", "sr")
@@ -33,8 +30,8 @@ Arrays: TypeAlias = dict[str, Any]
 
 
 def exported_table(text: str, source: str, format: str) -> FoundTable | None:
-    """The method of a document that gark wrote; None for other documents, and for kinds of methods
-    that other readers know.
+    """The method of a document of gark; None for other documents and for kinds with their own
+    readers.
     """
     if SCHEMA not in text:
         return None
@@ -69,7 +66,6 @@ def _count(value: object) -> int | None:
 
 
 def _arrays(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """The arrays of texts of a kind, at any depth."""
     return {key: document[key] for key in _KEYS[kind] if _is_array(document.get(key))}
 
 
@@ -95,7 +91,6 @@ def _rosenbrock(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 
 def _with_dense(arrays: Arrays) -> Arrays:
-    """The arrays with the degree of the dense output."""
     dense = arrays.pop("dense", None)
     if dense:
         arrays["dense"] = {"degree": str(max(map(len, dense))), "weights": dense}
@@ -103,7 +98,7 @@ def _with_dense(arrays: Arrays) -> Arrays:
 
 
 def _nystrom(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """The arrays with the further weights of both steps together."""
+    """The arrays with both rows of embedded weights together."""
     arrays = _arrays(kind, document)
     embedded = arrays.pop("embedded", None)
     bbar = document.get("embedded_bbar")
@@ -116,7 +111,6 @@ def _nystrom(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 
 def _multirate(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """The coupling of the slow stages."""
     coupling_document = document.get("multirate")
     multirate: Arrays = {"fast": "exact"}
     for key in ("mri", "mis"):
@@ -135,7 +129,6 @@ _FORMS = {"row": _rosenbrock, "nystrom": _nystrom, "mri": _multirate}
 
 
 def _tolerance(document: Mapping[str, Any]) -> Arrays:
-    """The tolerance by the keys of method files."""
     keys = {"others": "tolerance", "embedded": "embedded_tolerance", "dense": "dense_tolerance"}
     tolerances = {
         name: text
@@ -150,11 +143,7 @@ def _tolerance(document: Mapping[str, Any]) -> Arrays:
 
 
 def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> TableSubject:
-    """The method of an exported document with its orders, file and findings.
-
-    Raises:
-        MethodFileError: its numbers give no method.
-    """
+    """The method of an exported document with findings; MethodFileError if there is none."""
     from garkcli.bridges.rosenbrock import RowSubject, row_findings  # few sources have them
 
     method = loads(written(table, name, None, {}), place_of(table))

@@ -21,4 +21,4 @@ CODES = (
     "unjudged",
     "other-kind",
 )
-"""The kinds of remarks; ``glossary/data/findings.toml`` says what they mean."""
+"""``glossary/data/findings.toml`` explains them."""

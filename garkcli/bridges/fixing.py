@@ -1,5 +1,4 @@
-"""Repairs of a source by another sign, digit or value of a number: each is tried in the text, which
-is read again.
+"""Repairs of a sign, digit or number of a source, tried in its text, which is read again.
 
 A repair is certain if exactly one table of the new text differs and has no error, and no other
 repair of that size gives it the same orders.
@@ -31,7 +30,6 @@ from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
 MOST_TRIED = 100
-"""Most repairs of a table that are tried: with more none is certain."""
 REACH = 400
 """Lines around the first line of a table that may hold its numbers."""
 SLOPE = 1000
@@ -49,9 +47,7 @@ class Mended(Frozen):
     """A source with its repairs.
 
     Attributes:
-        source: its path.
         before: its text; empty if it is not UTF-8 or begins with a byte order mark.
-        after: the text with the certain repairs.
         wrong: the number of tables with errors.
         mended: the number of tables that the repairs mend.
     """
@@ -67,7 +63,6 @@ class _Edit(Frozen):
     """A line with a repair.
 
     Attributes:
-        text: the line.
         place: its number, and the column of the repair, from 0.
         is_estimate: whether the number is of an error estimate.
     """
@@ -77,22 +72,13 @@ class _Edit(Frozen):
     is_estimate: bool
 
     def carried_out(self, text: str) -> str:
-        """A source with the repaired line."""
         lines = text.split("\n")
         lines[self.place[0]] = self.text
         return "\n".join(lines)
 
 
 def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[Mended]:
-    """Every source with errors, with the certain repairs; no file changes.
-
-    Args:
-        found: the audited tables of all sources.
-        paths: of the sources.
-
-    Raises:
-        UsageProblem: a source cannot be read.
-    """
+    """Every source with errors, with the certain repairs; no file changes."""
     wrong = Counter(x.table.source for x in found if x.has_errors)
     orders = declared_orders(paths)
     for source, count in wrong.items():
@@ -107,7 +93,7 @@ def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[M
 
 
 def _text_of(source: str) -> str:
-    """The text of a file with its line ends; empty if it is not UTF-8."""
+    """The text with its line ends; empty if it is not UTF-8."""
     parsed, _ = source_text(source)
     try:
         text = read_bytes(source, MAX_CHARACTERS).decode("utf-8")
@@ -170,9 +156,6 @@ def _fitting(
     k: int,
     tables_in: Callable[[str], list[FoundTable]],
 ) -> list[tuple[tuple[int, int], _Edit]] | None:
-    """The repairs that leave no error in table k, with its orders then; None if too many are
-    tried.
-    """
     fitting, elsewhere, tried = [], set(), 0
     for edit in edits:
         if edit.place in elsewhere:
@@ -194,27 +177,25 @@ def _fitting(
 
 
 def _differs_alone(tables: Sequence[FoundTable], others: Sequence[FoundTable], k: int) -> bool:
-    """Whether table k is the only one that differs between two texts of a source."""
+    """Whether table k is the only one that differs."""
     if len(tables) != len(others):
         return False
     return [i for i, (x, y) in enumerate(zip(tables, others, strict=True)) if x != y] == [k]
 
 
 def _has_estimate(table: FoundTable) -> bool:
-    """Whether the embedded weights are read as b and an estimate, not as weights."""
+    """Whether the embedded weights are read as b and an estimate."""
     rows = zip(table.b, table.embedded or (), strict=False)
     pairs = [pair for row in rows for pair in zip(*row, strict=True)]
     return all(y == x or y.startswith((f"{x} - (", f"{x} + (")) for x, y in pairs)
 
 
 def _orders(found: Audited) -> tuple[int, int]:
-    """The orders of a table and of its embedded weights."""
     assert found.order is not None
     return found.order.order, 0 if found.embedded_order is None else found.embedded_order.order
 
 
 def _wanted_in(table: FoundTable) -> Iterator[Wanted]:
-    """The numbers of a table that may be wrong, with the values that would mend it."""
     if table.gamma is None:
         yield from _wanted(subject_of(table, read(table)))
         return
@@ -277,7 +258,6 @@ def _wanted(subject: TableSubject) -> Iterator[Wanted]:
 
 
 def _entries(tableau: Tableau, row: WrongSum) -> Vector:
-    """The entries of a row that does not sum to its node."""
     assert row.m is not None
     assert row.i is not None
     return (tableau.block(row.l, row.m) or ())[row.i]
@@ -286,7 +266,6 @@ def _entries(tableau: Tableau, row: WrongSum) -> Vector:
 def _blamed(
     subject: TableSubject, tableau: Tableau, declared: int | None, is_embedded: bool
 ) -> tuple[list[tuple[Number, Number]], bool]:
-    """Entries with the values that restore a declared order, and whether there is only one."""
     found = subject.embedded_order if is_embedded else subject.order
     if is_embedded and not declared:
         return [], False
@@ -296,14 +275,7 @@ def _blamed(
 
 
 def _edits(text: str, line: int, wanted: Sequence[Wanted], is_whole: bool) -> Iterator[_Edit]:
-    """Lines with one repair each, those next to the first line of the table first.
-
-    Args:
-        text: of the source.
-        line: the first line of the table, from 1.
-        wanted: numbers that may be wrong, with their values.
-        is_whole: whether to write the new number; otherwise another sign or digit.
-    """
+    """Lines with one repair each, nearest first: the new number, or another sign or digit."""
     lines = text.split("\n")
     first = max(line - 1 - REACH, 0)
     all_places = [
@@ -325,7 +297,6 @@ def _edits(text: str, line: int, wanted: Sequence[Wanted], is_whole: bool) -> It
 
 
 def _is_in_estimate(before: Sequence[str]) -> bool:
-    """Whether the last assigned name is of an error estimate."""
     named = (_NAMED.findall(line) for line in reversed(before))
     name = next((names[-1] for names in named if names), "")
     return "err" in name.lower() or name in {"E", "e", "evec"}

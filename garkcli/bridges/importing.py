@@ -20,17 +20,14 @@ from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Row, Rows
 
 Tree: TypeAlias = "str | Sequence[Tree] | Mapping[str, Tree] | None"
-"""The content of a method file: words, rows of numbers, lists and mappings of these."""
 SHORT = 8
-"""Decimals with fewer digits are written as fractions."""
+"""Decimals with fewer digits become fractions."""
 _LONG = re.compile(rf"[0-9]{{{SHORT},}}|[0-9]\.[0-9]{{{SHORT - 1},}}")
 _TAIL = re.compile(r"(?<=[0-9.])0{6,}(?![0-9])")
-"""Zeros at the end of a printed decimal."""
 _INTEGER = re.compile(r"-?(?:0|[1-9][0-9]*)")
 
 
 def numbers_of(table: FoundTable) -> Iterator[str]:
-    """The coefficients of a table, without its dense output."""
     blocks = [block or () for blocks in table.A for block in blocks]
     for rows in (*blocks, table.b, [row or () for row in table.c], table.embedded or ()):
         for row in rows:
@@ -38,7 +35,6 @@ def numbers_of(table: FoundTable) -> Iterator[str]:
 
 
 def place_of(table: FoundTable) -> str:
-    """The place of a table for messages."""
     return f"{table.source}:{table.line}"
 
 
@@ -60,14 +56,7 @@ def parsed(text: str) -> Number | None:
 
 
 def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mapping[str, str]) -> str:
-    """The method file of a table.
-
-    Args:
-        table: as found in the source.
-        name: the name in the file.
-        tolerance: the rounding in the file; None for none.
-        claims: the claims of the file.
-    """
+    """The method file of a table."""
     whence = plain_line(printable(place_of(table)))
     lines = [f"# from {whence}, read as {table.format}", "gark: 1"]
     if name:
@@ -99,7 +88,6 @@ def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[
 
 
 def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
-    """The keys of a method file for the coefficients."""
     if table.form is not None:
         return table.form
     if table.gamma is not None:
@@ -122,14 +110,12 @@ def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
 
 
 def _colour(table: FoundTable, l: int, A: Rows | None, c: Row | None) -> Mapping[str, Tree]:
-    """One vector field: its matrix, nodes, weights and further weights."""
     embedded = None if table.embedded is None else table.embedded[l]
     dense = None if table.dense is None else table.dense[l : l + 1]
     return {"A": A, "b": table.b[l], "c": c, "embedded": embedded, "dense": _polynomials(dense)}
 
 
 def _rosenbrock(table: FoundTable) -> Mapping[str, Tree]:
-    """A Rosenbrock method in printed or stored form."""
     beside = {"c": table.c[0], "d": table.d}
     if table.diagonal is None:
         embedded = None if table.embedded is None else table.embedded[0]
@@ -165,7 +151,6 @@ def _slow(table: FoundTable) -> Mapping[str, Tree]:
 
 
 def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
-    """Dense output, a block for each of several colours."""
     if dense is None:
         return None
     degree = max((len(row) for rows in dense for row in rows), default=0)
@@ -173,7 +158,7 @@ def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
 
 
 def _sums(table: FoundTable, l: int) -> Row:
-    """The row sums of the diagonal block, as nodes of a colour without nodes in the source."""
+    """The row sums of the diagonal block, as nodes where the source has none."""
     block = table.A[l][l]
     if block is None:
         return ("0",) * len(table.b[l])
@@ -208,9 +193,7 @@ def entry_text(text: str) -> str:
 
 
 def fraction_of(text: str) -> str:
-    """The exact fraction of a text without long decimals and roots; empty for others. Quotients of
-    integers are exact at any length.
-    """
+    """The exact fraction of a text without long decimals and roots; empty for others."""
     if _LONG.search(_TAIL.sub("", text)) and {*text} & {*".eq"}:
         return ""
     value = parsed(text)

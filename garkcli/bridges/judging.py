@@ -19,7 +19,6 @@ class Judged(Frozen, eq=False):
     """The order of a method within its digits.
 
     Attributes:
-        order: the order up to which conditions hold, exactly or within the rounding.
         is_open: whether the next order is undecided, since rounding may explain the violation.
         witness: a tree whose condition fails; None if none is known.
         rounded: the tableau, and the largest distance of its numbers from a method with the order;
@@ -35,9 +34,7 @@ class Judged(Frozen, eq=False):
 
     @cached_property
     def tolerance(self) -> fmpq | None:
-        """The power of ten that a method file needs as tolerance for this order; None if the
-        conditions hold exactly.
-        """
+        """The tolerance, a power of ten, for a file with this order; None if it holds exactly."""
         if self.rounded is None:
             return None
         tableau, off = self.rounded
@@ -46,12 +43,10 @@ class Judged(Frozen, eq=False):
 
     @property
     def claim(self) -> str:
-        """The order as a claim of a method file."""
         return at_least(self.order) if self.is_limited else str(self.order)
 
 
 def at_least(order: int) -> str:
-    """A lower bound for an order as a claim of a method file."""
     return f'">= {order}"'
 
 
@@ -59,7 +54,6 @@ class Digits(Frozen):
     """The precision of the coefficients of a source.
 
     Attributes:
-        printed: the coefficients as printed.
         units: the units of the last place for numbers computed from printed ones.
         short: the units of decimals of four or five places, if no coefficient has more.
     """
@@ -69,15 +63,12 @@ class Digits(Frozen):
     short: Units = field(default_factory=dict)
 
     def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:
-        """A tableau with the freedom of its digits: ``slack`` units in the last place of each
-        decimal, by default ten, and one of a short decimal.
-        """
+        """The tableau with ``slack`` units of the last place per decimal, one per short decimal."""
         units = approximant_units(self.printed, self.units)
         wide = {value: slack * unit for value, unit in units.items()}
         return RoundedTableau.printed(tableau, wide | dict(self.short))
 
     def careless(self, tableau: Tableau) -> RoundedTableau:
-        """A tableau with the freedom of careless rounding."""
         units = careless_units(self.printed, self.units)
         return RoundedTableau.printed(tableau, units | dict(self.short))
 
@@ -90,20 +81,12 @@ def judged(
     tolerance: fmpq | None = None,
     spans: StageSpans | None = None,
 ) -> Judged:
-    """The order of a tableau with the numbers of a source.
+    """The order of a tableau with numbers of a source, sought to one beyond the declared one.
 
     Decimals with many digits count as rounded, each by at most ten units in its last place, and
     conditions hold if this explains their residuals. A residual that a good exact method might have
     is not explained so: then the order is undecided. Short decimals count so if the first residual
     is small, as for the hint of a method file.
-
-    Args:
-        digits: the precision of its numbers.
-        tableau: the method, perhaps with embedded weights.
-        declared: the order declared in the source; the search goes at least one further.
-        limit: the last order examined; None for at least one beyond the declared one.
-        tolerance: the rounding given in the source; None if it gives none.
-        spans: the spans of stage vectors, if some are known.
     """
     reach = limit or max(DEFAULT_LIMIT, (declared or 0) + 1)
     exact = find_order(tableau, reach, spans)

@@ -22,11 +22,9 @@ from garkcli.sources.found import FoundTable, unread
 
 T = TypeVar("T")
 SMALL = 8_000
-"""Bytes of a source that this process reads itself, to save the start of another: grammars take
-half a second for the worst known text of that length.
-"""
+"""Bytes of a source read in this process: the worst known text takes grammars half a second."""
 FREE_SECONDS = 20
-"""Seconds for every source, a hundred times the time for one of 50 KB on an idle machine."""
+"""Seconds for every source: a hundred times those for 50 KB on an idle machine."""
 BYTES_PER_SECOND = 50_000
 """One more second for each so many bytes."""
 JUDGING_SECONDS = 60.0
@@ -37,10 +35,8 @@ class SourceToRead(Frozen):
     """A source to read.
 
     Attributes:
-        name: the path of a file, or the name of another source.
         size: in bytes of a file, in characters of a text.
-        text: of a source that is no ordinary file, such as standard input, which only this process
-            can read.
+        text: of a source that only this process can read, such as standard input.
     """
 
     name: str
@@ -51,15 +47,8 @@ class SourceToRead(Frozen):
 def read_within_limits(
     paths: Iterable[str], read: Callable[[str, str], list[FoundTable]], jobs: int = 1
 ) -> Iterator[FoundTable]:
-    """The tables of all sources, in order; a placeholder for a source whose parser takes too long.
-
-    Args:
-        paths: of the sources; ``-`` is standard input.
-        read: makes the tables from the text of a source and its name; it must be picklable.
-        jobs: the number of processes; 0 is one per processor.
-
-    Raises:
-        UsageProblem: a source cannot be read.
+    """The tables of all sources, in order; a placeholder if a parser takes too long. ``read`` is
+    picklable; UsageProblem if a source cannot be read.
     """
     sources = [_source(path) for path in paths]
     with _crew(_Work(read), sources, jobs) as workers:
@@ -74,17 +63,8 @@ def judged_within_limits(
     late: Callable[[FoundTable, str], T],
     jobs: int = 1,
 ) -> Iterator[T]:
-    """The verdict on each table of all sources, in order.
-
-    Args:
-        paths: of the sources; ``-`` is standard input.
-        read: makes the tables from the text of a source and its name; it must be picklable.
-        judge: makes the verdict on a table; it must be picklable.
-        late: makes the verdict on a table whose judging takes too long, from it and the time.
-        jobs: the number of processes; 0 is one per processor.
-
-    Raises:
-        UsageProblem: a source cannot be read.
+    """The verdict on each table of all sources, in order; ``late`` gives that on a table that takes
+    too long. ``read`` and ``judge`` are picklable; UsageProblem if a source cannot be read.
     """
     sources = [_source(path) for path in paths]
     with _crew(_Work(read, judge, late), sources, jobs) as workers:
@@ -93,10 +73,6 @@ def judged_within_limits(
 
 
 class _Work(Frozen, eq=False):
-    """The reading of sources and, if requested, the judging of tables, with a time limit for each
-    item.
-    """
-
     read: Callable[[str, str], list[FoundTable]]
     judge: Callable[[FoundTable], Any] | None = None
     late: Callable[[FoundTable, str], Any] | None = None
@@ -113,7 +89,6 @@ class _Work(Frozen, eq=False):
             return error
 
     def given_up(self, item: SourceToRead | FoundTable) -> Any:
-        """The result for an item that takes too long."""
         seconds = f"longer than {_limit(item):.0f} s"
         if isinstance(item, FoundTable):
             return None if self.late is None else self.late(item, seconds)
@@ -125,7 +100,7 @@ class _Work(Frozen, eq=False):
 def _crew(
     work: _Work, given: Sequence[SourceToRead], jobs: int
 ) -> AbstractContextManager[Workers[SourceToRead | FoundTable, Any]]:
-    """The workers: other processes, unless there is little to read."""
+    """Other processes, unless there is little to read."""
     jobs = min(jobs or os.cpu_count() or 1, len(given))
     is_apart = jobs > 1 or any(source.size > SMALL for source in given)
     limit = Limit(_limit, work.given_up) if is_apart else None
@@ -137,7 +112,6 @@ def _known(
     items: Sequence[SourceToRead | FoundTable],
     what: str,
 ) -> Iterator[Any]:
-    """The results in order; exceptions are raised."""
     for result in counting(what, in_order(workers, items), len(items)):
         if isinstance(result, Exception):
             raise result

@@ -22,8 +22,7 @@ class LinearStages(LinearlyImplicit, kw_only=True):
     """A method with stages computed one after the other, and its further weights.
 
     Attributes:
-        embedded: the embedded weights; None without them.
-        dense: the coefficients of θ, θ², … of each b_i(θ); None without them.
+        dense: the coefficients of θ, θ², … of each b_i(θ).
         has_row_sums: whether c and d are the sums of the rows.
     """
 
@@ -33,11 +32,7 @@ class LinearStages(LinearlyImplicit, kw_only=True):
 
 
 def printed_stages(payload: Payload) -> LinearStages:
-    """The stages of a Rosenbrock method in printed form.
-
-    Raises:
-        CannotExport: a stage depends on a later one.
-    """
+    """A Rosenbrock method in printed form; CannotExport if a stage depends on a later one."""
     method = _of(payload)
     alpha, gamma = method.alpha[0][0], method.gamma[0][0]
     stages = range(len(alpha))
@@ -62,9 +57,6 @@ class StoredProgram(Frozen):
     """A method in stored form, with one γ for all stages.
 
     Attributes:
-        stored: A, C and m.
-        gamma: γ.
-        c: the nodes.
         d: the weights of ∂f/∂t.
         error: m − m̂; None without embedded weights.
         interpolant: rows H_1, H_2, … with b(θ) = θ m + θ (1 − θ) (H_1 + θ H_2 + …); None without
@@ -87,16 +79,11 @@ class StoredProgram(Frozen):
 
     @property
     def lower_C(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- C is the usual letter
-        """The entries of C below the diagonal with their places from 1, row by row."""
         return _lower(self.stored.C)
 
 
 def program_stages(payload: Payload) -> StoredProgram:
-    """The stages of a Rosenbrock method in stored form.
-
-    Raises:
-        CannotExport: it has no such form, or several γ_ii.
-    """
+    """A Rosenbrock method in stored form; CannotExport if it has none, or several γ_ii."""
     printed_stages(payload)
     payload_of_numbers: Any = payload  # without parameters all weights are numbers
     dense = None if payload.dense is None else DenseOutput(payload_of_numbers.dense)

@@ -13,21 +13,18 @@ from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
 
 LONGEST = 60
-"""Longest number that is repaired, in characters."""
 _NUMBER = re.compile(r"(?P<whole>\d+)?(?:\.(?P<part>\d*))?(?:[eEdD](?P<power>[-+]?\d{1,3}))?")
 _TOKEN = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d{1,3}(?!\d))?")
 _OVER = re.compile(r"[\w.()\s]*/{1,2}[\w.(\s]*")
-"""The text between a numerator and its denominator, including names of functions and types."""
+"""Between numerator and denominator, including names of functions and types."""
 _MINUS = re.compile(r"-(?=\s*(?:\w+\(\s*)?$)")
-"""The sign at the end of the text before a number."""
 
 
 class Wanted(Frozen):
     """A repair of a number.
 
     Attributes:
-        old, new: the number in the table, and its repaired value.
-        allowed: the tolerance of the new one.
+        allowed: the tolerance of the new number.
         is_sure: whether any other number is allowed; otherwise a sign or a digit must be wrong.
         is_estimate: whether the number is of an error estimate, False if of embedded weights; None
             for others.
@@ -41,7 +38,7 @@ class Wanted(Frozen):
 
 
 class NumberPlace(Frozen):
-    """The place of a positive number in a text: one token, or two with a quotient between them."""
+    """A positive number in a text: one token, or two with a quotient between them."""
 
     line: int
     tokens: tuple[re.Match[str], ...]
@@ -51,20 +48,16 @@ class NumberPlace(Frozen):
         return self.with_value(0, self.tokens[0][0])
 
     def with_value(self, k: int, text: str) -> fmpq:
-        """The number with another text for token k."""
         values = [_value(text if k == i else x[0]) for i, x in enumerate(self.tokens)]
         return values[0] if len(values) == 1 else values[0] / values[1] if values[1] else ZERO
 
     def is_as_short(self, k: int, text: str) -> bool:
-        """Whether a fraction in lowest terms remains in lowest terms with another text for token
-        k.
-        """
+        """Whether another text for token k leaves a fraction in lowest terms as it is."""
         texts = [x[0] for x in self.tokens]
         return _common(texts) > 1 or _common([*texts[:k], text, *texts[k + 1 :]]) == 1
 
 
 def places(line: str, number: int) -> Iterator[NumberPlace]:
-    """The places of numbers in a line."""
     tokens = [x for x in _TOKEN.finditer(line) if len(x[0]) <= LONGEST]
     yield from (NumberPlace(number, (x,)) for x in tokens)
     for over, under in pairwise(tokens):
@@ -73,7 +66,6 @@ def places(line: str, number: int) -> Iterator[NumberPlace]:
 
 
 def mistyped(line: str, place: NumberPlace, wanted: Wanted) -> Iterator[str]:
-    """The line with another sign, or another digit, of a number."""
     start, is_turned = place.tokens[0].start(), wanted.old * wanted.new < 0
     if is_turned:
         if abs(wanted.old + wanted.new) <= wanted.allowed:
@@ -91,7 +83,6 @@ def mistyped(line: str, place: NumberPlace, wanted: Wanted) -> Iterator[str]:
 
 
 def _turned(line: str, start: int) -> str:
-    """The line with the other sign of the number at ``start``."""
     before, after = line[:start], line[start:]
     plain = _MINUS.sub("", before)
     return plain + after if plain != before else f"{before}-{after}"
@@ -138,7 +129,7 @@ def _common(texts: Sequence[str]) -> int:
 
 
 def _decimal(p: int, q: int) -> str:
-    """A short decimal; empty if there is none."""
+    """A decimal of at most eight places; empty if there is none."""
     places = next((k for k in range(1, 9) if 10**k % q == 0), 0)
     if not places:
         return ""
@@ -147,7 +138,6 @@ def _decimal(p: int, q: int) -> str:
 
 
 def _value(text: str) -> fmpq:
-    """The number of a token, without a sign."""
     match = _NUMBER.fullmatch(text)
     assert match is not None
     integral, part, power = match["whole"] or "", match["part"] or "", int(match["power"] or 0)

@@ -1,6 +1,4 @@
-"""Names of methods as identifiers of languages: neither words of the language nor names used in the
-files written in it.
-"""
+"""Names of methods as identifiers: neither reserved words nor names that the written files use."""
 
 from __future__ import annotations
 
@@ -12,14 +10,12 @@ from garkcli.errors import printable
 from garkcli.page.plaintext import plain_line
 
 LONGEST = 40
-"""Longest name with its prefix."""
 
 
 def stem_of(name: str) -> str:
     """A name as lower case ASCII letters, digits and single underscores; it begins with a letter.
 
-    With the prefix ``gark_`` it is an identifier in every language. A letter of another script
-    becomes its number.
+    Behind ``gark_`` it is an identifier in every language. Letters of other scripts become numbers.
 
     >>> stem_of("Größe 3.gark.yaml"), stem_of("3/8 rule"), stem_of("中")
     ('grosse_3', 'method_3_8_rule', 'u4e2d')
@@ -34,11 +30,7 @@ def stem_of(name: str) -> str:
 
 
 def identifier(name: str, language: str) -> str:
-    """An identifier of a language that is not reserved in it.
-
-    Args:
-        name: of the method.
-        language: a key of ``RESERVED``.
+    """An identifier of a language, a key of ``RESERVED``.
 
     >>> identifier("import", "python"), identifier("import", "r"), identifier("end", "matlab")
     ('method_import', 'import', 'method_end')
@@ -48,7 +40,7 @@ def identifier(name: str, language: str) -> str:
 
 
 def class_name(name: str, language: str = "python") -> str:
-    """The name as the name of a class.
+    """The name in capitalized words.
 
     >>> class_name("Ralston-Euler"), class_name("none"), class_name("3/8 rule")
     ('RalstonEuler', 'MethodNone', 'Method38Rule')
@@ -124,4 +116,4 @@ RESERVED: Mapping[str, frozenset[str]] = {
     language: frozenset(words.split()).union(*[kwlist, softkwlist] if language == "python" else [])
     for language, words in _WORDS.items()
 }
-"""The words of each language, with the names in files and programs of ``gark export``."""
+"""The words of each language, with the names that exported files use."""

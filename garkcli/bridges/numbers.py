@@ -13,7 +13,7 @@ from garkcli.frozen import Frozen
 from garkcli.tableau.pointwise import Cell
 
 FLOAT_DIGITS = 17
-"""Digits that stand for a binary64 number, which is written with the fewest that restore it."""
+"""Digits for a binary64 number, written with the fewest that restore it."""
 EXACT_IN_FLOATS = 2**53
 """Up to here integers are binary64 numbers, and the quotient of two is rounded once."""
 MOST_ZEROS = 5
@@ -24,13 +24,11 @@ class Style(Frozen):
     """The format of numbers in a language.
 
     Attributes:
-        digits: of decimals; 17 for a binary64 number, written with the fewest that restore it.
         longest: decimals that end within so many digits are written in full, for any ``digits``; 0
             for none.
         decimal: the text around a decimal ``{x}``.
         fraction: the text of a fraction, with ``{p}`` and ``{q}``; empty for decimals instead.
-        is_fraction_first: whether to prefer fractions to decimals that end.
-        largest: the largest numerator and denominator of such fractions.
+        largest: the largest numerator and denominator of fractions.
         irrational: writes an irrational number; None for a decimal.
         exponent: the letter before the power of ten.
         point: whether integers have a point: ``1.0``.
@@ -47,12 +45,7 @@ class Style(Frozen):
     point: bool = True
 
     def text(self, x: Cell, digits: int | None = None) -> str:
-        """A number in this style.
-
-        Args:
-            x: exact, or a sufficiently fine enclosure.
-            digits: of all numbers, if requested; then fractions become decimals.
-        """
+        """A number in this style; with ``digits`` fractions become decimals."""
         if digits is not None:
             return self._decimal(x, digits, is_short=False)
         if isinstance(x, Algebraic) and self.irrational is not None:
@@ -105,7 +98,6 @@ class Style(Frozen):
 
 
 def _digits(x: Decimal) -> str:
-    """The digits of a decimal, without zeros at its end."""
     return "".join(map(str, x.as_tuple().digits)).rstrip("0")
 
 
@@ -135,14 +127,13 @@ EXACT = Style(
 PYTHON = Style(longest=100, fraction="{p}/{q}", point=False)
 """Python and MATLAB round the quotient of two integers, and a decimal of any length, once."""
 DECIMALS = Style()
-"""The floats of languages that divide no integers as they read them."""
+"""Floats of languages that round both integers before they divide."""
 
 
 def c_style(macro: str) -> Style:
     """Numbers inside a macro that gives them the suffix of their type.
 
-    A quotient of two integers of the type is right in every precision; 36 digits are enough for
-    binary128.
+    A quotient of integers of the type is right in every precision; binary128 needs 36 digits.
     """
     return Style(
         digits=36,

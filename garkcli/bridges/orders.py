@@ -19,14 +19,10 @@ class Orders(Frozen):
     """The proved orders of a method.
 
     Attributes:
-        order: of the method.
-        is_lower_bound: whether the order may be higher.
-        embedded: the order of the embedded weights; None without them.
         nonautonomous: the order for y' = f(t, y) with the given nodes, if these are not the row
             sums; None if it equals the order, or is not applicable.
-        w_order: of a Rosenbrock method with any matrix for its Jacobian; None for others.
+        w_order: of a Rosenbrock method with any matrix for its Jacobian.
         tolerance: within which the conditions hold; None if they hold exactly.
-        embedded_tolerance: the same for the conditions of the embedded weights.
     """
 
     order: int
@@ -39,7 +35,7 @@ class Orders(Frozen):
 
     @property
     def effective(self) -> int:
-        """The order for any problem, with time or not: the order that targets name."""
+        """The order for any problem, with time or not."""
         if self.nonautonomous is None:
             return self.order
         return min(self.order, self.nonautonomous)
@@ -70,13 +66,6 @@ def _how(tolerance: fmpq | None) -> str:
 
 
 def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | None) -> Orders:
-    """Proves the orders of a method.
-
-    Args:
-        tableau: the method.
-        embedded: its embedded weights; None without them.
-        tolerance: the rounding of its coefficients; None if they are exact.
-    """
     method = meant(tableau, tolerance)
     if is_rosenbrock(tableau):
         return _of_rosenbrock(method, embedded)

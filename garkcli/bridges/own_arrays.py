@@ -1,6 +1,5 @@
-"""Methods of further kinds for targets: the arrays of their papers, by their names.
-
-They are Nyström methods, nonlinearly partitioned ones, and multiderivative ones.
+"""The arrays of Nyström, nonlinearly partitioned and multiderivative methods by their papers'
+names.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from garkcli.tableau.tableau import Tableau
 
 OwnKind: TypeAlias = Literal["nystrom", "nprk", "derivatives"]
 Nested: TypeAlias = tuple[Any, ...]
-"""Entries in as many nested tuples as the array has dimensions."""
+"""Entries in nested tuples, one level per dimension."""
 KINDS: Mapping[Kind, str] = {
     "nystrom": "Nyström methods",
     "nprk": "nonlinearly partitioned methods",
@@ -26,7 +25,6 @@ KINDS: Mapping[Kind, str] = {
 
 
 def own_kind(tableau: Tableau) -> OwnKind | None:
-    """The one of these kinds that a method has; None for any other."""
     if tableau.uses_derivatives:
         return "derivatives"
     if tableau.has_fields_alone:
@@ -37,13 +35,6 @@ def own_kind(tableau: Tableau) -> OwnKind | None:
 
 
 def own_arrays(kind: OwnKind, tableau: Tableau, further: Further) -> OwnArrays:
-    """The arrays of a method of such a kind.
-
-    Args:
-        kind: the kind.
-        tableau: its tableau.
-        further: its embedded weights and dense output.
-    """
     make = {"nystrom": _of_nystrom, "nprk": _of_nprk, "derivatives": _of_derivatives}[kind]
     return {name: rows for name, rows in make(tableau, further) if rows is not None}
 
@@ -79,11 +70,8 @@ def _of_derivatives(tableau: Tableau, further: Further) -> _Named:
 
 
 def stepped_values(payload: Payload) -> Mapping[str, Any]:
-    """The values in the template of a program that steps.
-
-    Raises:
-        CannotExport: a stage depends on a later one; or on itself, if its equations involve
-            derivatives of more than F.
+    """The values for a program that steps; CannotExport if a stage depends on a later one, or on
+    itself with derivatives of more than F.
     """
     kind, arrays, name = own_kind(payload.tableau), payload.own, payload.name
     assert kind is not None
@@ -114,5 +102,4 @@ def _latest(matrix: Nested) -> int:
 
 
 def _depth(array: object) -> int:
-    """The number of dimensions of an array."""
     return 1 + _depth(array[0]) if isinstance(array, tuple) else 0

@@ -13,27 +13,19 @@ from garkcli.bridges.fixing import Mended, mended_sources
 from garkcli.page.safety import inert
 
 AROUND = 3
-"""Lines around a change."""
 _BLANK = "\t\r\n\f"
 """Signs of sources that do not print."""
 _NO_END = "\n\\ No newline at end of file\n"
 
 
 def patches(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[tuple[Mended, str]]:
-    """Every source with errors and its patch; see ``mended_sources``."""
     for mended in mended_sources(found, paths):
         yield mended, patch_of(mended.source, mended.before, mended.after)
 
 
 def patch_of(source: str, before: str, after: str) -> str:
     """The unified diff of one file; empty if nothing changes, if it would contain control sequences
-    for a terminal or commands for the runner of a job, or if the path is not below the current
-    folder.
-
-    Args:
-        source: its path.
-        before: its text.
-        after: its new text.
+    or commands for the runner of a job, or if the path is not below the current folder.
     """
     name = _name_of(source)
     if not name or before == after:
@@ -53,7 +45,6 @@ def patch_of(source: str, before: str, after: str) -> str:
 
 
 def _name_of(source: str) -> str:
-    """The path of a file below the current folder; empty if it is not, or cannot be written."""
     try:
         name = Path(os.path.relpath(source)).as_posix()
     except ValueError:  # on another drive

@@ -27,16 +27,15 @@ if TYPE_CHECKING:
 Kind: TypeAlias = Literal[
     "rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives", "mri"
 ]
-"""One vector field; several that share all stages; the pair (q, p); any other GARK method; a
-Rosenbrock method; the kinds with their own arrays; a multirate method with an exact fast part.
+"""``rk``: one vector field; ``ark``: several on shared stages; ``prk``: the pair (q, p); ``row``:
+Rosenbrock; ``mri``: multirate with an exact fast part.
 """
 SCHEMA = "gark/export/1"
-"""The format of JSON documents."""
 
 OwnArrays: TypeAlias = Mapping[str, tuple[Any, ...]]
-"""The arrays of kinds with their own: entries in as many nested tuples as dimensions."""
+"""Entries in nested tuples, one level per dimension."""
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
-"""An array: its colour and, for a block, the colour of its columns, from 1; its rows."""
+"""The colour and, for a block, the colour of its columns, from 1; the rows."""
 
 
 class Payload(Frozen, eq=False, kw_only=True):
@@ -44,30 +43,20 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     Attributes:
         name: one line of any signs.
-        kind: its form.
         tableau: on point stages if the nodes have simple radicals.
         A: ``A[l][m]`` is a matrix, or None if the stages of colour l do not depend on colour m;
             entries are exact numbers, or enclosures fine enough for rounding.
-        b: the weights of each colour.
-        c: the nodes of each colour.
-        embedded: the embedded weights of each colour.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
-        predictor: the weights that predict stages.
-        orders: the proved orders.
-        is_exact: whether every entry is an exact number.
         tolerance: the rounding of A, b and c in the file; None if they are exact.
-        embedded_tolerance: the rounding of its embedded weights.
-        dense_tolerance: the rounding of its dense output.
         structure: of the vector fields, such as ``general``, ``separable``.
         reference: its publication, in one line.
         digits: of every number, if requested.
         moved_within: a bound on the distance to the numbers of the file, if these have fewer
             digits; None if they are the same.
-        rosenbrock: a Rosenbrock method, with α, b and c in A, b and c; None for others.
+        rosenbrock: a Rosenbrock method, with α, b and c in A, b and c.
         own: the arrays of kinds with their own arrays; then A, b and c are empty.
         coupling: between the slow stages of a multirate infinitesimal method.
         derivation: whether it is the conjugate or the pair of the method of the file.
-        version: of gark.
     """
 
     name: str
@@ -96,20 +85,19 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @property
     def size(self) -> int:
-        """N, the number of colours."""
         return self.tableau.size
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages of each colour; for kinds with their own arrays of the method."""
+        """The number of stages of each colour; with own arrays of the method."""
         if self.own is not None:
             return (len(self.own["c"]),)
         return tuple(map(len, self.b))
 
     @property
     def parts(self) -> Mapping[str, list[Part]]:
-        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by colour; for a
-        predictor ``predictor_old_r0`` and so on, a matrix for each power of r.
+        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by colour; a
+        predictor has ``predictor_old_r0`` and so on, a matrix for each power of r.
         """
         blocks: list[Part] = [
             (l, m, block)
@@ -129,8 +117,8 @@ class Payload(Frozen, eq=False, kw_only=True):
         return arrays
 
     def arrays(self, before: str = "") -> list[tuple[str, Sequence[Row]]]:
-        """The arrays with names for programs: ``A``, ``b``; for several vector fields ``A1_2``,
-        ``b2``, with ``before`` between the letter and its numbers.
+        """The arrays by ``A``, ``b``; for several vector fields ``A1_2``, ``b2``, with ``before``
+        between letter and numbers.
         """
         parts = [(part, *x) for part, arrays in self.parts.items() for x in arrays]
         parts.sort(key=lambda x: (x[0] != "A", x[1]))
@@ -140,14 +128,11 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @cached_property
     def stem(self) -> str:
-        """The name in ASCII letters, digits and underscores, for identifiers after ``gark_``."""
         return names.stem_of(self.name)
 
     def number(self, x: Cell, style: Style = EXACT) -> str:
-        """An entry in the style of a language, with the requested digits.
-
-        Raises:
-            CannotExport: an enclosure is too wide for rounding.
+        """An entry with the requested digits; CannotExport if an enclosure is too wide for
+        rounding.
         """
         try:
             return style.text(x, self.digits)
@@ -160,5 +145,4 @@ class Payload(Frozen, eq=False, kw_only=True):
             raise CannotExport(message, cure) from None
 
     def numbers(self, row: Row, style: Style = EXACT) -> list[str]:
-        """A row of entries in the style of a language."""
         return [self.number(x, style) for x in row]

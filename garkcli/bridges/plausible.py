@@ -1,4 +1,4 @@
-"""Whether arrays called A and b are a method at all: other matrices have these names, too."""
+"""Whether arrays called A and b are a method: other matrices have these names, too."""
 
 from __future__ import annotations
 
@@ -16,11 +16,10 @@ from garkcli.sources import naming
 from garkcli.sources.found import FoundTable
 
 _SHORT = re.compile("euler|midpoint|implicit|trapez|crank", re.IGNORECASE)
-"""Words for methods with few numbers."""
 NEAR = 0.01
-"""Sums that differ by less are taken to be equal."""
+"""Sums that differ by less count as equal."""
 TINY = 1e-9
-"""Conditions with smaller residuals are taken to hold."""
+"""Conditions with smaller residuals count as held."""
 FAR = 0.5
 """Largest distance of the sum of weights from 1, misprints included."""
 
@@ -29,9 +28,9 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     """Whether a table is a method, by its source or its numbers. A matrix of zeros has no nodes;
     integers with one stage or without nodes need words.
 
-    If no reading of the numbers decides, as with several misprints, the sum of the weights must be
-    near 1, and the nodes the row sums of half of the rows; without nodes order 2 must nearly hold,
-    or the matrix be triangular.
+    If no reading decides, as with several misprints, the sum of the weights must be near 1, and the
+    nodes the row sums of half of the rows; without nodes order 2 must nearly hold, or the matrix be
+    triangular.
     """
     tableau = method.tableau
     rows = [row for block in tableau.blocks.values() for row in block]
@@ -70,13 +69,11 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
 
 
 def speaks(table: FoundTable) -> bool:
-    """Whether the names of a table, around it or of its source are words for methods."""
     words = f"{table.name} {table.around} {PurePath(table.source).name}"
     return naming.speaks(words) or _SHORT.search(words) is not None
 
 
 def _are_whole(rows: Iterable[Sequence[Number]]) -> bool:
-    """Whether all numbers are integers."""
     return all(isinstance(x, fmpq) and x.q == 1 for row in rows for x in row)
 
 

@@ -36,15 +36,8 @@ USUAL = 40
 
 @doing("numbers and orders")
 def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
-    """The input of writers for a method.
-
-    Args:
-        method: as read from a file, or the conjugate or the pair of such a method.
-        digits: of every number, if requested.
-
-    Raises:
-        CannotExport: no target writes such a method.
-        MethodError: it was not read from a file.
+    """The input of writers, with so many digits of every number if requested. Raises CannotExport
+    if no target writes the method, MethodError if it was not read from a file.
     """
     file = method if method.base is None else method.base
     if not isinstance(file, MethodFile):
@@ -97,7 +90,6 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
 
 
 _NO_ENTRIES = Entries((), (), (), is_exact=True, digits=0, have_radicals=True)
-"""For methods with their own arrays."""
 
 
 def _tolerance(method: GarkMethod) -> fmpq | None:
@@ -107,9 +99,7 @@ def _tolerance(method: GarkMethod) -> fmpq | None:
 
 
 def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> GarkMethod:
-    """The method; if more digits are requested than its file has, a method with more digits that
-    rounds to it.
-    """
+    """The method, or one with more digits that rounds to it if its file has too few."""
     tolerance = _tolerance(method)
     if tolerance is None or digits is None:
         return method
@@ -135,7 +125,6 @@ def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> Ga
 
 
 def _name(method: MethodFile) -> str:
-    """The name of the method, or of its file without the folder."""
     if method.name != method.source:
         return method.name
     base = re.split(r"[\\/]", method.source)[-1]
@@ -143,7 +132,6 @@ def _name(method: MethodFile) -> str:
 
 
 def kind_of(tableau: Tableau) -> Kind:
-    """The form of a tableau."""
     if [colour.part for colour in tableau.colours] == ["q", "p"]:
         return "prk"
     if tableau.size == 1 and not tableau.is_partitioned:
@@ -153,9 +141,7 @@ def kind_of(tableau: Tableau) -> Kind:
 
 
 def _entries(tableau: Tableau, digits: int | None) -> Entries:
-    """The entries, exact if possible; enclosures of zero become exact zeros, and so does a missing
-    block of a method for one vector field.
-    """
+    """The entries, exact if possible; enclosures of zero and missing blocks become exact zeros."""
     cells = entries(tableau, max(digits or 0, USUAL) + EXTRA)
     if not cells.is_exact:
         A = [

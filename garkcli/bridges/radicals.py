@@ -11,7 +11,7 @@ from garkcli.exact.rewriting import PlainText
 
 
 class Radicals(PlainText, ABC):
-    """Writes sums of multiples of radicals; subclasses fill in their language."""
+    """Writes sums of multiples of radicals in a language."""
 
     POWER = "^"
 
@@ -29,10 +29,8 @@ class Radicals(PlainText, ABC):
         return "-" + text[3:] if text.startswith(" - ") else text[3:]
 
     def number(self, value: fmpq) -> str:
-        """A rational number below a root."""
         sign = "-" if value < 0 else ""
         return sign + self.rational(abs(value))
 
     def power(self, base: str, exponent: int) -> str:
-        """An integer power."""
         return f"{base}{self.POWER}{exponent}"

@@ -1,4 +1,4 @@
-"""Exact forms of decimals: proposed from their digits, accepted if the order does not fall."""
+"""Exact forms of decimals, accepted if the order does not fall."""
 
 from __future__ import annotations
 
@@ -15,15 +15,12 @@ from garkcli.frozen import Frozen, replace
 from garkcli.sources.found import FoundTable
 
 MAX_NUMBERS = 400
-"""Most distinct decimals that are examined."""
 
 
 class Recognised(Frozen):
     """A method with exact forms in place of decimals.
 
     Attributes:
-        method: with the accepted forms.
-        taken: accepted proposals.
         refused: proposals with which the order falls.
         left: decimals without a proposal.
     """
@@ -34,7 +31,6 @@ class Recognised(Frozen):
     left: tuple[str, ...]
 
     def notes(self) -> Iterator[str]:
-        """Remarks for users, one sentence each."""
         yield from (f"{x.printed} is {x.exact}, {x.distance} away" for x in self.taken)
         for x in self.refused:
             yield f"{x.printed} is not {x.exact}: with it the order falls"
@@ -42,13 +38,7 @@ class Recognised(Frozen):
 
 
 def recognised(before: TableSubject, name: str, is_as_found: bool = False) -> Recognised:
-    """The method with as many exact numbers as the certificate of the order confirms.
-
-    Args:
-        before: the imported method.
-        name: the name in its file.
-        is_as_found: whether the file claims the true orders instead of the declared ones.
-    """
+    """The method with as many exact numbers as the certificate of the order confirms."""
     texts = dict.fromkeys(numbers_of(before.table))
     decimals = [x for x in texts if significant_digits(x) >= FEWEST_DIGITS]
     proposals = {x: proposed(x) for x in decimals[:MAX_NUMBERS]}

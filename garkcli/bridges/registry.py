@@ -1,4 +1,4 @@
-"""The targets of ``gark export``: their declarations, their input, and the list of them."""
+"""The declarations of the targets of ``gark export``, and the list of them."""
 
 from __future__ import annotations
 
@@ -32,17 +32,10 @@ from garkcli.frozen import Frozen
 
 EMBEDDED, DENSE, PREDICTOR = "embedded weights", "dense output", "predictor"
 Stages: TypeAlias = Literal["any", "lower", "explicit"]
-"""The stages that a target computes: all together, one after the other, or only explicit ones."""
 
 
 class FileName(Frozen):
-    """The required name of a file that a program runs.
-
-    Attributes:
-        pattern: a regular expression for the whole name.
-        why: the reason in the language.
-        cure: for other names.
-    """
+    """The name that a program needs for its file: ``pattern`` matches it whole."""
 
     pattern: str
     why: str
@@ -52,14 +45,11 @@ class FileName(Frozen):
 class Bridge(Frozen):
     """A target of ``gark export``.
 
-    Its template is ``templates/NAME.SUFFIX.jinja``, that of its program ``NAME_test.ENDING.jinja``.
+    Its template is ``templates/NAME.SUFFIX.jinja``, that of its program ``NAME_test.ENDING.jinja``,
+    that for Rosenbrock methods ``NAME-row.SUFFIX.jinja``. Makers of values raise ``CannotExport``.
 
     Attributes:
-        name: the word on the command line.
-        summary: half a line on the target.
-        suffix: the ending of its files.
         kinds: the forms of methods that it can hold, some under conditions.
-        style: the format of its numbers.
         stages: the stages that it computes.
         several: its input for several vector fields: ``as they are`` for the blocks of the method,
             ``shared`` for a table each on the same stages, ``pair`` for the explicit table and
@@ -68,15 +58,11 @@ class Bridge(Frozen):
         starts: whether an explicit first stage must be at the beginning of a step.
         ends: whether to append to explicit methods a last stage that is the first of the next step.
         lacks: the further weights without a place in its files.
-        has_predictor: whether its files have a place for a predictor.
-        values: makes further values for its template from the method and its tables; raises
-            ``CannotExport`` with the reason and the cure.
+        values: further values for its template, from the method and its tables.
         words: for right-hand sides in its programs; None if there are no programs.
-        file: the required name of its file for a program.
         reads_back: whether ``gark import`` reads its files.
         write: makes the file of a method, if no template does.
-        linear: makes further values for its template for Rosenbrock methods,
-            ``NAME-row.SUFFIX.jinja``; raises ``CannotExport`` with the reason and the cure.
+        linear: further values for the template for Rosenbrock methods.
     """
 
     name: str
@@ -100,14 +86,8 @@ class Bridge(Frozen):
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
         """A program that runs a method, and its problem, by the ending after the stem of the
-        table's name: ``_test.c``; empty if the target is data.
-
-        Args:
-            payload: the method.
-            file: the name of the file with its table, without folder.
-
-        Raises:
-            CannotExport: the target cannot hold the method, or the file must have another name.
+        table's name: ``_test.c``; empty if the target is data. Raises CannotExport if the target
+        cannot hold the method, or ``file`` must have another name.
         """
         if self.words is None:
             return {}
@@ -126,11 +106,7 @@ class Bridge(Frozen):
         return {f"_test{ending}": text, "_problem.yaml": trial_of(payload).file}
 
     def written(self, payload: Payload) -> str:
-        """The file of a method.
-
-        Raises:
-            CannotExport: the target cannot hold the method.
-        """
+        """The file of a method; CannotExport if the target cannot hold it."""
         values = self._values_for(payload)
         if self.write is not None:
             return self.write(payload)
@@ -138,11 +114,6 @@ class Bridge(Frozen):
         return text_of(f"{self.name}{form}{self.suffix}", payload, self.style, values)
 
     def _values_for(self, payload: Payload) -> Values:
-        """The values for the templates of the target.
-
-        Raises:
-            CannotExport: the target cannot hold the method.
-        """
         if payload.kind == "row" and payload.size > 1 and self.name != "json":
             message = f"{self.name} has no Rosenbrock methods of several colours"
             raise CannotExport(message, "--to json has all of its blocks", code="unknown-word")
@@ -178,7 +149,6 @@ class Bridge(Frozen):
         return _left_out(payload, self.lacks if self.has_predictor else (*self.lacks, PREDICTOR))
 
     def _steps(self, payload: Payload) -> Composition:
-        """A method for (q, p) as kicks and drifts."""
         sequence = composition(payload)
         if sequence is not None:
             return sequence
@@ -209,9 +179,7 @@ class Bridge(Frozen):
         raise CannotExport(message, _others(payload, "any"))
 
     def _fitting(self, payload: Payload, found: Table) -> Table:
-        """A table with stages that the target computes, and with the last stage that it
-        requires.
-        """
+        """The table with stages that the target computes, and with the last one that it needs."""
         holds = {"lower": found.is_diagonally_implicit, "explicit": found.is_explicit, "any": True}
         computed = [x for x in holds if holds[x]]
         if self.stages not in computed:
@@ -246,7 +214,6 @@ _KINDS: Mapping[Kind, str] = {
 
 
 def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
-    """The further weights of a method without a place in its file."""
     has = {
         EMBEDDED: payload.embedded is not None,
         DENSE: payload.dense is not None,
@@ -256,7 +223,6 @@ def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
 
 
 def _others(payload: Payload, *stages: str) -> str:
-    """The targets for methods of this form that compute such stages."""
     known = [x for x in bridges().values() if payload.kind in x.kinds]
     names = [x.name for x in known if x.stages in stages or not stages]
     return f"these have: {', '.join(names)}"
@@ -264,7 +230,6 @@ def _others(payload: Payload, *stages: str) -> str:
 
 @lru_cache(maxsize=1)
 def bridges() -> Mapping[str, Bridge]:
-    """The targets by their names, in alphabetical order."""
     by_name: dict[str, Bridge] = {}
     for module in pkgutil.iter_modules(targets.__path__):
         for bridge in import_module(f"{targets.__name__}.{module.name}").BRIDGES:
@@ -273,11 +238,6 @@ def bridges() -> Mapping[str, Bridge]:
 
 
 def bridge_named(name: str, *others: str) -> Bridge:
-    """The target of a name; ``others`` are further words that the caller accepts.
-
-    Raises:
-        UsageProblem: there is no such target.
-    """
     known = bridges()
     if name not in known:
         message = f"no target {name!r}"

@@ -1,6 +1,4 @@
-"""Rosenbrock and multirate infinitesimal methods of sources: their orders within their digits, and
-the findings.
-"""
+"""Rosenbrock and multirate infinitesimal methods of sources: orders within digits, and findings."""
 
 from __future__ import annotations
 
@@ -38,22 +36,16 @@ MANY = 60
 MOST = -4
 """The largest exponent of a power of ten for a tolerance."""
 TINY = 1e-300
-"""Stands for numbers below any float."""
 
 
 class _Within(Digits):
-    """A tableau with the freedom of the digits of its source.
-
-    Attributes:
-        method: exact, or within this rounding.
-    """
+    """The freedom of the digits of a source; ``method`` is exact, or within it."""
 
     printed: Any = ()
     units: Any = ()
     method: Any = None
 
     def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:  # noqa: ARG002 -- an override
-        """The tableau with its box."""
         if isinstance(self.method, Tableau):
             return RoundedTableau.printed(tableau, {})
         found: RoundedTableau = self.method
@@ -73,12 +65,10 @@ class RowSubject(TableSubject):
 
     @property
     def judged_orders(self) -> tuple[Judged | None, ...]:
-        """The orders of the method, for f(t, y), and of the embedded weights."""
         return self.order, self.timed, self.embedded_order
 
     @property
     def nonautonomous(self) -> Judged | None:
-        """The order for f(t, y)."""
         return self.timed
 
 
@@ -89,11 +79,8 @@ def _radii(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
 
 
 def with_row_orders(table: FoundTable, name: str = "") -> RowSubject:
-    """A table and its method with their orders; an error estimate gets the sign with the higher
-    order.
-
-    Raises:
-        MethodFileError: its numbers give no method.
+    """A table and its method; an error estimate gets the sign with the higher order. Raises
+    MethodFileError if the numbers give no method.
     """
     subject = _subject(table, read(table, name))
     embedded = subject.embedded_order
@@ -147,14 +134,12 @@ def _digits(off: fmpq) -> str:
 
 
 def _misses_by_little(found: RowSubject) -> bool:
-    """Whether a condition fails by so little that careless rounding may explain it."""
     orders = found.judged_orders
     witnesses = [x.witness for x in orders if x is not None and x.witness is not None]
     return any(abs(to_ball(x.residual)) < _LITTLE for x in witnesses)
 
 
 def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | None) -> RowSubject:
-    """The orders with numbers within their rounding; without rounding for exact ones."""
     within = method.tableau if rounded is None else rounded.of_orders()
     if _are_many(within):
         note = f"each condition is judged by itself, as more than {MANY} numbers are rounded"
@@ -175,7 +160,6 @@ def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | Non
 
 
 def _with_time(table: FoundTable, method: AnyTableau) -> AnyTableau | None:
-    """The method for f(t, y), with the nodes of its source."""
     if table.gamma is not None:
         return seen(method, "with_time")
     return with_time(method) if isinstance(method, Tableau) else method.with_time()
@@ -199,7 +183,6 @@ def _are_many(method: AnyTableau) -> TypeGuard[RoundedTableau]:
 
 
 def row_findings(subject: RowSubject) -> Iterator[Remark]:
-    """The findings about a Rosenbrock method."""
     yield from subject.careless
     table, order = subject.table, subject.order
     declared = table.order
@@ -247,7 +230,6 @@ def _mended(subject: RowSubject) -> str:
 
 
 def _differing(what: str, found: Judged, declared: int) -> Remark:
-    """The remark on a declared order that is not the true one."""
     code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
     if found.order > declared:
         return Remark(message, code=f"{code}-higher", level="warning")
@@ -262,11 +244,7 @@ def _why(found: Judged) -> str:
 
 
 def imported_row(table: FoundTable, name: str, is_as_found: bool) -> RowSubject:
-    """The method of a table, with its file and findings.
-
-    Raises:
-        MethodFileError: its numbers give no method.
-    """
+    """The method of a table with its file and findings; MethodFileError if it is none."""
     subject = with_row_orders(table, name)
     subject = replace(subject, findings=tuple(row_findings(subject)))
     claims = {"order": subject.order.claim}
@@ -307,7 +285,6 @@ def _tolerance(found: RowSubject) -> fmpq | None:
 
 
 def _has(method: AnyTableau | None, wanted: Judged | None) -> bool:
-    """Whether a method has an order within its rounding."""
     if wanted is None or not isinstance(method, RoundedTableau):
         return True
     return find_order_within(method, wanted.order).order >= wanted.order

@@ -27,7 +27,7 @@ _DIGITS = 300
 
 
 class TooWide(ArithmeticError):
-    """An enclosure is too wide for rounding."""
+    pass
 
 
 def ends(ball: arb) -> tuple[fmpq, fmpq]:
@@ -51,20 +51,13 @@ def quotient(x: fmpq, context: Context) -> Decimal:
 
 
 def rounded(x: Cell, digits: int) -> Decimal:
-    """The nearest decimal of so many digits to any number, ties to even.
-
-    Raises:
-        TooWide: a given enclosure does not decide it.
-    """
+    """The nearest decimal, ties to even; TooWide if the enclosure leaves it open."""
     return _agreed(x, digits, lambda end: significant(end, digits))
 
 
 def nearest_float(x: Cell) -> float:
-    """The nearest binary64 number, ties to even.
-
-    Raises:
-        TooWide: a given enclosure does not decide it.
-        OverflowError: the number is too large.
+    """The nearest binary64 number, ties to even; TooWide if the enclosure leaves it open,
+    OverflowError if it is too large.
     """
     # the quotient of two integers of Python is rounded once
     return _agreed(x, 17, lambda end: int(end.p) / int(end.q))
@@ -93,9 +86,7 @@ def _finer(x: Cell, digits: int) -> Iterator[arb]:
 
 
 def combined(*terms: tuple[fmpq | int, Cell]) -> Cell:
-    """The sum of multiples k x of entries, given as pairs: exact if all entries are in one field,
-    otherwise an enclosure far finer than the written digits.
-    """
+    """The sum of multiples k x of entries, exact if all are in one field, else a fine enclosure."""
     if not any(isinstance(x, arb) for _, x in terms):
         try:
             return sum((k * x for k, x in terms), ZERO)

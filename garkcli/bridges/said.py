@@ -46,9 +46,7 @@ _SCOPE = re.compile(
 _REFERENCES = re.compile(r"\breferences?\b|\\cite", re.IGNORECASE)
 """Titles of publications follow."""
 MAX_LINES = 60
-"""Longest comment or docstring that is read."""
 MAX_LENGTH = 1000
-"""Longest line whose trailing comment is read."""
 MAX_SCOPE = 1000
 """Most lines from a table up to the head of its function or class."""
 
@@ -76,15 +74,13 @@ def order_said(text: str) -> int | None:
 
 
 def order_said_of(lines: Sequence[str], line: int) -> int | None:
-    """The order in the nearest comment or docstring about the table that begins at ``line``, from
-    1.
-    """
+    """The order in the nearest comment or docstring about the table at ``line``, from 1."""
     return next((x for x in map(order_said, _passages(lines, line)) if x is not None), None)
 
 
 def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
-    """The texts about a table, the nearest first: on its line and above it, then in and above the
-    function or class around it.
+    """The texts about a table: on its line and above, then in and above the function or class
+    around.
     """
     at = line - 1
     if not 0 <= at < len(lines):
@@ -127,8 +123,8 @@ def _above(lines: Sequence[str], at: int) -> Sequence[str]:
 
 
 def _quoted(lines: Sequence[str], at: int, step: int) -> Sequence[str]:
-    """A docstring, or a comment of C above a table, with one end on a line, and the other on it or
-    below it for step 1, above it for step -1.
+    """A docstring, or a comment of C, with one end on a line, the other below for step 1, above for
+    -1.
     """
     text = lines[at].strip().lstrip("rRuU") if at >= 0 else ""
     mark = text[:3] if step > 0 else text[-3:]

@@ -14,18 +14,13 @@ from garkcli.sources.found import MAX_CHARACTERS
 
 STDIN_NAME = "<stdin>"
 MAX_FILES = 100_000
-"""Most files of a source tree that are examined."""
 
 
 def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
     """The files of ``paths``: of a folder all that some reader reads, in order.
 
     Hidden files and folders are left out, and links to folders are not followed. Files of a folder
-    that cannot be read, and links out of it, are skipped.
-
-    Args:
-        paths: files and folders.
-        told: receives the reason for each file of a folder that is left out.
+    that cannot be read, and links out of it, are skipped, with the reason for ``told``.
     """
     for path in paths:
         if path == STDIN or not os.path.isdir(path):
@@ -69,10 +64,8 @@ def _below(folder: str) -> Iterator[str]:
 
 
 def source_text(path: str) -> tuple[str, str]:
-    """The text of a source and its name; bytes that are not UTF-8 are replaced.
-
-    Raises:
-        UsageProblem: it cannot be read, or is too long.
+    """The text of a source and its name, bytes other than UTF-8 replaced; UsageProblem if it cannot
+    be read, or is too long.
     """
     name = STDIN_NAME if path == STDIN else path
     try:

@@ -1,6 +1,4 @@
-"""Structures of methods that targets require: stages one after the other, explicit ones, shared
-ones, kicks.
-"""
+"""Structures that targets require: stages one after the other, explicit, shared; kicks."""
 
 from __future__ import annotations
 
@@ -20,7 +18,7 @@ Rows: TypeAlias = tuple[Row, ...]
 
 
 def vanishes(x: Cell) -> bool:
-    """Whether an entry is zero; False for any enclosure."""
+    """False for any enclosure."""
     return not isinstance(x, arb) and not x
 
 
@@ -28,11 +26,7 @@ class Table(Frozen):
     """The coefficients of one vector field, as a Butcher tableau.
 
     Attributes:
-        A: shape (s, s).
-        b: the weights.
-        c: the nodes.
-        embedded: the embedded weights; None without them.
-        dense: the coefficients of θ, θ², … of each b_i(θ); None without them.
+        dense: the coefficients of θ, θ², … of each b_i(θ).
     """
 
     A: Rows
@@ -43,12 +37,10 @@ class Table(Frozen):
 
     @property
     def stages(self) -> int:
-        """The number of stages."""
         return len(self.b)
 
     @property
     def is_explicit(self) -> bool:
-        """Whether each stage depends only on those before it."""
         return self.is_diagonally_implicit and all(map(vanishes, self.diagonal))
 
     @property
@@ -64,7 +56,6 @@ class Table(Frozen):
 
     @property
     def begins_at_start(self) -> bool:
-        """Whether the first stage is f(t, y) at the beginning of the step."""
         return all(map(vanishes, (*self.A[0], self.c[0])))
 
     @property
@@ -89,7 +80,6 @@ class Table(Frozen):
 
 
 def table(payload: Payload) -> Table:
-    """The table of a method for one vector field."""
     return Table(
         payload.A[0][0] or (),
         payload.b[0],
@@ -127,7 +117,7 @@ class _Stage(Mutable):
 
     Attributes:
         rows: the stage value as weights of all vector fields, colour by colour.
-        place_of: for each colour that evaluates its vector field here, the number of its stage.
+        place_of: the stage number of each colour that evaluates its vector field here.
         node: the node of all other vector fields.
     """
 
@@ -137,12 +127,10 @@ class _Stage(Mutable):
 
 
 def shared(payload: Payload) -> list[Table]:
-    """The tables of all colours on stages shared by all vector fields, in an order in which they
-    can be computed.
+    """The tables of all colours on shared stages, in an order in which they can be computed.
 
     Every GARK method has this form: the stages are the stage values of all colours one after the
-    other; a vector field has zero columns at stages without an evaluation. Equal stage values are
-    one stage.
+    other, equal ones once; a vector field has zero columns at stages without an evaluation.
     """
     merged = _merged(payload)
     stages = [merged[k] for k in _sorted(merged)]
@@ -169,8 +157,8 @@ def _merged(payload: Payload) -> list[_Stage]:
 
 
 def _sorted(stages: Sequence[_Stage]) -> list[int]:
-    """An order in which no stage depends on a later one, close to the given one; stages that depend
-    on each other come together.
+    """An order, close to the given one, in which no stage depends on a later one; stages that
+    depend on each other come together.
     """
     at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
     needs = {
@@ -207,9 +195,7 @@ def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:
 class Composition(Frozen):
     """A separable method as a sequence of exact flows: kicks p += hk g(q), drifts q += hd f(p).
 
-    Attributes:
-        kicks: the factors hk of the kicks.
-        drifts: as many factors hd; flows alternate, a kick first: kick 1, drift 1, kick 2, …
+    Flows alternate, a kick first: kick 1, drift 1, kick 2, …
     """
 
     kicks: Row
@@ -226,7 +212,7 @@ class Composition(Frozen):
 
 
 def composition(payload: Payload) -> Composition | None:
-    """The kicks and drifts of a method for q' = f(p), p' = g(q); None if it does not have them."""
+    """The kicks and drifts of a method for q' = f(p), p' = g(q); None if it has none."""
     at_forces, at_velocities = payload.A[1][0], payload.A[0][1]
     sees_itself = payload.A[0][0] or payload.A[1][1]
     if at_forces is None or at_velocities is None or sees_itself:

@@ -1,6 +1,4 @@
-"""The method of a table: its orders, its rounding, and values shared by several checks of an
-audit.
-"""
+"""The method of a table: its orders, its rounding, and values shared by checks of an audit."""
 
 from __future__ import annotations
 
@@ -37,15 +35,10 @@ class TableSubject(Frozen, eq=False):
     """A table with its method.
 
     Attributes:
-        table: as found in the source.
-        method: as read from its method file.
-        order: of the method, exactly or within the rounding of its digits.
-        embedded_order: of the embedded weights; None without them.
         text: of the method file, if there is one.
         sign: the chosen sign of an error estimate, with the reason; empty if there is none, or the
             source fixes it.
         is_sign_open: whether nothing decides the sign.
-        findings: remarks on it, if examined.
     """
 
     table: FoundTable
@@ -59,7 +52,6 @@ class TableSubject(Frozen, eq=False):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding in the method file."""
         return self.method.tolerance
 
     @property
@@ -73,7 +65,6 @@ class TableSubject(Frozen, eq=False):
 
     @cached_property
     def digits(self) -> Digits:
-        """The precision of the coefficients."""
         return digits_of(self.method, self.table)
 
     @cached_property
@@ -88,23 +79,17 @@ class TableSubject(Frozen, eq=False):
 
     @property
     def careless_rows(self) -> tuple[str, ...]:
-        """Texts on the nodes that are not row sums within one unit in the last place of each
-        number.
-        """
+        """Texts on the nodes that differ from row sums by over one unit of the last place."""
         return tuple(self._off(self.digits.of(self.tableau, slack=1)))
 
     @cached_property
     def misprinted_rows(self) -> Mapping[str, Number]:
-        """Texts on the nodes that careless rounding does not explain either, with the
-        differences.
-        """
+        """Texts on the nodes that careless rounding does not explain, with the differences."""
         return self._off(self.digits.careless(self.tableau))
 
     @property
     def is_misprinted(self) -> bool:
-        """Whether a row sum is close to its node but no rounding explains the difference: nodes
-        that are not row sums on purpose differ more.
-        """
+        """Whether a row sum is near its node beyond rounding: intended differences are larger."""
         return any(abs(to_ball(x)) < NEAR for x in self.misprinted_rows.values())
 
     @property
@@ -148,20 +133,14 @@ class TableSubject(Frozen, eq=False):
 
 
 def read(table: FoundTable, name: str = "") -> MethodFile:
-    """The method of a table, without tolerance.
-
-    Raises:
-        MethodFileError: its numbers give no method.
-    """
+    """The method of a table, without tolerance; MethodFileError if its numbers give none."""
     return loads(written(table, name, None, {}), place_of(table))
 
 
 def orders_of(
     method: MethodFile, table: FoundTable, limit: int | None = None
 ) -> tuple[Judged, Judged | None]:
-    """The order of a method and that of its embedded weights, within their digits, up to
-    ``limit``.
-    """
+    """The orders of a method and of its embedded weights, within their digits."""
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
     digits, spans = digits_of(method, table), StageSpans(method.tableau)
     order = judged(digits, method.tableau, table.order, limit, admitted, spans)
@@ -172,9 +151,7 @@ def orders_of(
 
 
 def digits_of(method: MethodFile, table: FoundTable) -> Digits:
-    """The precision of the coefficients of a table, including those that its method file holds as
-    fractions.
-    """
+    """The precision of the coefficients, also if the method file has them as fractions."""
     texts = {x for x in numbers_of(table) if len(x) > FEWEST_DIGITS and "." in x}
     short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if fraction_of(x)]
     units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
@@ -183,7 +160,7 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
 
 def _short_units(table: FoundTable) -> Mapping[Number, fmpq]:
     """One unit of the last place of each decimal of four or five places, if there are several and
-    all coefficients are decimals of at most as many places.
+    no coefficient has more places.
     """
     values = [x for text in numbers_of(table) for x in [parsed(text)] if x]
     places = [_places(x) for x in values]

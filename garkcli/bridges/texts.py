@@ -1,7 +1,7 @@
 """The files of targets: the values for their templates, and the types that these may print.
 
-Templates get no text from a file: the name of a method is an identifier of the language, and
-remarks about it are comments already. They can print only texts and integers.
+Templates print texts and integers only: the name of a method is an identifier, and remarks about
+it are comments already.
 """
 
 from __future__ import annotations
@@ -24,18 +24,15 @@ if TYPE_CHECKING:
     from jinja2 import Environment
 
 Values: TypeAlias = Mapping[str, Any]
-"""Further values of one target for its template."""
 
 
 class Language(Frozen):
     """The format of files with an ending.
 
     Attributes:
-        comment: the marks of comments.
         names: the reserved words, a key of ``RESERVED``.
         joint: the text between two numbers.
         continuation: the text at the end of a continued line.
-        width: of lines of numbers.
     """
 
     comment: Comment
@@ -63,7 +60,6 @@ LANGUAGES: Mapping[str, Language] = {
     ".wl": Language(STARRED, "mathematica"),
     ".xml": Language(XML, "python"),
 }
-"""Languages by the endings of files; lines of C and Fortran are longer than others."""
 
 
 _OF_METHOD = (
@@ -82,14 +78,7 @@ _OF_METHOD = (
 
 
 def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
-    """The text made by a template.
-
-    Args:
-        file: the name of its output, such as ``scipy.py`` for ``templates/scipy.py.jinja``.
-        payload: the method.
-        style: of its numbers.
-        values: further values of the target.
-    """
+    """The text made by ``templates/FILE.jinja``."""
     template = _environment().get_template(f"{file}.jinja")
     language = LANGUAGES[PurePath(file).suffix]
     left_out = values.get("left_out", ())
@@ -97,13 +86,6 @@ def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
 
 
 def program_values(payload: Payload, file: str, ending: str) -> Values:
-    """Further values for templates of programs.
-
-    Args:
-        payload: the method.
-        file: the name of the file with its table, without folder.
-        ending: of the program.
-    """
     mark = LANGUAGES[ending].comment
     stem = PurePath(file).stem
     texts = {"file": file, "stem": stem, "command": command_of(payload, f"{stem}_problem.yaml")}
@@ -126,10 +108,6 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
 def _values_for(
     payload: Payload, language: Language, style: Style, left_out: Sequence[str]
 ) -> dict[str, object]:
-    """The values for every template: the method, its names, and functions that lay out its
-    numbers.
-    """
-
     def heading(*notes: object) -> str:
         wanted = [str(note) for note in notes if note]
         if left_out:
@@ -148,9 +126,7 @@ def _values_for(
     def matrix(
         begin: str, rows: Sequence[Row], end: str, last: str | None = None, then: str | None = None
     ) -> str:
-        """At least one line for each row; the last one may end differently, and those after the
-        first begin differently.
-        """
+        """Lines for rows; the last may end differently, those after the first begin differently."""
         begins = [begin, *[begin if then is None else then] * (len(rows) - 1)]
         ends = [*[end] * (len(rows) - 1), end if last is None else last]
         return "\n".join(map(row, begins, rows, ends))
@@ -172,8 +148,7 @@ def _values_for(
 
 
 def filled(language: Language, begin: str, items: Sequence[str], end: str) -> list[str]:
-    """Returns a list in as few lines as hold it, continuation lines indented to the first item; an
-    item that is too long gets its own line.
+    """A list in as few lines as hold it, indented to the first item; long items have their own.
 
     >>> filled(Language(HASH, "python", width=12), "x = [", ["1", "22", "333"], "]")
     ['x = [1, 22,', '     333]']
@@ -205,11 +180,7 @@ def _environment() -> Environment:
 
 
 def printed(value: object) -> object:
-    """A text or an integer.
-
-    Raises:
-        TypeError: it is something else, which a template would print in Python notation.
-    """
+    """A text or an integer; TypeError for what a template would print in Python notation."""
     if isinstance(value, bool) or not isinstance(value, (str, int)):
         raise TypeError(f"a template prints {type(value).__name__}")
     return value

@@ -19,11 +19,8 @@ class Trial(Frozen):
     """A problem with two unknowns.
 
     Attributes:
-        name: one word.
-        title: of its file.
         sides: the right-hand sides, pairs of formulas in ``{y1}``, ``{y2}``, ``{t}``, ``{sin}`` and
             ``{cos}``; q' and p' for the separable one.
-        t_end: the time at which errors are measured.
         final: the solution at ``t_end``, correct to all digits.
         hamiltonian: the terms of the separable one, in x and px.
     """
@@ -43,7 +40,6 @@ class Trial(Frozen):
 
     @property
     def file(self) -> str:
-        """The text of its problem file."""
         words = {x: x for x in ("y1", "y2", "t", "sin", "cos")}
         sides = [self.formulas(side, words) for side in range(len(self.sides))]
         form, q, p = ("hamiltonian", "x", "px") if self.hamiltonian else ("rhs", "y1", "y2")
@@ -87,11 +83,6 @@ TRIALS = (WHOLE, SPLIT, SEPARABLE)
 
 
 def trial_of(payload: Payload) -> Trial:
-    """The problem for a method.
-
-    Raises:
-        CannotExport: there is none.
-    """
     if payload.kind == "rk":
         return WHOLE
     if payload.kind == "prk":
@@ -104,9 +95,7 @@ def trial_of(payload: Payload) -> Trial:
 def sides(
     payload: Payload, fields: Sequence[int], words: Mapping[str, str]
 ) -> Sequence[tuple[str, str]]:
-    """The right-hand sides of some vector fields in a language; for a pair (q, p) each has one
-    component.
-    """
+    """The right-hand sides of some vector fields; for a pair (q, p) each has one component."""
     trial = trial_of(payload)
     if payload.kind != "prk":
         return [trial.formulas(m, words) for m in fields]

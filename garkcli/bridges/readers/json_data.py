@@ -25,12 +25,10 @@ _KEYS = {
     "b_embedded": "embedded",
 }
 _HEAD = ("order", "claimed_order", "embedded_order", "tolerance")
-"""Keys of an object that apply to the table in it."""
 _OBJECT = re.compile(r'"(?:[^"\\]|\\.)*"|\{')
 
 
 def _tables_in(text: str) -> Iterator[tuple[int, Values]]:
-    """The tables of a JSON document."""
     try:
         document = json.loads(text, parse_float=ir.Literal, parse_int=ir.Literal)
     except (ValueError, RecursionError):
@@ -55,7 +53,7 @@ def _has_matrix(mapping: Mapping[str, Any]) -> bool:
 def _tableaus(
     document: object, title: str, depth: int, lines: Iterator[int]
 ) -> Iterator[tuple[int, Values]]:
-    """The objects that may be tables, with their names; ``lines`` are the lines of all objects."""
+    """The objects that may be tables, with their lines; ``lines`` has those of all objects."""
     line = next(lines, 1) if isinstance(document, dict) else 1
     if isinstance(document, list):
         for value in document:
@@ -92,7 +90,6 @@ def _tableau(mapping: Mapping[str, Any], title: str) -> Values:
 
 
 def _value(content: object, depth: int = 0) -> ir.Expr:
-    """A number, its text, or lists of them."""
     match content:
         case ir.Literal():
             return content
@@ -111,7 +108,6 @@ _OBJECTS = reader("json", "JSON: gark's export, or any object with A and b", (".
 
 
 def _find(text: str, source: str) -> list[FoundTable]:
-    """The method of an export of gark, or the tables of any objects."""
     table = exported_table(text, source, _OBJECTS.name)
     return _OBJECTS.find(text, source) if table is None else [table]
 

@@ -21,12 +21,10 @@ _NOTHING = re.compile(
 )
 _BETWEEN = re.compile(rf"({_LINE.pattern})|\\\\(?:\[[^\[\]]*\])?|\\tabularnewline")
 _COLUMNS = re.compile(r"[^{]*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}")
-"""The column specification in braces."""
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _GENERAL = "q' = f(q, p)"
 """In a comment: both parts depend on both."""
 MAX_ARRAY = 400_000
-"""Longest text of one array."""
 
 
 _Grid = tuple[list[int], list[list[list[str]]], list[list[str]]]
@@ -34,7 +32,6 @@ _Grid = tuple[list[int], list[list[list[str]]], list[list[str]]]
 
 
 def _tableaus(text: str) -> Iterator[tuple[int, printed.Values]]:
-    """The tableaus among the arrays of a text."""
     comments = [x.group()[1:].strip() for x in _COMMENT.finditer(text)]
     is_general = any(_GENERAL in comment for comment in comments)
     arrays = deque(_arrays(without_letters(_COMMENT.sub("", text))))
@@ -81,7 +78,6 @@ def _groups(columns: str) -> list[int]:
 
 
 def _parts(body: str) -> list[list[list[str]]]:
-    """The rows between horizontal lines, as cells."""
     parts: list[list[list[str]]] = [[]]
     for piece in filter(None, _BETWEEN.split(_NOTHING.sub(" ", body))):
         if _LINE.fullmatch(piece):
@@ -92,11 +88,7 @@ def _parts(body: str) -> list[list[list[str]]]:
 
 
 def _read(inside: str) -> _Grid:
-    """The columns, stages and weights of an array.
-
-    Raises:
-        Unreadable: it is no tableau.
-    """
+    """The columns, stages and weights of an array; Unreadable if it is no tableau."""
     columns = _COLUMNS.match(inside[:2_000])
     parts = _parts(inside[columns.end() :] if columns else inside)
     # weights have no node; embedded ones may be below another line
@@ -118,9 +110,7 @@ def _numbers(cells: list[str], count: int) -> list[str]:
 
 
 def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
-    """The arrays Q and P of a partitioned method, with columns of one vector field each; empty if
-    they do not fit.
-    """
+    """The arrays Q and P of a partitioned method; empty if they do not fit."""
     if len(of_q[1]) == len(of_p[0]) == 2 and len(of_p[1]) == 1:
         return _semi_separable(of_q, of_p)
     if len(of_q[1]) != 1 or len(of_p[1]) != 1:
@@ -140,8 +130,7 @@ def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
 def _semi_separable(of_q: _Grid, of_p: _Grid) -> printed.Values:
     """A pair with a second Hamiltonian in q alone: vector fields V1, F1 and F2.
 
-    V1 and F1 have the stages of the first rows of Q and of P; F2 has the others, which depend on V1
-    alone.
+    V1 and F1 have the stages of the first rows of Q and of P; those of F2 depend on V1 alone.
     """
     groups, _, weights = of_p
     first, last = of_q[1]

@@ -7,9 +7,7 @@ import re
 from garkcli.sources.found import Unreadable
 
 MAX_CELL = 40_000
-"""Longest text of a number."""
 MAX_COMMANDS = 2_000
-"""Most fractions and roots of a number."""
 _IGNORED = re.compile(
     r"[$~ \t\r\n]|\\(?:quad|qquad|displaystyle|textstyle|left|right"
     r"|bigl?|bigr?|Bigl?|Bigr?|mathstrut)(?![A-Za-z])|\\[,;:!> ]"
@@ -18,9 +16,8 @@ _ROOT_OF = re.compile(r"\\operatorname\{root\}\(([-+0-9x^{}/]{1,4000}),x\\approx
 """The root of a polynomial nearest to a decimal, in the notation of gark."""
 _LETTER = r"\\(?:gamma|xi|eta|zeta)(?![A-Za-z])"
 _DEFINED = re.compile(rf"= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})")
-"""The text after a polynomial in a letter that is zero: a decimal near the letter."""
+"""After a polynomial in a letter: it is zero, and a decimal near the letter."""
 MAX_POLYNOMIAL = 400
-"""Longest text of such a polynomial."""
 _ONE = r"(?:\{([^{}]*)\}|([0-9]))"
 _COMMANDS = (
     (re.compile(rf"\\(?:[tdcs]|nice)?frac{_ONE}{_ONE}"), r"((\1\2)/(\3\4))"),
@@ -33,7 +30,7 @@ _PLAIN = re.compile(r"(?:sqrt|root_of\([-+*/^().0-9x]*,|root|[-+*/^().,0-9])*")
 
 
 def without_letters(text: str) -> str:
-    r"""The text with the roots that it defines in place of their letters.
+    r"""The text with roots in place of the letters that it defines.
 
     >>> text = r"\[ \xi ^{3}-2 = 0, \quad \xi \approx 1.26 \]; \frac{1}{\xi }"
     >>> print(without_letters(text).split("; ")[1])
@@ -52,13 +49,10 @@ def without_letters(text: str) -> str:
 
 
 def number_of(text: str) -> str:
-    r"""The text of a coefficient.
+    r"""The text of a coefficient; Unreadable if the text is no number.
 
     >>> number_of(r"\frac12-\frac{\sqrt{3}}{6}"), number_of(r"1.5 \cdot 10^{-16}")
     ('((1)/(2))-((sqrt(3))/(6))', '1.5*10^(-16)')
-
-    Raises:
-        Unreadable: the text is no number.
     """
     if len(text) > MAX_CELL or text.count("\\") > MAX_COMMANDS:
         raise Unreadable("a cell that is too long")

@@ -18,13 +18,12 @@ _ORDER = ir.Name("order")
 
 
 class MathematicaLowering(Formulas):
-    """Assignments, associations and functions of Mathematica."""
+    """Assignments, associations and functions."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text, call="[")
 
     def block(self, start: int = 0, end: int | None = None, depth: int = 0) -> ir.Body:
-        """The statements between two places."""
         end = len(self.tokens) if end is None else end
         parts = [x for x in self.parts(start, end, ";", "\n") if x[0] < x[1]]
         return tuple(y for part in parts for y in self._statement(*part, depth))
@@ -50,8 +49,8 @@ class MathematicaLowering(Formulas):
                     yield ir.Assign(entry, self.expression(*value), line)
 
     def _inside(self, start: int, end: int, depth: int) -> ir.Body:
-        """The statements in a value: those between its brackets, as in ``With[{x = 1}, …]``, or the
-        table that it is.
+        """The statements in the brackets of a value, as in ``With[{x = 1}, …]``, or the table that
+        it is.
         """
         value, line = self.expression(start, end), self.tokens[start].line
         listed = _of_ndsolve(value)

@@ -20,14 +20,12 @@ Values: TypeAlias = Mapping[str, Nested]
 
 
 def printed(line: int, values: Values) -> ir.Statement:
-    """A tableau at a line, as a statement."""
     named = tuple((key, listed(x)) for key, x in values.items() if x)
     made = ir.Do(ir.Call(ir.Name(PRINTED), (), named), line)
     return ir.Scope("entry", "", (made,), line)
 
 
 def listed(value: Nested) -> ir.Expr:
-    """Numbers in lists as expressions."""
     match value:
         case None:
             return ir.Nothing()
@@ -40,12 +38,8 @@ def listed(value: Nested) -> ir.Expr:
 
 
 def grid(groups: Sequence[int], stages: Sequence[Cells], weights: Cells) -> Values:
-    """The parts of a tableau in rows; empty if its sizes do not fit.
-
-    Args:
-        groups: the number of columns of each vector field.
-        stages: the rows ``c_i, a_i1, …`` of each set of stages; an empty cell is 0.
-        weights: the rows of the weights, without a node.
+    """The parts of a tableau in rows; empty if its sizes do not fit. ``groups`` are the numbers of
+    columns of each vector field, an empty cell is 0.
     """
     if len(stages) == 1 and len(groups) > 1:
         # colours that share their stages, or a bar without meaning
@@ -64,18 +58,15 @@ def grid(groups: Sequence[int], stages: Sequence[Cells], weights: Cells) -> Valu
 
 
 def split(row: Sequence[str], groups: Sequence[int]) -> list[Sequence[str]]:
-    """The cells of each vector field."""
     starts = [sum(groups[:m]) for m in range(len(groups))]
     return [row[start : start + count] for start, count in zip(starts, groups, strict=True)]
 
 
 def filled(row: Sequence[str]) -> list[str]:
-    """Cells, 0 for empty ones."""
     return [x or "0" for x in row]
 
 
 def nodes(rows: Cells) -> list[str]:
-    """The first column."""
     return filled([row[0] for row in rows])
 
 
@@ -93,9 +84,7 @@ def reader(
     tableaus: Callable[[str], Iterable[tuple[int, Values]]],
     is_named_by_file: bool = False,
 ) -> Reader:
-    """The reader of a format: ``tableaus`` gives those of a text with their lines; stages count
-    from 1.
-    """
+    """The reader of a format; ``tableaus`` gives those of a text with their lines."""
 
     def find(text: str, source: str) -> list[FoundTable]:
         # standard input, <stdin>, has no name

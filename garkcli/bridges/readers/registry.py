@@ -17,7 +17,6 @@ from garkcli.sources.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, 
 
 @lru_cache(maxsize=1)
 def all_readers() -> Mapping[str, Reader]:
-    """The readers by their names, in alphabetical order."""
     by_name: dict[str, Reader] = {}
     for package in (readers, languages):
         for module in pkgutil.iter_modules(package.__path__):
@@ -27,11 +26,6 @@ def all_readers() -> Mapping[str, Reader]:
 
 
 def reader_named(name: str) -> Reader:
-    """The reader of a name.
-
-    Raises:
-        UsageProblem: there is no such reader.
-    """
     known = all_readers()
     if name not in known:
         cure = did_you_mean(name, list(known))
@@ -40,27 +34,18 @@ def reader_named(name: str) -> Reader:
 
 
 def suffixes() -> frozenset[str]:
-    """The endings of files that some reader reads."""
     return frozenset(x for r in all_readers().values() for x in r.suffixes)
 
 
 def readers_for(path: str) -> Sequence[Reader]:
-    """The readers for the ending of a path; all of them if none reads it."""
+    """The readers for the ending of a path; all if none reads it."""
     suffix = PurePath(path).suffix.lower()
     everyone = tuple(all_readers().values())
     return [x for x in everyone if suffix in x.suffixes] or everyone
 
 
 def demand_grammars(paths: Iterable[str], format: str | None = None) -> None:
-    """Raises for sources whose grammars are not installed.
-
-    Args:
-        paths: of the sources.
-        format: of the sources; None for that of the endings of their names.
-
-    Raises:
-        UsageProblem: there is such a source.
-    """
+    """Raises UsageProblem for sources whose grammars are not installed."""
     grammars = {"tree_sitter"}.union(*(x.grammars for x in all_readers().values()))
     missing = {x for x in grammars if find_spec(x) is None}
     if not missing:
@@ -74,13 +59,7 @@ def demand_grammars(paths: Iterable[str], format: str | None = None) -> None:
 
 
 def find_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
-    """The tables of a source in the order of its lines; with all readers those of the best one.
-
-    Args:
-        text: of the source.
-        source: its name.
-        chosen: the readers.
-    """
+    """The tables of a source in the order of its lines; with all readers those of the best one."""
     if len(text) > MAX_CHARACTERS:
         return []
     if len(chosen) == len(all_readers()):
@@ -112,8 +91,5 @@ def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[Found
 
 
 def _worth(tables: Sequence[FoundTable]) -> tuple[int, int]:
-    """A key for the number of tables that were read: those that are certain to be methods count
-    first.
-    """
     read = [x for x in tables if not x.trouble]
     return sum(x.is_sure for x in read), len(read)

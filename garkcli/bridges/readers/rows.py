@@ -15,7 +15,6 @@ _INDEX = re.compile(r"[1-9][0-9]{0,2}")
 _TITLE = re.compile(r"^#[ \t]*Method:[ \t]*(\S.{0,200})", re.MULTILINE)
 _PARTS = frozenset({"A", "b", "c", "embedded", "dense"})
 MAX_ROWS = 200_000
-"""Most lines of a CSV file."""
 _HEAD = re.compile(r"#[ \t]*([0-9]{1,3})[ \t]+([0-9]{1,3})[ \t]+([A-Za-z]\S*)")
 """``# order stages Type``; the type is never evaluated."""
 _NUMBER = re.compile(r"[-+]?(?:[0-9]{1,400}\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,4}|//[0-9]+)?")

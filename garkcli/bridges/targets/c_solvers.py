@@ -15,7 +15,6 @@ from garkcli.exact.field import ONE, ZERO
 
 
 def _of_arkode(_: Payload, tables: Sequence[Table]) -> Values:
-    """The form of the integrator, for a single table or a pair."""
     first, *others = tables
     if others:
         return {"form": "ark"}

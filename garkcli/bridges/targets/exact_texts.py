@@ -43,7 +43,6 @@ def _json(payload: Payload) -> str:
 
 
 def export_schema() -> Schema:
-    """The JSON Schema of the exported documents."""
     return published("method of gark export, with --to json", _REPORT.schema)
 
 
@@ -69,14 +68,12 @@ def _array(name: str) -> Callable[[Payload], Any]:
 
 
 def _nodes(payload: Payload) -> Any:
-    """The texts of the nodes; for a coupling of its slow stages."""
     if payload.kind != "mri":
         return _array("c")(payload)
     return _texts(payload, coupling_of(payload).nodes)
 
 
 def _multirate(payload: Payload) -> Any:
-    """The keys of a method file for a multirate infinitesimal method, with their texts."""
     if payload.kind != "mri":
         return None
     return _nested_texts(payload, keys_of(coupling_of(payload)))
@@ -95,19 +92,16 @@ def _nested_texts(payload: Payload, value: Any) -> Any:
 
 
 def _own(name: str) -> Callable[[Payload], Any]:
-    """The texts of an array that only one kind of methods has."""
     return lambda payload: _texts(payload, payload.own.get(name)) if payload.own else None
 
 
 def _texts(payload: Payload, cells: Any) -> Any:
-    """Lists of texts, nested like the tuples of entries."""
     if isinstance(cells, tuple):
         return [_texts(payload, x) for x in cells]
     return None if cells is None else payload.number(cells, style_of(payload))
 
 
 def _linear(payload: Payload, name: Literal["alpha", "gamma", "d"]) -> Any:
-    """The texts of an array that only Rosenbrock methods have."""
     method = payload.rosenbrock
     if method is None:
         return None
@@ -208,9 +202,7 @@ _REPORT: Record[Payload] = Record(
 
 
 def _csv(payload: Payload) -> str:
-    """One row for each entry, below a head of comments; colours and stages count from 1; for
-    ``dense`` j is the power of theta.
-    """
+    """A row for each entry; colours and stages count from 1; ``dense`` has powers of theta as j."""
     notes = [] if payload.predictor is None else [f"Left out: {PREDICTOR}."]
     return (
         "\n".join([*HASH.lines(head(payload, *notes)), ",".join(COLUMNS), *_lines(payload)]) + "\n"

@@ -24,8 +24,6 @@ _BIG = 77  # digits of a BigFloat, which has 256 bits
 
 
 class _Big(Radicals):
-    """Square roots of BigFloat."""
-
     def rational(self, x: fmpq) -> str:
         return f"big({x.p})" if x.q == 1 else f"(big({x.p})//{x.q})"
 
@@ -34,9 +32,7 @@ class _Big(Radicals):
 
 
 class _Exact(Style):
-    """Exact if Julia can hold it: fractions with //, square roots of BigFloat; otherwise
-    decimals.
-    """
+    """Fractions with //, square roots of BigFloat; otherwise decimals."""
 
     def text(self, x: Cell, digits: int | None = None) -> str:
         if digits is None and isinstance(x, fmpq):

@@ -10,7 +10,6 @@ from garkcli.bridges.registry import DENSE, Bridge
 from garkcli.bridges.texts import Values
 
 MOST_STAGES = 6
-"""Most stages in the arrays of KPP."""
 
 
 def values(payload: Payload) -> Values:

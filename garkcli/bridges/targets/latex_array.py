@@ -22,7 +22,6 @@ DECIMALS = Style(longest=1000, point=False)
 
 
 def write(payload: Payload) -> str:
-    """The arrays, for amsmath."""
     notes = []
     if payload.embedded is not None:
         notes.append("Below the weights are the embedded ones.")

@@ -19,17 +19,13 @@ from garkcli.tableau.pointwise import Row
 
 _CLOSE = 1e-8  # of numpy.allclose, used by diffrax
 HERMITE = ((0, 3, -2), (1, -2, 1), (0, -1, 1))
-"""The cubic with the values and slopes of both ends: the factors of b_i, the first and the last
+"""The cubic through values and slopes of both ends: the factors of b_i, of the first and the last
 slope, as coefficients of θ, θ² and θ³.
 """
 
 
 def _of_scipy(_: Payload, tables: Sequence[Table]) -> Values:
-    """The values of the class, without a last stage that is f at the new value. The program takes
-    fixed steps.
-
-    The errors are the differences b̂ − b, with the sign of the classes of SciPy.
-    """
+    """The class without a last stage at the new value; errors are b̂ − b, with the sign of SciPy."""
     (only_table,) = tables
     kept = only_table.stages - only_table.is_fsal
     last = () if only_table.is_fsal else (ZERO,)
@@ -89,12 +85,11 @@ def _of_dedalus(_: Payload, tables: Sequence[Table]) -> Values:
 
 
 def _of_diffrax(payload: Payload, tables: Sequence[Table]) -> Values:
-    """The tables with at least two stages, and the base classes.
+    """The tables and the base classes.
 
     diffrax requires two stages, and nodes that are the row sums. Its cubic between steps uses the
     slopes of the first and the last stage: explicit methods without a stage at the end of the step
-    get one of weight 0, the first one of the next step. The program takes constant steps; implicit
-    stages are solved to rounding.
+    get one of weight 0. The program takes constant steps and solves implicit stages to rounding.
     """
     tables = [x if x.stages > 1 else with_first_stage(x) for x in tables]
     for found in tables:
@@ -129,11 +124,7 @@ def has_cubic(found: Table) -> bool:
 
 
 def _check_nodes(payload: Payload, found: Table) -> None:
-    """Raises if a node is not the row sum: diffrax compares them.
-
-    Raises:
-        CannotExport: a node is not the row sum.
-    """
+    """Raises CannotExport if a node is not the row sum: diffrax compares them."""
     for i, (row, node) in enumerate(zip(found.A, found.c, strict=True), 1):
         rest = combined((1, node), *((-1, x) for x in row))
         if abs(ball(rest)) > _CLOSE:

@@ -39,8 +39,7 @@ class Slow(Frozen):
         matrices: of τ⁰, τ¹, …, under W for explicit and G for implicit ones; row i leads to stage
             i.
         order: with the fast equation solved exactly, or by the steps in the file.
-        embedding: the rows to the embedded value, under W or G one for each power, and its order;
-            None without it.
+        embedding: the rows to the embedded value, under W or G one for each power, and its order.
         restart: merk or sr, if fast problems begin with the step.
     """
 
@@ -52,7 +51,6 @@ class Slow(Frozen):
 
     @property
     def type(self) -> str:
-        """The name of its type in MRIStep."""
         if self.restart:
             return f"MRISTEP_{self.restart.upper()}"
         names = {"W": "EXPLICIT", "G": "IMPLICIT", "WG": "IMEX"}
@@ -60,9 +58,10 @@ class Slow(Frozen):
 
     @property
     def groups(self) -> Sequence[Sequence[int]]:
-        """Groups of ``merk`` stages with one forcing, each one fast problem for MRIStep. The
-        embedded value is the last stage of the last group but one, with the number of stages as its
-        number; the new value is its own group.
+        """Groups of ``merk`` stages with one forcing, each one fast problem for MRIStep.
+
+        The embedded value is the last stage of the last group but one, with the number of stages
+        as its number; the new value is its own group.
         """
         last = len(self.nodes) - 1
         forcing = [tuple(matrix[i] for matrix in self.matrices["W"]) for i in range(last + 1)]
@@ -86,11 +85,7 @@ def values(payload: Payload, _: Sequence[Table]) -> Values:
 
 
 def slow_part(payload: Payload) -> Slow:
-    """The slow part of a file with a coupling, or an explicit method as one.
-
-    Raises:
-        CannotExport: it is neither.
-    """
+    """A file with a coupling, or an explicit method as one; CannotExport if it is neither."""
     if payload.kind != "rk" or payload.coupling is not None:
         return _coupled(payload, coupling_of(payload))
     found = table(payload)
@@ -139,18 +134,14 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
 
 
 def _with_first_rows(powers: Sequence[Rows], nothing: Row, least: int) -> list[Rows]:
-    """The matrices with a row for the first stage, at least ``least`` of them since embedded rows
-    may have more powers.
-    """
+    """The matrices with a first row; at least as many as embedded rows have powers."""
     zeros = (nothing,) * len(nothing)
     return [*((nothing, *matrix) for matrix in powers), *[zeros] * (least - len(powers))]
 
 
 def _restarted(payload: Payload, coupling: Coupling) -> Slow:
-    """A coupling whose fast problems begin with the step.
-
-    Raises:
-        CannotExport: one has no length, or a stage uses a later one, or itself in its forcing.
+    """A coupling whose fast problems begin with the step; CannotExport if one has no length, or a
+    stage uses a later one, or itself in its forcing.
     """
     assert coupling.matrices is not None
     nodes = coupling.nodes
@@ -174,11 +165,8 @@ def _restarted(payload: Payload, coupling: Coupling) -> Slow:
 
 
 def _refuse_stages(name: str, nodes: Row, parts: Sequence[Sequence[Rows]]) -> None:
-    """Raises for couplings that MRIStep refuses at its start.
-
-    Raises:
-        CannotExport: nodes descend, or a stage uses a later one, or is implicit with a fast
-            problem.
+    """Raises CannotExport if nodes descend, or a stage uses a later one, or is implicit with a fast
+    problem: MRIStep refuses these at its start.
     """
     widths = [ball(combined((1, end), (-1, begin))) for begin, end in pairwise(nodes)]
     if any(width < 0 for width in widths):
@@ -195,7 +183,6 @@ def _refuse_stages(name: str, nodes: Row, parts: Sequence[Sequence[Rows]]) -> No
 
 
 def _with_value(found: Table) -> Table:
-    """The table with the new value as the last stage."""
     return found if found.is_fsal else with_last_stage(found)
 
 

@@ -12,8 +12,6 @@ from garkcli.frozen import replace
 
 
 class _Surds(Radicals):
-    """Roots in Mathematica."""
-
     def rational(self, x: fmpq) -> str:
         return str(x.p) if x.q == 1 else f"({x})"
 
@@ -40,8 +38,6 @@ MATHEMATICA = Style(
 
 
 class _Rationals(Radicals):
-    """Roots in SymPy."""
-
     POWER = "**"
 
     def rational(self, x: fmpq) -> str:
