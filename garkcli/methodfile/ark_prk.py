@@ -33,7 +33,6 @@ ARK = spelled_out.with_coefficients(
     ),
     form=spelled_out.EXAMPLE,
 )
-"""An additive method, whose colours share their stages."""
 PRK = mapping(
     Key(
         "q: {A: [[0], [1]], b: [1]}",
@@ -51,7 +50,6 @@ PRK = mapping(
     ),
     form=_FORM_OF_PRK,
 )
-"""A partitioned method: a tableau for the positions and one for the momenta."""
 
 
 def ark(at: NumbersReader, node: Node) -> d.ArkText | None:
@@ -125,7 +123,6 @@ def prk(at: NumbersReader, node: Node, structure: d.Structure) -> d.PrkText | No
 
 
 def _part(at: NumbersReader, node: Node, part: str) -> d.ButcherText | None:
-    """Returns q or p of a prk, before its sizes are checked."""
     entries: ReadMapping | None = spelled_out.BUTCHER.read(at, node, f"prk, {part}")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None

@@ -32,7 +32,7 @@ def _year(at: Any, node: Node, where: str) -> str:
 
 
 def _people(at: Any, node: Node, where: str) -> tuple[str, ...]:
-    """Returns names from a list, or from a text with commas or ``and`` between them."""
+    """Names from a list, or from a text with commas or ``and`` between them."""
     if isinstance(node, SequenceNode):
         names = [_text(at, item, where) for item in node.value]
     else:
@@ -109,7 +109,7 @@ _REFERENCE = mapping(
 
 
 def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
-    """Returns a reference in one line, and its fields if it has any."""
+    """A reference in one line, and its fields if it has any."""
     if not isinstance(node, MappingNode):
         return at.source.scalar(node, where) or "", None
     fields: ReadMapping = _REFERENCE.read(at, node, where)
@@ -151,7 +151,6 @@ ALIASES = ValueKind(
 
 
 def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str, str] | None:
-    """Returns why a text cannot be an alias, the cure and the kind of fault; None if it can."""
     shown = shortened(alias)
     if not alias:
         return "aliases: an empty name", "leave it out", "name-taken"
@@ -167,9 +166,8 @@ def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str, str] | 
 
 
 def aliases_of(text: str, name: str) -> tuple[str, ...]:
-    """Returns the aliases in the text of a method file, without reading the rest.
-
-    Raises MethodFileError if the text is not YAML, or far from a method file.
+    """The aliases in a text, without reading the rest; MethodFileError if it is far from a method
+    file.
 
     >>> aliases_of("aliases: [DOPRI5, RK45]", "a file")
     ('DOPRI5', 'RK45')
@@ -179,10 +177,7 @@ def aliases_of(text: str, name: str) -> tuple[str, ...]:
 
 
 def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
-    """Returns the reference in the text of a method file, in one line and as fields, without
-    reading the rest.
-
-    Raises MethodFileError if the text is not YAML, or the reference has a fault.
+    """The reference in a text, without reading the rest; MethodFileError if it has a fault.
 
     >>> reference_of("reference: Runge 1895", "a file")
     ('Runge 1895', None)

@@ -1,4 +1,4 @@
-"""The method that a description stands for: the only module where files meet mathematics."""
+"""The method of a description: the only module where files meet mathematics."""
 
 from __future__ import annotations
 
@@ -38,9 +38,7 @@ Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 
 
 class BlockBuilder:
-    """Makes the off-diagonal blocks of a file. Errors of the mathematics become faults of
-    ``source``.
-    """
+    """Makes off-diagonal blocks. Errors of the mathematics become faults of ``source``."""
 
     def __init__(
         self,
@@ -57,9 +55,7 @@ class BlockBuilder:
         self.tolerance = tolerance
 
     def built(self, is_general: bool) -> Blocks:
-        """Returns all blocks, or only the necessary one, where the second colour sees the first.
-        Raises MethodFileError if a block cannot be made.
-        """
+        """All blocks, or that where colour 2 sees colour 1; MethodFileError if one fails."""
         blocks: Blocks = {}
         said = set()  # one fault of a rule for several blocks is noted once
         for l, m in permutations(range(len(self.methods)), 2) if is_general else [(1, 0)]:
@@ -77,7 +73,7 @@ class BlockBuilder:
         return blocks
 
     def _text_of(self, l: int, m: int) -> d.MatrixText | d.RuleText | None:
-        """Returns the text for a block: its own, that of the opposite block, or the default."""
+        """The text for a block: its own, that of the opposite block, or the default."""
         transfer = self.text.transfer
         own, opposite = transfer.blocks.get((l, m)), transfer.blocks.get((m, l))
         if (
@@ -89,7 +85,6 @@ class BlockBuilder:
         return own or transfer.default
 
     def _block(self, text: d.MatrixText | d.RuleText | None, l: int, m: int) -> Matrix:
-        """Returns a block that is spelled out, made by one rule, or a combination of rules."""
         if text is None:
             cure = "give it one, or a default, under transfer"
             raise MethodError("it has no rule", cure, code="missing-key")
@@ -115,9 +110,7 @@ class BlockBuilder:
         return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
 
     def _combined(self, text: d.RuleText, l: int, m: int) -> Matrix:
-        """Returns a combination of blocks by rules. Raises MethodError if its weights do not sum to
-        1.
-        """
+        """A combination of rules; MethodError if its weights do not sum to 1."""
         terms = [
             (self.values.number(x), self._rule(rule)) for rule, x in text.terms if x is not None
         ]
@@ -145,9 +138,7 @@ class BlockBuilder:
 
     @cached_property
     def _orders(self) -> list[int]:
-        """The orders of the diagonal methods. Raises MethodError for methods with unknowns or
-        radicals.
-        """
+        """The orders of the diagonal methods; MethodError if these have unknowns or radicals."""
         numbers = chain.from_iterable((*chain(*x.A), *x.b) for x in self.methods)
         if any(isinstance(x, Parametric) for x in numbers):
             message = "a symplectic- rule compares orders of numbers, and the file has unknowns"
@@ -207,10 +198,6 @@ V = TypeVar("V", bound=Values)
 
 
 class Builder(Generic[V]):
-    """Builds the method that a file, or a part of it, describes. Errors of the mathematics become
-    faults; raises MethodFileError.
-    """
-
     def __init__(self, text: d.PartText, values: V) -> None:
         self.source = text.source
         self.text = text
@@ -270,9 +257,7 @@ class Builder(Generic[V]):
 
     @cached_property
     def further(self) -> Further:
-        """The embedded weights and the dense output for the colours of the tableau. In a pair,
-        V^{l} and F^{l} are evaluated at the same stages and have the same weights.
-        """
+        """In a pair, V^{l} and F^{l} share stages, and so have the same further weights."""
         description, own = self.text.description, self._own
         if own is not None and own.further is not None:
             return self._at(description.node, own.further)
@@ -312,7 +297,6 @@ class Builder(Generic[V]):
         return made
 
     def _at(self, node: Node, make: Callable[[], T]) -> T:
-        """Returns the result of ``make``; its errors become faults at ``node``."""
         try:
             return make()
         except MethodFileError:
@@ -353,13 +337,10 @@ class Builder(Generic[V]):
 def part_of(
     source: Source, numbers: Numbers, description: d.Description, why: str = ""
 ) -> d.PartText:
-    """Returns a description with its members of families, and their nodes as coefficients if
-    needed.
+    """A description with its members of families.
 
-    The entries of spelled-out blocks, and weights beside a member, refer to single stages, so that
-    all methods need one coordinate for each stage.
-
-    ``why`` is what needs the nodes of all members, or empty.
+    The entries of spelled-out blocks, and weights beside a member, refer to single stages, so all
+    methods need one coordinate for each stage; ``why`` says so, or is empty.
     """
     content = description.content
     if not isinstance(content, d.MethodsText):
@@ -388,9 +369,7 @@ def part_of(
 
 
 def _family_nodes(text: d.FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:
-    """Returns the nodes of a family as coefficients; None if nothing has to be spelled out. Nodes
-    that cannot be spelled out are a fault.
-    """
+    """The nodes as coefficients, or a fault if they have no radicals; None if none are needed."""
     from garkcli.tableau.polynomial_space import PolynomialSpace, simple_nodes  # few files need it
 
     if not isinstance(space, PolynomialSpace):

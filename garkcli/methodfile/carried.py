@@ -14,7 +14,7 @@ from garkcli.methodfile.description import BESIDE
 
 
 def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
-    r"""Returns the lines of some keys as they are in the file of a method; empty without them.
+    r"""The lines of some keys as they are in the file of a method.
 
     >>> from garkcli.methodfile.load import loads
     >>> euler = loads("{A: [[0]], b: [1], reference: L. Euler 1768, expect: {order: 1}}")
@@ -25,9 +25,7 @@ def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
 
 
 def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
-    """Returns the lines of ``expect`` for some of the claims of a method. ``names`` maps the claims
-    that are kept to their new names.
-    """
+    """The lines of ``expect`` for the claims in ``names``, under their new names."""
     for key, claims in _entries(method):
         if key.value == "expect" and isinstance(claims, MappingNode):
             kept: list[tuple[Node, Node]] = [
@@ -40,18 +38,13 @@ def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
 
 
 def parameter_names(text: str, source: str) -> list[str]:
-    """Returns the parameters that the text of a file names; none if it is not YAML.
-
-    >>> parameter_names("{parameters: {t: free}, A: [[t]], b: [1]}", "it")
-    ['t']
-    """
     root = Source(source, text, METHOD_FILE).compose()
     parameters = None if root is None else mapping_under(root, "parameters")
     return [] if parameters is None else [str(name.value) for name, _ in parameters.value]
 
 
 def is_transformed(method: MethodFile) -> bool:
-    """Returns whether a Rosenbrock method is written in transformed form, as in programs."""
+    """Whether a Rosenbrock method is written in transformed form, as in programs."""
     root = Source(method.source, method.text, METHOD_FILE).compose()
     form = None if root is None else mapping_under(root, "rosenbrock")
     return form is not None and mapping_under(form, "transformed") is not None
@@ -67,10 +60,9 @@ _DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:
-    """Returns the file of the method with ``conjugate: true`` added, or removed.
+    """The file of the method with ``conjugate: true`` added, or removed; exact for every method.
 
-    This is exact for every method, as nothing is spelled out. Claims and the description are
-    dropped, because they are about the other method, and so are embedded and dense weights.
+    Claims, the description, embedded and dense weights are about the other method, and dropped.
     """
     kept = [(key, _without_further(x)) for key, x in _entries(method) if key.value not in _DROPPED]
     kept = [(key, x) for key, x in kept if key.value != "tolerance" or x.value]
@@ -80,7 +72,6 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
 
 
 def _without_further(node: Node) -> Node:
-    """Returns the node without embedded weights and dense output in its mappings."""
     if isinstance(node, SequenceNode):
         items = [_without_further(item) for item in node.value]
         return SequenceNode(node.tag, items, flow_style=node.flow_style)
@@ -95,11 +86,8 @@ def _scalar(text: str) -> ScalarNode:
 
 
 def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
-    r"""Returns the text of a method file with other claims.
-
-    A claim in the file gets the new value; one without a new value stays. New claims follow the
-    last one. Comments, blanks and everything else stay. Raises MethodFileError if the file is one
-    line in braces, below which nothing can be added.
+    r"""The text with other claims; MethodFileError if it is one line in braces, to which nothing
+    can be added.
 
     >>> print(write_claims("a file", "A: [[0]]\nb: [1]", {"order": "1"}))
     A: [[0]]

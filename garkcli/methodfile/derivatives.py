@@ -55,9 +55,7 @@ DERIVATIVES = g.mapping(
 
 
 class DerivativesText(d.OwnContent):
-    """A method that uses derivatives of f along the solution. ``A`` has a matrix for f, one for
-    f′f, and so on; ``c`` is None if it has the row sums of the first matrix.
-    """
+    """``A`` has matrices for f, f′f, …; ``c`` is None if it has the row sums of the first."""
 
     A: tuple[Rows, ...]
     b: Rows
@@ -113,7 +111,7 @@ def derivatives(at: NumbersReader, node: Node) -> DerivativesText | None:
 
 
 def _weights(at: NumbersReader, node: Node, name: str, derivatives: int) -> Rows:
-    """Returns the weights, one row for each matrix."""
+    """A row for each matrix."""
     rows = at.numbers.matrix(node, name)
     if len(rows) != derivatives:
         matrices = counted(derivatives, "matrix", "matrices")

@@ -25,7 +25,6 @@ Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystro
 STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "nystrom")
 Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splitting", "multirate"]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
-"""The forms that construct a method from others."""
 OwnForm: TypeAlias = Literal[
     "methods",
     "tableau",
@@ -41,19 +40,16 @@ OwnForm: TypeAlias = Literal[
 Form: TypeAlias = OwnForm | Construction
 FORMS: tuple[Form, ...] = (*get_args(OwnForm), *CONSTRUCTIONS)
 PLAIN = ("A", "b", "c")
-"""The keys of a Butcher tableau at the top of a file."""
 BESIDE = ("embedded", "dense")
-"""Further weights beside b."""
 
 
 MAX_COLOURS = 200
-"""The largest number of colours; the number of blocks is its square."""
+"""The number of blocks is its square."""
 MAX_ENTRIES = 1_000_000
-"""The largest number of entries in all blocks made by transfer rules."""
 
 
 def block_name(l: int, m: int) -> str:
-    """Returns the name of a block in messages; colours are counted from 0.
+    """A name for messages.
 
     >>> block_name(0, 1)
     'A^{1,2}'
@@ -62,7 +58,7 @@ def block_name(l: int, m: int) -> str:
 
 
 def of_colour(letter: str, l: int) -> str:
-    """Returns the name of the weights, nodes or matrix of a colour, counted from 0, in messages.
+    """Weights, nodes or a matrix for messages.
 
     >>> of_colour("b", 0)
     'b^{1}'
@@ -81,9 +77,7 @@ def places_of(rows: Iterable[Row], l: int, kind: str = "") -> Iterator[Place]:
 
 
 class PredictorText(Frozen):
-    """Weights that predict stages. ``old`` and ``new`` have the matrices of 1, r, r², … for the
-    slopes of the last step and of this one; zeros follow the shorter of both.
-    """
+    """Matrices of 1, r, r², … for the slopes of the last step and of this one, zeros after them."""
 
     node: Node
     old: tuple[Rows, ...]
@@ -91,11 +85,7 @@ class PredictorText(Frozen):
 
 
 class FurtherText(Frozen):
-    """Further weights of one colour, or None: embedded ones, one for each stage, and for dense
-    output the coefficients of θ, θ², … for each stage; ``predictor`` predicts the stages.
-
-    ``node`` is that of the first of them.
-    """
+    """Dense output has coefficients of θ, θ², … for each stage; ``node`` is the first of all."""
 
     embedded: Row | None = None
     dense: Rows | None = None
@@ -111,9 +101,7 @@ NOTHING_FURTHER = FurtherText()
 
 
 class FamilyText(Frozen):
-    """A member of a family. ``chosen`` has its size and the other options as written, which with
-    the name determine the member; ``numbers`` are its irrational numbers.
-    """
+    """``chosen`` has its size and other options as written; ``numbers`` are its irrational ones."""
 
     node: Node
     name: str
@@ -132,8 +120,6 @@ class FamilyText(Frozen):
 
 
 class ButcherText(Frozen):
-    """A spelled-out method."""
-
     node: Node
     name: str
     A: Rows
@@ -147,7 +133,7 @@ class ButcherText(Frozen):
 
 
 class RuleText(Frozen):
-    """A block made by rules with weights, None for a single rule, which may have a degree."""
+    """A block made by rules with weights, None for a single rule."""
 
     node: Node
     terms: tuple[tuple[str, Coefficient | None], ...]
@@ -155,8 +141,6 @@ class RuleText(Frozen):
 
 
 class MatrixText(Frozen):
-    """A spelled-out block."""
-
     node: Node
     rows: Rows
 
@@ -167,15 +151,13 @@ BlockTexts: TypeAlias = dict[tuple[int, int], BlockText]
 
 
 class TransferText(Frozen):
-    """A rule for all off-diagonal blocks, with exceptions; colours are counted from 0."""
+    """Colours are counted from 0."""
 
     default: RuleText | None
     blocks: BlockTexts
 
 
 class Content(Frozen):
-    """The coefficients of a method, as its file has them."""
-
     @property
     def names(self) -> Sequence[str] | None:
         """The names of the colours; None if ``tolerance`` has no keys for them."""
@@ -187,7 +169,6 @@ class Content(Frozen):
         return ()
 
     def places(self) -> Iterator[Place]:
-        """Yields the numbers that belong to a colour, or to further weights."""
         for l, text in enumerate(self.beside):
             yield from text.places(l)
 
@@ -215,7 +196,7 @@ class MethodsText(Content):
 
 
 class TableauText(Content):
-    """A tableau with every block spelled out, None for absent ones."""
+    """Blocks may be absent."""
 
     A: tuple[tuple[Rows | None, ...], ...]
     b: tuple[Row, ...]
@@ -254,8 +235,6 @@ class ArkText(Content):
 
 
 class PrkText(Content):
-    """A partitioned method with parts q and p."""
-
     q: ButcherText
     p: ButcherText
 
@@ -273,8 +252,8 @@ class PrkText(Content):
 
 
 class Made(NamedTuple):
-    """The tableau of a form of its own. ``further`` returns the further weights of the form, None
-    if it has those of all forms, which ``finish`` changes.
+    """``further`` returns the further weights of the form; None if ``finish`` changes the usual
+    ones.
     """
 
     tableau: Tableau
@@ -283,8 +262,6 @@ class Made(NamedTuple):
 
 
 class OwnContent(Content):
-    """The coefficients of a form of its own, which makes the tableau."""
-
     node: Node
 
     @property
@@ -293,13 +270,11 @@ class OwnContent(Content):
 
     @abstractmethod
     def made(self, values: Values, rounding: fmpq | None) -> Made:
-        """Returns the tableau; ``rounding`` is the largest error of its numbers, or None."""
+        """The tableau; ``rounding`` is the largest error of its numbers, or None."""
 
 
 class PartText(Frozen):
-    """A method within a construction, from this file or one of the catalogue. ``families`` has its
-    members of families by number, from 0, ``nodes`` the nodes of members as coefficients.
-    """
+    """``families`` has the members of families by number, from 0, ``nodes`` their nodes."""
 
     source: Source
     description: Description
@@ -317,14 +292,11 @@ class PartText(Frozen):
 Make: TypeAlias = (
     "Callable[[Callable[[PartText], Tableau], Values], Tableau | tuple[Tableau, Further]]"
 )
-"""Makes a method and its further weights from tableaus of parts and coefficients."""
 
 
 class ConstructionText(Content):
-    """A method constructed from others.
-
-    ``make`` makes it from the tableaus of the parts and the values of its coefficients;
-    ``tolerance`` is the rounding of the parts, ``kept`` are those whose embedded weights are used.
+    """``tolerance`` is the rounding of the parts; the embedded weights of those in ``kept`` are
+    used.
     """
 
     node: Node
@@ -335,9 +307,7 @@ class ConstructionText(Content):
 
 
 class BlockRule(Frozen):
-    """The rule for the block A^{l,m} of the file, and its degree if given. Colours are the methods
-    of the file, counted from 0; a partitioned tableau has others.
-    """
+    """Colours are the methods of the file, from 0; a partitioned tableau has others."""
 
     l: int
     m: int
@@ -346,7 +316,6 @@ class BlockRule(Frozen):
 
 
 def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
-    """Returns the rules for single blocks of a method of the form ``methods``."""
     content = description.content
     if description.is_conjugate or not isinstance(content, MethodsText):
         return ()
@@ -360,10 +329,8 @@ def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
 
 
 def left_behind(content: Content) -> tuple[str, ...]:
-    """Returns the further weights of its parts that a construction drops, as text; most often none.
-
-    They belong to the steps of the parts: embedded weights of an adjoint, for instance, would be at
-    other stages.
+    """The further weights of its parts that a construction drops, as text: these belong to the
+    steps of the parts; embedded weights of an adjoint would be at other stages.
     """
     if not isinstance(content, ConstructionText):
         return ()
@@ -379,7 +346,7 @@ def left_behind(content: Content) -> tuple[str, ...]:
 
 
 def works_of(said: Description) -> tuple[Work, ...]:
-    """Returns the references of a method; without one those of its parts and rules."""
+    """The references of a method; without one those of its parts and rules."""
     if said.reference:
         return ((said.reference, said.bibliography),)
     publications: list[Work] = []
@@ -399,8 +366,6 @@ def works_of(said: Description) -> tuple[Work, ...]:
 
 
 class ClaimText(FrozenBut):
-    """A claim under ``expect``."""
-
     besides = frozenset({"node"})
 
     node: Node

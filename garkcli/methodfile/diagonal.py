@@ -38,7 +38,7 @@ _CHOSEN = [
 
 
 def _member(family: MethodFamily) -> Schema:
-    """Returns the schema of the keys that a member of a family needs and lacks."""
+    """The schema of the keys that a member of a family needs and lacks."""
     needed = [] if family.is_single else [family.size]
     needed += [option.name for option in family.options if not option.default]
     barred = dict.fromkeys(sorted(OPTIONS.keys() - set(family.keys)), False)
@@ -96,7 +96,6 @@ def _stages(text: d.FamilyText | d.ButcherText) -> int:
 def _is_too_large(
     at: NumbersReader, texts: Sequence[d.FamilyText | d.ButcherText], node: Node
 ) -> bool:
-    """Reports whether the blocks between the methods have too many entries in total."""
     stages = list(map(_stages, texts))
     entries = sum(stages) ** 2 - sum(s * s for s in stages)
     if entries > d.MAX_ENTRIES:
@@ -143,7 +142,7 @@ def _method(at: NumbersReader, node: Node, l: int) -> d.FamilyText | d.ButcherTe
 
 
 def _in_a_word(node: Node) -> MappingNode | None:
-    """Returns ``gauss-2`` as ``{family: gauss, stages: 2}``; None for any other node."""
+    """``{family: gauss, stages: 2}`` for ``gauss-2``; None for any other node."""
     member = member_named(node.value) if isinstance(node, ScalarNode) else None
     if member is None:
         return None
@@ -160,7 +159,6 @@ def _in_a_word(node: Node) -> MappingNode | None:
 
 
 def _written_out(node: ScalarNode) -> str:
-    """Returns the cure for a method that is a single word."""
     name = nearest(str(node.value), FAMILIES) or "gauss"
     family = FAMILIES[name]
     if family.is_single:
@@ -200,7 +198,6 @@ def _family(at: NumbersReader, node: Node, where: str) -> tuple[d.FamilyText, En
 def _chosen(
     at: NumbersReader, entries: Entries, family: MethodFamily, where: str
 ) -> tuple[int | None, dict[str, Given]]:
-    """Returns the size and the other options of a member."""
     size = None
     if family.size in entries:
         size = at.source.whole(entries[family.size], f"{where}, {family.size}", smallest=1)
@@ -214,7 +211,7 @@ def _chosen(
 
 
 def _entries(at: NumbersReader, recipe: Recipe, node: Node, name: str) -> Row:
-    """Returns the numbers of a recipe as coefficients of the file, added unless they are there."""
+    """The numbers of a recipe as coefficients of the file, added unless they are there."""
     read = {id(entry.expression): entry for entry in at.numbers.entries}
     row: list[Coefficient] = []
     for i, expression in enumerate(recipe.numbers, start=1):

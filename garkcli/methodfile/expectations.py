@@ -29,9 +29,7 @@ _LEAST = r">=\s*(.*)"
 
 
 class ClaimedNumber(Frozen):
-    """A claimed real number. ``number`` is None for ∞. ``half_unit`` is half a unit of the last
-    place of a decimal, 0 for an exact number. ``is_least`` says that the claim is a lower bound.
-    """
+    """``number`` is None for ∞; ``half_unit``, of a decimal's last place, is 0 if exact."""
 
     text: str
     number: Number | None
@@ -42,9 +40,7 @@ class ClaimedNumber(Frozen):
         return self.text
 
     def agrees(self, root: RealRoot | None, rounding: fmpq = ZERO) -> bool:
-        """Returns whether the claim is true of a number, None for ∞. ``rounding`` is the largest
-        error of the number, for coefficients within a tolerance.
-        """
+        """Whether the claim is true of a number, None for ∞, with error at most ``rounding``."""
         if self.number is None:
             return root is None
         if root is None:
@@ -64,7 +60,6 @@ def _root(number: Number) -> RealRoot:
 
 
 def read_measure(source: Source, node: Node, where: str) -> ClaimedNumber | None:
-    """Reads a claimed real number; None after a fault."""
     text = source.scalar(node, where)
     if text is None:
         return None
@@ -155,7 +150,6 @@ _EXAMPLES = {
     "real-stability": "infinity",
     "imaginary-stability": "2*sqrt(2)",
 }
-"""Examples of claims on tables and real numbers."""
 
 
 def claims() -> Iterator[Key]:
@@ -181,7 +175,7 @@ OF_ORDERS = {
     "stage-order",
     "weak-stage-order",
 }
-"""Claims for which the search for orders has to reach their numbers plus one."""
+"""Claims for which the search for orders goes one beyond their numbers."""
 
 
 def highest_order(claims: tuple[ClaimText, ...], keys: Collection[str] = OF_ORDERS) -> int:

@@ -74,12 +74,10 @@ def load_family(
     deadline: float | None = None,
     is_free: bool = True,
 ) -> FamilyFile:
-    """Reads a method file with free parameters.
+    """Reads a method file with free parameters, or one without if not ``is_free``.
 
-    ``settings`` are values of parameters in place of those in the file. At ``deadline``, a value of
-    ``time.monotonic``, remaining demands stay undecided. With ``is_free`` the file needs a free
-    parameter. Raises MethodFileError with all faults of the file; MethodError without a free
-    parameter, or for methods that are not GARK methods.
+    At ``deadline``, a value of ``time.monotonic``, remaining demands stay undecided. Raises
+    MethodFileError with all faults; MethodError for methods without families.
     """
     return loads_family(*read_method_text(path), settings, deadline=deadline, is_free=is_free)
 
@@ -101,10 +99,7 @@ def loads_family(
     is_free: bool = True,
     numbers: Moved | None = None,
 ) -> FamilyFile:
-    r"""Reads the text of a method file with free parameters.
-
-    ``is_design`` says whether its demands under ``design`` count; ``numbers`` replaces its rounded
-    numbers; the others are those of ``load_family``.
+    r"""Demands under ``design`` count if ``is_design``; ``numbers`` replaces rounded numbers.
 
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
     >>> family.tableau.block(0, 0)
@@ -122,9 +117,7 @@ def loads_family(
 
 
 def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
-    """Returns the family of a file that was read as a method, without its demands under ``design``.
-    Raises MethodFileError with all faults of the file.
-    """
+    """The family of a file read as a method, without demands; MethodFileError with all faults."""
     if error.reading is None:  # the file was read in another process
         family = loads_family(error.text, error.source, settings, is_design=False)
     else:
@@ -138,13 +131,11 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
 
 
 def _refuse_others(tableau: Tableau) -> None:
-    """Raises MethodError for kinds of methods that have no families."""
     if not (is_rosenbrock(tableau) or is_nystrom(tableau)):
         tableau.demand_fields(_DESIGN, with_flow=True)
 
 
 def refuse_rounded(family: FamilyFile) -> None:
-    """Raises MethodError if known coefficients are rounded."""
     if family.tolerance is None:
         return
     names = ", ".join(family.parameters)
@@ -231,7 +222,7 @@ def _family(
 def _cancelled(
     divisors: Sequence[fmpq_mpoly], tableau: Tableau, ring: Parameters, free: Iterable[str]
 ) -> Iterator[fmpq_mpoly]:
-    """Yields irreducible polynomials by which the file divides although they cancel, as in t/t."""
+    """Irreducible polynomials by which the file divides although they cancel, as in t/t."""
     shown = common_denominator(tableau.entries, ring)
     known = {str(factor) for factor, _ in shown.factor()[1]}
     indices = [ring.names.index(name) for name in free]
@@ -249,7 +240,6 @@ def _signs(numbers: Sequence[object], ring: Parameters) -> tuple[fmpq_mpoly, ...
 
 
 def _shape(reader: MethodReader) -> tuple[Extent, str] | None:
-    """Returns the place of a shape in the file, and its text as a tableau."""
     if reader.shaped is None:
         return None
     from garkcli.methodfile.shapes import spelled
@@ -261,7 +251,7 @@ def _shape(reader: MethodReader) -> tuple[Extent, str] | None:
 
 
 def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str]]:
-    """Yields the places where "?" stands for a whole block, and the text of the block."""
+    """The places where "?" stands for a whole block, and the text of the block."""
     if not isinstance(description.content, d.MethodsText):
         return
     by_method: dict[int, dict[tuple[int, int], d.MatrixText]] = {}
@@ -276,8 +266,8 @@ def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str
 
 
 def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
-    """Returns the text of a family's file with values for its parameters. ``head`` is a comment to
-    begin with; ``claim``, such as ``order: 4``, is added if the file makes no claims.
+    """The text with values, ``head`` as a comment, and ``claim``, such as ``order: 4``, if it has
+    none.
     """
     text = family.text
     given = {**family.settings, **values}

@@ -25,15 +25,12 @@ from garkcli.tableau.tableau import Method, Tableau
 MAX_DEGREE = 200
 MAX_TERMS = 2_000
 MAX_TERMS_TOGETHER = 200_000
-"""The largest number of terms of all different coefficients of a file."""
+"""For all different coefficients of a file."""
 ROOT = "_root"
-"""The prefix of unknowns that stand for radicals."""
 
 
 class FamilyValues(Values):
-    """The coefficients of a file as rational functions of its free parameters. Each radical is an
-    unknown with its relation. ``change`` replaces expressions before they are evaluated.
-    """
+    """Each radical is an unknown with its relation; ``change`` comes before evaluation."""
 
     def __init__(
         self, numbers: Numbers, change: Callable[[Expression], Expression] | None = None
@@ -50,7 +47,7 @@ class FamilyValues(Values):
         self._evaluate(numbers, self.domain)
 
     def alone(self, method: Method) -> Tableau:
-        """Returns the tableau with reduced roots, so that zeros are recognised."""
+        """The tableau with reduced roots, so that zeros are recognised."""
         tableau = super().alone(method)
         if not self.domain.radicals:
             return tableau
@@ -61,8 +58,8 @@ class FamilyValues(Values):
         return member(tableau, ring, values)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
-        """Returns the rational numbers between which a parameter lies by all of its ranges. Other
-        ends, and ranges without a number in common, are faults.
+        """Rational numbers around all ranges of a parameter; other ends are faults, and a void
+        range.
         """
         least = greatest = None
         for ends in free.ranges:
@@ -104,8 +101,6 @@ class FamilyValues(Values):
 
 
 class _FamilyDomain(Domain):
-    """Evaluates expressions to rational functions of parameters."""
-
     def __init__(
         self,
         names: list[str],
@@ -193,7 +188,7 @@ class _FamilyDomain(Domain):
         return super()._apply(sign, left, right, at)
 
     def _terms_of(self, polynomial: fmpq_mpoly) -> int:
-        """Returns a bound on the number of terms once powers of radicals are written out."""
+        """A bound on the number of terms once powers of radicals are written out."""
         if not self.radicals:
             return len(polynomial)
 
@@ -206,7 +201,7 @@ class _FamilyDomain(Domain):
         return sum(prod(written_out(x, exponents) for x in self.radicals) for exponents in every)
 
     def _limit(self, terms: int, degree: int, at: Expression) -> None:
-        """Raises LimitExceeded for sizes beyond those of coefficients, before multiplication."""
+        """Raises LimitExceeded before the multiplication."""
         if degree > MAX_DEGREE:
             message = f"a degree of more than {MAX_DEGREE} in the parameters"
             raise LimitExceeded(message, "write it smaller", at.start, at.end)

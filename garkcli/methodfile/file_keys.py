@@ -1,8 +1,4 @@
-"""The keys of method files, and the JSON Schema (draft-07) of such files, for editors.
-
-The schema constrains single values. Sizes that have to fit, names of parameters and everything
-mathematical are left to ``gark check``.
-"""
+"""The keys of method files, and the JSON Schema (draft-07) of single values, for editors."""
 
 from __future__ import annotations
 
@@ -232,7 +228,6 @@ KEYS = {
     )
 }
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
-"""The keys of a method, at the top of a file or within it."""
 _TWO_COLOURS = g.KeyValues(
     {"type": "array", "minItems": 2},
     lambda node: isinstance(node, SequenceNode) and len(node.value) > 1,
@@ -250,7 +245,7 @@ FORM = g.Ways(
     "give A and b, or one of the keys methods, tableau, ark, prk, shu-osher, "
     "low-storage, rosenbrock, nystrom, nprk, derivatives",
 )
-"""The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
+"""A, b and c at the top are those of a tableau."""
 _INSIDE: dict[str, str] = dict.fromkeys(
     CONSTRUCTIONS, "give it beside the coefficients of the methods inside"
 )
@@ -307,12 +302,10 @@ BESIDE_FORM: tuple[g.KeyRelation, ...] = (
         values=_SEMI_SEPARABLE,
     ),
 )
-"""Rules about further keys, by the form of the coefficients."""
 
 
 @cache
 def elsewhere() -> Mapping[str, Home]:
-    """Returns where misplaced keys at the top of a file belong."""
     every = (x for x in KEYS.values() if x.name != "parameters")  # has keys below other names
     return g.homes([KEYS["expect"], *every])
 

@@ -12,15 +12,12 @@ SUFFIX = ".gark.yaml"
 
 
 def no_one(told: object) -> None:
-    """The default listener, which ignores messages."""
     del told
 
 
 def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
-    """Returns all method files below a folder, and folders that cannot be read, sorted.
-
-    Links to folders are not followed. Links out of the folder are left out; ``told`` is called with
-    a message.
+    """Method files below a folder, and folders that cannot be read; links to folders are not
+    followed.
     """
     paths: list[str] = []
 
@@ -37,7 +34,7 @@ def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
 
 
 def within(paths: list[str], folder: str, told: Callable[[str], None]) -> list[str]:
-    """Returns the paths that are not links out of a folder; ``told`` is called for the others."""
+    """The paths that are not links out of a folder; ``told`` learns of the others."""
     kept = []
     for path in paths:
         if os.path.lexists(path) and leads_away(path, folder):

@@ -1,4 +1,4 @@
-"""Method files from path to method; all faults of a file are reported at once."""
+"""Method files from path to method, with all faults of a file at once."""
 
 from __future__ import annotations
 
@@ -49,7 +49,6 @@ _READ: ContextVar[list[MethodFile] | None] = ContextVar("read", default=None)
 
 @contextmanager
 def noting() -> Iterator[list[MethodFile]]:
-    """Collects the methods that are read while it is open."""
     methods: list[MethodFile] = []
     token = _READ.set(methods)
     try:
@@ -66,22 +65,13 @@ def noted(method: MethodFile) -> MethodFile:
 
 
 def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
-    """Reads a method file, or standard input for ``-``, or a method of the catalogue by its name or
-    alias.
-
-    ``settings`` are values of parameters in place of those in the file. Raises MethodFileError with
-    all faults of the file.
-    """
+    """A method file, standard input for ``-``, or a name; MethodFileError with all faults."""
     with doing(f"reading {path}"):
         return noted(loads(*read_method_text(path), settings))
 
 
 def read_method_text(path: str) -> tuple[str, str]:
-    """Returns the text of a method file, of a method of the catalogue or of standard input for
-    ``-``, and its name.
-
-    Raises MethodFileError if there is no such file or method, or it is not text.
-    """
+    """The text and the name of a method; MethodFileError if it does not exist, or is no text."""
     is_folder = path != STDIN and os.path.isdir(path)
     if is_folder and not is_both(path):
         raise MethodFileError(path, [_of_folder(path)])
@@ -108,10 +98,7 @@ def _of_folder(path: str) -> Remark:
 def loads(
     text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
 ) -> MethodFile:
-    """Reads the text of a method file.
-
-    ``settings`` are values of parameters in place of those in the file. Raises MethodFileError with
-    all faults of the text.
+    """The method of a text with values for parameters; MethodFileError with all faults.
 
     >>> loads("methods: [{family: gauss, stages: 2}]").tableau.size
     1
@@ -195,10 +182,8 @@ def _maker_by_digits(text: str, source: str, settings: Any, radii: Sequence[fmpq
 
 
 def works_in(text: str, source: str) -> tuple[Work, ...]:
-    r"""Returns the publications of the method of a file; without a reference those of its parts.
-
-    Raises MethodFileError if the text is not YAML or its reference has a fault, or if it has none
-    and is not a method file.
+    r"""The publications of a method, or else those of its parts; MethodFileError if neither can be
+    read.
 
     >>> [x[0][:8] for x in works_in("methods: [gauss-2, gauss-3]\ntransfer: collocation", "")]
     ['E. Haire', 'A. Zanna']
@@ -213,7 +198,6 @@ _OTHER_KINDS: dict[Form, str] = {
     "nprk": "nonlinearly partitioned",
     "derivatives": "multiderivative",
 }
-"""The kinds of methods that are not GARK methods, in messages."""
 
 
 def _free(reader: MethodReader, description: Description) -> MethodFileError:
@@ -237,9 +221,7 @@ def _free(reader: MethodReader, description: Description) -> MethodFileError:
 def described(
     text: str, source: str, settings: Mapping[str, str]
 ) -> tuple[MethodReader, Description]:
-    """Returns the description of a file and its reader, which has the coefficients. Raises
-    MethodFileError if the file does not describe a method.
-    """
+    """The description and its reader with the coefficients; MethodFileError if it is none."""
     reading = Source(source, text, METHOD_FILE)
     reader = MethodReader(reading, settings)
     description = reader.read()
@@ -254,9 +236,6 @@ def described(
 def built(
     reader: MethodReader, description: Description, values_of: Callable[[Numbers], V]
 ) -> Builder[V]:
-    """Returns the method that a file describes, with its coefficients. ``values_of`` evaluates
-    them. Raises MethodFileError if they do not make a method.
-    """
     text = part_of(reader.source, reader.numbers, description)
     reader.source.close()
     values = values_of(reader.numbers)

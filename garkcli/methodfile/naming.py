@@ -30,22 +30,18 @@ if TYPE_CHECKING:
     from garkcli.reference import Reference
 
 FAMILY = "the families"
-"""The shelf of methods made from their names."""
 PREFIX = "catalogue:"
-"""The prefix of a name that is never a file; alone, or with a folder, it stands for all methods."""
+"""It begins a name that is never a file; alone, or with a folder, it means all methods."""
 _OF_FILES = (".yaml", ".yml", ".json")
-"""Endings of files, which names do not have."""
+"""Endings that names do not have."""
 METHOD_FILES = (".gark.yaml", ".yaml", ".yml", ".json")
 """Endings that the name of a method file may lack."""
 _MOST_SHOWN = 6
-"""The number of methods listed for an ambiguous alias, or for the start of a name."""
 
 
 def read_argument(argument: str, path: str = "") -> tuple[str, str]:
-    """Returns the text and the name of the method that an argument stands for.
-
-    ``path`` is the place of the file, if it is not the argument. Raises MethodFileError if there is
-    no such file or method, if it is not text, or if the name is ambiguous.
+    """The text and the name of a method, whose file may be at ``path``; MethodFileError if there is
+    none, or several.
     """
     method = find_named(argument, path)
     if method is None:
@@ -54,9 +50,7 @@ def read_argument(argument: str, path: str = "") -> tuple[str, str]:
 
 
 def find_named(argument: str, path: str = "") -> shelving.Shelved | None:
-    """Returns the method of the catalogue that an argument stands for; None for a file. Raises
-    MethodFileError if it may be both or several, or does not exist.
-    """
+    """A method of the catalogue; None for a file; MethodFileError for both, several or none."""
     if not can_be_name(argument):
         return None
     is_file = os.path.lexists(path or argument)
@@ -75,7 +69,7 @@ def find_named(argument: str, path: str = "") -> shelving.Shelved | None:
 
 
 def can_be_name(argument: object) -> bool:
-    """Returns whether an argument has the form of a name, whether or not the method exists."""
+    """Whether an argument has the form of a name, for any or no method."""
     if not isinstance(argument, str) or argument in {STDIN, "", ".", ".."}:
         return False
     if argument.startswith("{"):
@@ -86,7 +80,7 @@ def can_be_name(argument: object) -> bool:
 
 
 def called(argument: str) -> str:
-    """Returns the name of a method in reports: that in the catalogue, or the path."""
+    """The name of a method in reports: that in the catalogue, or the path."""
     with suppress(MethodFileError):  # whoever reads it says what is wrong
         method = find_named(argument)
         if method is not None:
@@ -99,9 +93,7 @@ def is_both(path: str) -> bool:
 
 
 def look_up(name: str) -> shelving.Shelved | None:
-    """Returns the method with a name or an alias, or None. Raises MethodFileError if several files
-    in one place have the name, or several methods the alias.
-    """
+    """The method with a name or an alias, or None; MethodFileError if several have it."""
     key = shelving.key_of(name)
     for shelves in _in_turn():
         for shelf in shelves:
@@ -115,13 +107,11 @@ def look_up(name: str) -> shelving.Shelved | None:
 
 
 def _spelt_like(name: str, shelves: Iterable[shelving.Shelf]) -> list[shelving.Shelved]:
-    """Returns the methods with the letters and digits of a name, if no family has the name."""
     methods = _called(shelving.letters_of(name), (shelf.spellings for shelf in shelves))
     return methods if methods and _family(name) is None else []
 
 
 def _family(name: str) -> MethodFamily | None:
-    """Returns the family of this name, of which one method has to be chosen."""
     from garkcli.families.registry import FAMILIES
 
     family = FAMILIES.get(name.strip().lower())
@@ -134,7 +124,7 @@ def is_catalogued(name: str) -> bool:
 
 
 def _of_family(name: str) -> shelving.Shelved | None:
-    """Returns a member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
+    """A member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
     from garkcli.families.registry import FAMILIES, member_named
 
     text = name.strip()
@@ -153,8 +143,6 @@ def _of_family(name: str) -> shelving.Shelved | None:
 
 
 def _made(name: str, reference: Reference | None = None) -> shelving.Shelved:
-    """Returns the file of a member of a family, with the reference of the family."""
-
     def written() -> str:
         known = {key: getattr(reference, key) for key in fields(reference)} if reference else {}
         import json  # only members of families need it
@@ -166,13 +154,13 @@ def _made(name: str, reference: Reference | None = None) -> shelving.Shelved:
 
 
 def _in_turn() -> Iterator[Sequence[shelving.Shelf]]:
-    """Yields the shelves in the order of search, those of other packages last, as they are slow."""
+    """The shelves in the order of search, those of other packages last, as they are slow."""
     yield [*shelving.own_folders(), shelving.package()]
     yield shelving.others()
 
 
 def _called(key: str, known: Iterable[shelving.Found]) -> list[shelving.Shelved]:
-    """Returns the methods under a key, the first of those with the same name."""
+    """The first of those with the same name."""
     by_name: dict[str, shelving.Shelved] = {}
     for methods in known:
         for method in methods.get(key, ()):
@@ -181,7 +169,6 @@ def _called(key: str, known: Iterable[shelving.Found]) -> list[shelving.Shelved]
 
 
 def _only(name: str, methods: Sequence[shelving.Shelved]) -> shelving.Shelved:
-    """Returns the only method of a name. Raises MethodFileError if there are several."""
     if len(methods) == 1:
         return methods[0]
     names = dict.fromkeys(method.name for method in methods)
@@ -234,7 +221,7 @@ def shelf_of(method: shelving.Shelved) -> shelving.Shelf:
 
 
 def visible(shelves: Iterable[shelving.Shelf]) -> Iterator[tuple[shelving.Shelf, shelving.Shelved]]:
-    """Yields the methods shelf by shelf, without those hidden by another of the same name."""
+    """Methods without those hidden by another of the same name."""
     known: set[str] = set()
     for shelf in shelves:
         for key, methods in shelf.methods.items():
@@ -244,7 +231,7 @@ def visible(shelves: Iterable[shelving.Shelf]) -> Iterator[tuple[shelving.Shelf,
 
 
 def hidden_by(method: shelving.Shelved) -> list[str]:
-    """Returns the user's folders, or the package, in which a method of the same name is hidden."""
+    """The other places with a method of the same name."""
     key = shelving.key_of(method.name)
     elsewhere = [
         x for x in (*shelving.own_folders(), shelving.package()) if x.label != method.shelf
@@ -253,9 +240,7 @@ def hidden_by(method: shelving.Shelved) -> list[str]:
 
 
 def note_of(argument: str) -> list[str]:
-    """Returns a note if the method of a name hides another one. Raises MethodFileError if the name
-    is ambiguous.
-    """
+    """A note if the method of a name hides another; MethodFileError if the name is ambiguous."""
     if not can_be_name(argument) or os.path.lexists(argument):
         return []
     method = look_up(argument.removeprefix(PREFIX))
@@ -268,9 +253,7 @@ def note_of(argument: str) -> list[str]:
 
 
 def names_beginning(start: str) -> list[str]:
-    """Returns the names that begin with a text, or else one-word aliases. Raises MethodFileError if
-    another package cannot be imported.
-    """
+    """Names, or else one-word aliases; MethodFileError if another package cannot be imported."""
     key = shelving.key_of(start)
     shelves = every_shelf()
     names = [method.name for _, method in visible(shelves)]
@@ -282,9 +265,7 @@ def names_beginning(start: str) -> list[str]:
 
 
 def expanded(argument: str) -> list[str]:
-    """Returns the methods that ``catalogue:`` or ``catalogue:FOLDER`` stands for, as arguments.
-    Empty for other arguments, and if there is no such folder.
-    """
+    """The methods for ``catalogue:`` or ``catalogue:FOLDER``; empty for other arguments."""
     if not argument.startswith(PREFIX) or os.path.lexists(argument):
         return []
     folder = shelving.key_of(argument.removeprefix(PREFIX))
@@ -296,13 +277,13 @@ _MAGIC = frozenset("*?[")
 
 
 def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
-    """Yields the files that ``paths`` stand for, in order.
+    """The files that ``paths`` stand for, in order.
 
     A folder stands for all method files below it, a pattern such as ``**/*.yaml`` for its matches,
-    ``catalogue:`` for all methods of the catalogue and ``catalogue:FOLDER`` for a folder of it;
-    names stay as they are. An argument without files stays too, to be reported as missing, as does
-    a folder that cannot be searched. Links to folders are not followed, because they may lead back.
-    Links to files elsewhere are left out; ``told`` is called with a message about them.
+    ``catalogue:FOLDER`` for methods of the catalogue. An argument without files stays, to be
+    reported as missing, as does a folder that cannot be searched. Links to folders are not
+    followed, because they may lead back; ``told`` learns of links to files elsewhere, which are
+    left out.
     """
     for path in paths:
         if path == STDIN:
@@ -319,7 +300,7 @@ def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> It
 
 
 def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
-    """Returns the matches of a pattern; a folder stands for the files below it."""
+    """The matches of a pattern; a folder stands for the files below it."""
     from pathlib import Path
 
     path = Path(pattern)
@@ -338,7 +319,7 @@ def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
 
 
 def fixed_part(pattern: str) -> str:
-    """Returns the folder with which a pattern begins; a path without wildcards is returned whole.
+    """The folder with which a pattern begins; a path without wildcards is returned whole.
 
     >>> fixed_part("methods/**/*.yaml"), fixed_part("methods/rk4.yaml"), fixed_part("*.yaml")
     ('methods', 'methods/rk4.yaml', '')
@@ -350,7 +331,7 @@ def fixed_part(pattern: str) -> str:
 
 
 def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
-    """Yields all matches below a place; links out of ``root`` are not followed."""
+    """All matches below a place; links out of ``root`` are not followed."""
     if not parts or (os.path.islink(place) and leads_away(place, root)):
         if os.path.lexists(place):
             yield place
@@ -370,7 +351,7 @@ def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
 
 
 def _folders(place: str) -> Iterator[str]:
-    """Yields a folder and all folders below it except hidden ones; empty for the current one."""
+    """A folder and all folders below it except hidden ones; empty for the current one."""
     for folder, below, _ in os.walk(place or "."):
         # os.walk goes on with what is left in the list
         below[:] = [name for name in below if not name.startswith(".")]

@@ -30,9 +30,7 @@ NPRK = g.mapping(
 
 
 class NprkText(d.OwnContent):
-    """A nonlinearly partitioned method; rows and matrices may end early, followed by zeros. ``a``
-    has a matrix for each stage.
-    """
+    """``a`` has a matrix for each stage; rows and matrices may end early, followed by zeros."""
 
     a: tuple[Rows, ...]
     b: Rows

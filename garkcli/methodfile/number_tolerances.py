@@ -17,10 +17,8 @@ from garkcli.methodfile.tolerance import DIGITS, OTHERS, Tolerance
 
 
 class NumberTolerances:
-    """The tolerances of the numbers of a file.
-
-    A number has the tolerance of embedded weights or of dense output, if it is one; otherwise that
-    of its colour; otherwise that of the others; otherwise it is exact.
+    """A number has the tolerance of embedded weights or of dense output, if it is one; otherwise
+    that of its colour; otherwise that of the others; otherwise it is exact.
     """
 
     def __init__(
@@ -37,23 +35,22 @@ class NumberTolerances:
         self._fewest = fewest_digits(x.expression for x in entries) if tolerance.is_of_digits else 0
 
     def kind_of(self, entry: Coefficient) -> str:
-        """The further weights that a number is in; empty for A, b and c."""
+        """Empty for A, b and c."""
         return self._kinds.get(id(entry), "")
 
     def key_of(self, entry: Coefficient) -> str:
-        """Returns the key of ``tolerance`` that applies to a number."""
         return self._keys.get(id(entry), OTHERS)
 
     def radius(self, entry: Coefficient, part: Expression) -> fmpq:
-        """Returns the tolerance of a number in an entry; 0 if it is exact."""
+        """0 if the number is exact."""
         off = self.tolerance.offs.get(self.key_of(entry), ZERO)
         if isinstance(off, fmpq):
             return off
         return unit_of(part, self._fewest)
 
     def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
-        """Yields the faults of the keys: node, message, cure and kind of fault. ``used`` has the
-        keys that apply to some rounded number.
+        """Node, message, cure and kind of fault of each key; ``used`` keys apply to rounded
+        numbers.
         """
         known = [OTHERS, *d.BESIDE, *(name for names in self.names for name in names)]
         for key, node in self.tolerance.places.items():
@@ -71,14 +68,14 @@ class NumberTolerances:
             yield None, message, "leave it out, or write a number such as 1e-13", "empty"
 
     def _named_like(self, key: str) -> int | None:
-        """Returns the colour, counted from 1, whose name is a key with another meaning."""
+        """The colour, counted from 1, whose name is a key with another meaning."""
         taken = {OTHERS, *d.BESIDE, *(x for names in self.names for x in names[:1])}
         named = (l for l, names in enumerate(self.names, start=1) if key in names[1:])
         return next((l for l in named if key in taken and key != str(l)), None)
 
 
 def _names(content: d.Content) -> list[tuple[str, ...]]:
-    """Returns the names of each colour in the file: its number, and its name if it has one."""
+    """The number of each colour in the file, and its name if it has one."""
     names = content.names
     if names is None:
         return []

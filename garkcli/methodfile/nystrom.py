@@ -115,11 +115,9 @@ NYSTROM = g.mapping(
 
 
 class NystromText(d.OwnContent):
-    """A Nyström method.
-
-    ``A`` is None if g depends on q only, ``c`` if it has the row sums of A. ``embedded`` has the
-    embedded weights in q and in q′, each None if they are those of the method; ``dense`` the
-    polynomials in q and in q′, the latter None if they are the slopes of the former.
+    """``A`` is None if g depends on q only, ``c`` if it has the row sums of A. ``embedded`` has
+    weights in q and in q′, each None if they are those of the method; ``dense`` the polynomials in
+    q and in q′, the latter None if they are the slopes of the former.
     """
 
     Abar: Rows

@@ -14,11 +14,10 @@ from garkcli.methodfile.numbers import NOTHING, UNKNOWN, Between, Free, Numbers
 
 NUMBER = defined("number", lambda at, node, where: at.numbers.entry(node, where))
 ROW = defined("row", lambda at, node, where: at.numbers.row(node, where))
-"""A row of weights or nodes; a single value is a row of one."""
+"""A single value is a row of one."""
 MATRIX = defined("matrix", lambda at, node, where: at.numbers.matrix(node, where))
-"""A matrix, whose rows may still differ in length."""
+"""Rows may still differ in length."""
 SIGNS = r"^[-+*/^(),.\sA-Za-z0-9_]+$"
-"""The characters of a number."""
 _NUMBER: Schema = {
     "description": "A coefficient: a number, or text such as 1/2 - sqrt(3)/6,"
     " read exactly as written.",
@@ -38,11 +37,9 @@ DEFINITIONS: Schema = {
         "minItems": 1,
     },
 }
-"""The definitions of coefficients in a schema."""
 
 
 def _range(at: Any, node: yaml_nodes.Node, where: str) -> Between:
-    """Reads a range with two ends; empty after a fault."""
     numbers: Numbers = at.numbers
     ends = numbers.source.items(node, where)
     if len(ends) != 2:
@@ -83,10 +80,8 @@ _FREE = mapping(
 
 
 def _read(at: Any, node: yaml_nodes.Node, _: str) -> None:
-    """Reads ``parameters`` into the numbers of a file; each may use those before it.
-
-    The values are kept apart from the coefficients: an unused one does not enlarge their domain,
-    but its faults are reported.
+    """Each may use those before it. They are apart from the coefficients: an unused one does not
+    enlarge their domain, but its faults are reported.
     """
     numbers: Numbers = at.numbers
     source = numbers.source
@@ -119,7 +114,6 @@ def _names_alone(node: yaml_nodes.Node) -> list[str]:
 
 
 def _define(at: Any, name: str, node: yaml_nodes.Node, where: str) -> None:
-    """Reads a parameter with a value, with one from outside, or free."""
     numbers: Numbers = at.numbers
     if name in numbers.settings:
         numbers.given(name, node, where)
@@ -152,7 +146,7 @@ PARAMETERS = ValueKind(
 
 
 def refuse_free(numbers: Numbers) -> None:
-    """Reports unknowns without a value: a method needs values for all."""
+    """A method needs values for all unknowns."""
     family = "the file describes a family of methods"
     of_entries: list[str] = []
     for name, free in numbers.free.items():
@@ -175,7 +169,6 @@ def _value_for(name: str) -> str:
 
 
 def refuse_unknown_settings(numbers: Numbers) -> None:
-    """Reports values for parameters that the file does not have."""
     known = list(numbers.parameters)
     for name in (x for x in numbers.settings if x not in known):
         cure = did_you_mean(name, known) or "the file has none: leave out --set"

@@ -41,7 +41,7 @@ _OF_LATEX = (
 
 
 def plain(text: str) -> str:
-    r"""Returns the text in ASCII characters.
+    r"""The text in ASCII characters.
 
     >>> plain("½ − √3/6"), plain(r"$\frac{1}{2}$ & \frac12 \\ \hline")
     ('1/2 - sqrt(3)/6', '1/2 & 1/2 \n \n')
@@ -61,7 +61,7 @@ def plain(text: str) -> str:
 
 
 def _fraction(before: str, sign: str) -> str:
-    """Returns a one-character fraction written out, except after a digit."""
+    """A one-character fraction written out, except after a digit."""
     written = unicodedata.normalize("NFKC", sign)
     is_fraction = "\N{FRACTION SLASH}" in written and sign != written
     return written if is_fraction and not before.isdigit() else sign
@@ -79,7 +79,7 @@ _IN_BRACKETS = "a list in brackets belongs into a file: A: [[0, 0], [1/2, 0]]"
 
 
 class Pasted(Frozen):
-    """A tableau in the texts of its numbers, with the rows of A filled with zeros."""
+    """The rows of A are filled with zeros."""
 
     A: tuple[_Row, ...]
     b: _Row
@@ -88,16 +88,15 @@ class Pasted(Frozen):
 
 
 class _PastedLine(Frozen):
-    """A line of numbers; ``node`` is None if no bar separates one from the row."""
+    """``node`` is None if no bar separates one from the row."""
 
     node: str | None
     row: _Row
 
 
 def read_pasted(text: str) -> Pasted:
-    r"""Reads a tableau: one line for each stage, one of weights, perhaps one of embedded weights.
-
-    Raises MethodError if the lines are not a tableau.
+    r"""Reads lines of stages, one of weights, perhaps one of embedded weights; MethodError for
+    others.
 
     >>> read_pasted("0 |\n1/2 | 1/2\n---\n | 0 1").A
     (('0', '0'), ('1/2', '0'))
@@ -124,7 +123,7 @@ def _is_rule(text: str) -> bool:
 
 
 def _between_cells(text: str) -> str:
-    """Returns the separator of the cells of a table; empty for numbers side by side."""
+    """The separator of the cells of a table; empty for numbers side by side."""
     rows = [x for x in text.splitlines() if not _is_rule(x)]
     if any(x.count("&") > 1 for x in rows):
         return "&"
@@ -140,9 +139,7 @@ def _filled(row: _Row, length: int) -> _Row:
 
 
 def _line(text: str, sign: str) -> _PastedLine:
-    """Returns the numbers of a line. ``sign`` separates cells, the first of which is the node;
-    empty for blanks.
-    """
+    """``sign`` separates cells, the first of which is the node; it is empty for blanks."""
     if sign:
         node, *cells = (x.strip() for x in text.split(sign))
         while cells and not cells[-1]:
@@ -154,8 +151,8 @@ def _line(text: str, sign: str) -> _PastedLine:
 
 
 def _with_nodes(lines: list[_PastedLine]) -> Pasted:
-    """Reads lines with bars: stages have a node before the bar, weights have none. The first stage
-    of an explicit method may be its node 0 alone.
+    """Stages have a node before the bar, weights have none. The first stage of an explicit method
+    may be its node 0 alone.
     """
     first = lines[0]
     if first.node is None and len(first.row) == 1 and not first.row[0].strip("0."):
@@ -166,7 +163,7 @@ def _with_nodes(lines: list[_PastedLine]) -> Pasted:
 
 
 def _without_bars(lines: list[_PastedLine]) -> Pasted:
-    """Reads the rows of a matrix, preceded by nodes if there is one column more."""
+    """Nodes come first if there is one column more."""
     rows = [line.row for line in lines]
     longest = max(map(len, rows))
     weights = [rows.pop()]

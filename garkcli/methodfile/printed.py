@@ -17,7 +17,6 @@ from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
 Units: TypeAlias = Mapping[Number, fmpq]
-"""The largest errors of values."""
 FEWEST_DIGITS = 6
 """A number with fewer digits is taken as exact."""
 FEW_PLACES = range(3, 6)
@@ -40,23 +39,23 @@ LONG_DECIMAL = 9
 SLACK = 10
 """Units of the last place that a number may be wrong by if it was computed in that precision."""
 CARELESS = 1_000
-"""Units of the last place that careless rounding may cost."""
+"""Units of the last place."""
 FLOAT = fmpq(1, 2**53)
-"""The relative error of rounding to floats."""
+"""The relative rounding error of floats."""
 LARGEST = fmpq(2) ** 1023
 SHORTER = 100
 """A decimal whose units are finer than those of a float by this factor was not a float."""
 QUADRUPLE = fmpq(1, 2**113)
-"""The relative error of rounding to quadruple precision."""
+"""The relative rounding error of quadruple precision."""
 
 
 def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmpq]:
-    """Returns the largest error of each value if its last digit is rounded, one unit.
+    """The largest error of each value if its last digit is rounded, one unit.
 
     A decimal counts as rounded if it has more than half as many digits as the longest one of the
-    file: beside 0.7886751345948129 the number 0.25 is exact. A fraction with a long denominator may
-    be an approximant. Units are rounded up by less than a tenth. A decimal with ``many`` digits
-    always counts as rounded.
+    file: beside 0.7886751345948129 the number 0.25 is exact; one with ``many`` digits always. A
+    fraction with a long denominator may be an approximant. Units are rounded up by less than a
+    tenth.
 
     >>> from garkcli.exact.expression import parse
     >>> units = printed_units([(parse(x), fmpq(1, 2)) for x in ("0.50000000", "1/2")])
@@ -75,15 +74,15 @@ def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmp
 
 
 def left_open(printed: Printed) -> list[fmpq]:
-    """Returns the error of each number computed to its digits; 0 if it is exact."""
+    """The error of each number computed to its digits; 0 if it is exact."""
     fewest = max(FEWEST_DIGITS, fewest_digits(text for text, _ in printed))
     units = [(x, unit_of(text, fewest)) for text, x in printed]
     return [SLACK * max(unit, _float_unit(x, unit)) for x, unit in units]
 
 
 def is_short(printed: Printed) -> bool:
-    """Returns whether decimals with few places look rounded, though ``left_open`` finds them exact:
-    none has more, and there are several, or all are simple fractions; one alone of four places.
+    """Whether decimals with few places look rounded, though ``left_open`` finds them exact: none
+    has more, and there are several, or all are simple fractions; one alone of four places.
     """
     decimals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
     few = [x for x in decimals if _decimals(x) in FEW_PLACES]
@@ -94,32 +93,28 @@ def is_short(printed: Printed) -> bool:
 
 
 def _is_simple(literal: Literal) -> bool:
-    """Returns whether a decimal is rounded from a fraction of small denominator, which is rare by
-    chance.
-    """
+    """Whether a decimal is rounded from a fraction of small denominator: rare by chance."""
     unit, value = _unit(literal), Fraction(int(literal.value.p), int(literal.value.q))
     most = isqrt(int((1 / unit).floor()) // RARE)
     return 0 < abs(value.limit_denominator(most) - value) <= Fraction(int(unit.p), 2 * int(unit.q))
 
 
 def as_typed(printed: Printed) -> list[fmpq]:
-    """Returns the errors as ``left_open`` does; of short decimals one unit of their last place."""
+    """The errors as in ``left_open``; of short decimals one unit of their last place."""
     if is_short(printed):
         return [unit_of(text, FEW_PLACES.start) for text, _ in printed]
     return left_open(printed)
 
 
 def _float_unit(value: Number, unit: fmpq) -> fmpq:
-    """Returns the error of a rounded number that is a float; 0 if it is not."""
+    """The error of a rounded number that is a float; 0 if it is not."""
     if not unit or not _is_float(value, unit):
         return fmpq(0)
     return rounded_up(abs(to_ball(value))) * FLOAT
 
 
 def at_full_length(printed: Printed) -> list[fmpq]:
-    """Returns the errors, at most the median in places or digits: zeros at the end are often
-    dropped, and a wrong or superfluous digit makes a number long or short.
-    """
+    """The errors, at most the median in places or digits: zeros at the end are often dropped."""
     own = as_typed(printed)
     if is_short(printed):
         return own
@@ -135,13 +130,13 @@ def at_full_length(printed: Printed) -> list[fmpq]:
 
 
 def approximant_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
-    """Returns the errors of numbers in the source of a solver, where integers are exact.
+    """The errors of numbers of a solver, where integers are exact; ``given`` has those of computed
+    ones.
 
-    ``given`` has the errors of numbers computed from printed ones. A fraction with a long
-    denominator q may be an approximant of an irrational number, as those of Kennedy and Carpenter
-    are: good ones are within 1/q^2, and a hundred times that is admitted. A fraction that is a
-    decimal in lowest terms counts as that decimal. Fractions with shorter denominators, such as
-    161/1000 and 3/64, are exact, so that a wrong digit does not count as rounding.
+    A fraction with a long denominator q may be an approximant of an irrational number, as those of
+    Kennedy and Carpenter are: good ones are within 1/q^2, and a hundred times that is admitted. A
+    fraction that is a decimal in lowest terms counts as that decimal. Fractions with shorter
+    denominators, such as 161/1000, are exact, so that a wrong digit does not count as rounding.
 
     >>> from garkcli.exact.expression import parse
     >>> texts = ("19372/6561", "1767732205903/4055673282236", "3/64")
@@ -157,7 +152,7 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
 
 
 def careless_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
-    """Returns the errors after careless rounding of decimals: ``CARELESS`` units of the last place.
+    """The errors after careless rounding of decimals: ``CARELESS`` units of the last place.
 
     Fractions, and decimals no longer than floats, may have been computed in floats and may be wrong
     by as many units of these; longer decimals by many units of quadruple precision. A decimal that
@@ -182,14 +177,14 @@ def careless_units(printed: Printed, given: Units | None = None) -> dict[Number,
 
 
 def _is_float(value: Number, unit: fmpq) -> bool:
-    """Returns whether all digits of a decimal are those of a float."""
+    """Whether all digits of a decimal are those of a float."""
     if not isinstance(value, fmpq) or abs(value) > LARGEST:
         return False
     return abs(fmpq(*(int(value.p) / int(value.q)).as_integer_ratio()) - value) <= unit
 
 
 def _is_whole(expression: Expression) -> bool:
-    """Returns whether all numbers of an expression are integers, including 2.0 as in C."""
+    """Whether all numbers of an expression are integers, including 2.0 as in C."""
     return all(x.value.q == 1 or not x.text for x in _literals(expression))
 
 
@@ -205,15 +200,13 @@ def _approximation(value: Number) -> fmpq:
 
 
 def is_long_fraction(expression: Expression, value: Number) -> bool:
-    """Returns whether a fraction of integers may be an approximant, with a long denominator."""
+    """Whether a fraction of integers may be an approximant, with a long denominator."""
     return _is_whole(expression) and isinstance(value, fmpq) and value.q >= LONG_DENOMINATOR
 
 
 def fewest_digits(texts: Iterable[Expression]) -> int:
-    """Returns the number of digits below which a decimal is exact beside longer ones, about half of
-    the longest.
-
-    Zeros after the point count, as tables have decimals of equal length.
+    """Digits below which a decimal is exact: half of the longest; tables have equal lengths, so
+    zeros after the point count.
 
     >>> from garkcli.exact.expression import parse
     >>> fewest_digits(map(parse, ("0.25", "0.7886751345948129", "1/3")))
@@ -224,11 +217,8 @@ def fewest_digits(texts: Iterable[Expression]) -> int:
 
 
 def unit_of(expression: Expression, fewest: int) -> fmpq:
-    """Returns the error of a decimal, one unit of its last digit; of a fraction with a long
-    denominator; or of a root of a polynomial with decimals, the largest of theirs. 0 for an exact
-    number.
-
-    ``fewest`` is from ``fewest_digits``.
+    """One unit of the last digit of a decimal; for a root of a polynomial the largest of its
+    decimals; for a long fraction as an approximant; 0 if exact.
 
     >>> from garkcli.exact.expression import parse
     >>> unit_of(parse("0.25"), 9), unit_of(parse("0.25"), 2)
@@ -242,7 +232,7 @@ def unit_of(expression: Expression, fewest: int) -> fmpq:
 
 
 def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
-    """Returns the largest error of the numbers in some texts, by their own digits."""
+    """The largest error of the numbers in some texts, by their own digits."""
     fewest = fewest_digits(texts)
     units = [fmpq(0)]
     units += [unit_of(x, fewest) for text in texts for x in _literals(text)]
@@ -255,7 +245,7 @@ def _places(literal: Literal) -> int:
 
 
 def _parts(chain: Chain) -> Iterator[tuple[str, Expression]]:
-    """Yields terms or factors with their signs; a fraction of integers is one factor."""
+    """Terms or factors with their signs; a fraction of integers is one factor."""
     rest = list(zip(chain.signs, chain.operands, strict=True))
     while rest:
         sign, part = rest.pop(0)
@@ -295,7 +285,7 @@ def _unit(literal: Literal) -> fmpq:
 
 
 def _unit_in(expression: Expression, fewest: int) -> fmpq:
-    """Returns the error of an expression whose long numbers are rounded, rounded up."""
+    """The error of an expression whose long numbers are rounded, rounded up."""
     longest = [x for x in _literals(expression) if _open(x, fewest)]
     if not longest:
         return fmpq(0)

@@ -19,9 +19,8 @@ from garkcli.methodfile.numbers import Between, Coefficient
 def between_roots(
     source: Source, ends: tuple[Coefficient, Coefficient], node: Node, where: str
 ) -> Between:
-    """Returns rational numbers around two algebraic ones, and polynomials that are nonnegative
-    between those exactly between the algebraic ones: the minimal polynomials, which may have no
-    other zero there.
+    """Rational numbers around two algebraic ones, and their minimal polynomials if these have no
+    other zero there: between the former, they are nonnegative exactly between the latter.
     """
     cure = "write [1/4, 1] or [0, sqrt(2)/2], the smaller end first"
     try:

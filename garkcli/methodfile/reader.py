@@ -29,9 +29,7 @@ _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the 
 
 
 class ContentReader(NumbersReader):
-    """Reads the coefficients of one method of a file. ``shaped`` is the tableau of its ``unknown``,
-    ``tolerance`` that of the file, None if its coefficients are exact.
-    """
+    """``shaped`` is the tableau of ``unknown``; ``tolerance`` is None for exact coefficients."""
 
     def __init__(self, numbers: Numbers, opened: Open) -> None:
         super().__init__(numbers)
@@ -40,7 +38,6 @@ class ContentReader(NumbersReader):
         self.tolerance: Tolerance | None = None
 
     def read(self, root: MappingNode, entries: Entries) -> d.Description | None:
-        """Returns the description of a method from its keys; None after a fault."""
         is_conjugate = bool(self._value("conjugate", entries))
         form = self._form(root, entries)
         if form is None:
@@ -71,7 +68,7 @@ class ContentReader(NumbersReader):
         return d.Description(form, content, place, structure, is_conjugate)
 
     def _form(self, root: Node, entries: Entries) -> d.Form | Literal["unknown"] | None:
-        """Returns the form of the coefficients; A, b and c at the top are those of a tableau."""
+        """The form of the coefficients; A, b and c at the top are those of a tableau."""
         given = FORM.given(entries)
         if not given:
             begun = [home.key for key, home in elsewhere().items() if key in keys_of(root)]
@@ -84,7 +81,7 @@ class ContentReader(NumbersReader):
         return None
 
     def _structure(self, form: d.Form, entries: Entries) -> d.Structure:
-        """Returns the structure of the problem; reports one that does not go with the form."""
+        """Reports a structure that does not go with the form."""
         word = self._value("structure", entries)
         is_of_flows = form == "splitting" and "of" not in keys_of(entries[form])
         is_split = is_of_flows or (self.shaped is not None and form == "prk")
@@ -105,7 +102,6 @@ class ContentReader(NumbersReader):
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _inside(self, node: Node, where: str) -> d.Description | None:
-        """Reads a method within a construction, which may be one itself."""
         reader = ContentReader(self.numbers, self._open)
         reader.tolerance = self.tolerance
         if isinstance(node, MappingNode) and "family" in keys_of(node):
@@ -154,18 +150,16 @@ _READERS = {
         ("derivatives", "derivatives", "derivatives"),
     )
 }
-"""The functions that read rare forms; their modules are imported when they are needed."""
+"""The functions that read rare forms, imported when they are needed."""
 _ABOUT = (
     *("gark", "name", "description", "aliases", "reference", "tolerance", "expect"),
     "parameters",
 )
-"""The keys besides the coefficients, which are read first."""
+"""Keys that are read before the coefficients."""
 
 
 class MethodReader(NumbersReader):
-    """Reads one file. ``inside`` has the methods of the catalogue that are being read and refer to
-    it.
-    """
+    """Reads one file; ``inside`` has the methods being read that refer to it."""
 
     def __init__(
         self, source: Source, settings: Mapping[str, str], inside: tuple[str, ...] = ()
@@ -230,7 +224,6 @@ class MethodReader(NumbersReader):
         return same_for_all(inside)
 
     def _refuse_unused(self, unknowns: Iterable[str]) -> None:
-        """Reports parameters that are neither unknowns of the shape nor used."""
         for name, node in self.numbers.places.items():
             if name not in self.numbers.used:
                 message = f"parameters: {name} is not an unknown of the shape, and not used"
@@ -242,9 +235,7 @@ class MethodReader(NumbersReader):
         return self.content.shaped
 
     def _opened(self, name: str) -> Opened:
-        """Returns a method of the catalogue that this one is made from. Raises MethodFileError if
-        there is none, or if it refers to itself.
-        """
+        """A method of the catalogue; MethodFileError if there is none, or it refers to itself."""
         from garkcli.methodfile.constructed.parts import Opened
         from garkcli.methodfile.naming import read_argument
 

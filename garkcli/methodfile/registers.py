@@ -97,9 +97,7 @@ LOW_STORAGE = g.mapping(
 
 
 class RegistersText(OwnContent):
-    """A method in the form used by codes with few registers. ``scheme`` is ``shu-osher``, or the
-    form of ``low-storage``; ``numbers`` are its rows and matrices, in the order of the scheme.
-    """
+    """``scheme`` is ``shu-osher``, or the form of ``low-storage``; ``numbers`` are in its order."""
 
     scheme: str
     numbers: tuple[Row | Rows, ...]
@@ -123,7 +121,7 @@ def shu_osher(at: NumbersReader, node: Node) -> RegistersText | None:
 
 
 def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
-    """Returns whether there is a first row for the initial value, which is empty or zero."""
+    """Whether there is a first row for the initial value, which is empty or zero."""
 
     def is_zero(node: Node) -> bool:
         row = node.value[0] if isinstance(node, SequenceNode) and node.value else node

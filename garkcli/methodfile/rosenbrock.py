@@ -1,4 +1,4 @@
-"""The form ``rosenbrock``: Rosenbrock and W-methods as in papers, or transformed as in programs."""
+"""The form ``rosenbrock``: as in papers, or transformed as in programs."""
 
 from __future__ import annotations
 
@@ -157,8 +157,6 @@ ROSENBROCK = g.mapping(
 
 
 class RosenbrockText(description.OwnContent):
-    """A Rosenbrock or W-method as in papers, or of one colour transformed as in programs."""
-
     alpha: tuple[tuple[Rows, ...], ...]
     gamma: tuple[tuple[Rows, ...], ...]
     b: Rows
@@ -173,7 +171,7 @@ class RosenbrockText(description.OwnContent):
         return [""] * len(self.b) if len(self.b) > 1 else ()
 
     def places(self) -> Iterator[description.Place]:
-        """Yields the numbers; those of one colour are all alike."""
+        """The numbers; those of one colour are all alike."""
         yield from description.places_of([self.error or ()], 0, "embedded")
         for l in range(len(self.b) if len(self.b) > 1 else 0):
             for of_colours in (self.alpha, self.gamma):
@@ -203,9 +201,7 @@ class RosenbrockText(description.OwnContent):
         return description.Made(replace(rosenbrock_method, c=c, d=d_).tableau, finish=finish)
 
     def _finished(self, values: Values, size: int, gamma: Matrix, further: Further) -> Further:
-        """Returns the further weights of a transformed method, with those from ``e``; ``size`` is
-        the number of colours of its tableau.
-        """
+        """With the weights from ``e``."""
         if self.error is not None:
             pairs = zip(values.vector(self.b[0]), values.vector(self.error), strict=True)
             row = tuple(m - e for m, e in pairs)
@@ -228,7 +224,7 @@ def rosenbrock(at: NumbersReader, node: Node) -> RosenbrockText | None:
 def _text(
     at: NumbersReader, node: Node, entries: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
 ) -> RosenbrockText | None:
-    """Returns the method after a check of its sizes; ``names`` are those of its coefficients."""
+    """The method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
     b: Row = entries[name_of_b]
     stages = len(b)

@@ -23,9 +23,7 @@ from garkcli.tableau.box import Box
 
 
 class Filled(Frozen, eq=False):
-    """A family with values for its unknowns. ``given`` says of each rounded number whether it is
-    the value of an unknown.
-    """
+    """``given`` says which rounded numbers are values of unknowns."""
 
     rounded: RoundedTableau
     given: tuple[bool, ...]
@@ -37,8 +35,6 @@ class Filled(Frozen, eq=False):
 
 
 class RoundedFamily(Frozen, eq=False):
-    """A family with rounded numbers, for ``garkcli.design.within``."""
-
     family: FamilyFile
 
     @property
@@ -64,11 +60,8 @@ class RoundedFamily(Frozen, eq=False):
 
 
 def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
-    """Returns a family with values for its unknowns.
-
-    ``digits`` decimals of them are written, and each nonzero one may be wrong by ``width``. Raises
-    MethodFileError if they do not make a method, MethodError if stages are joined that would differ
-    with other last digits.
+    """Values are written to ``digits`` decimals, nonzero ones ± ``width``. Raises MethodFileError
+    if they do not make a method, MethodError if joined stages would differ with other last digits.
     """
     texts = {name: in_decimals(x, digits) for name, x in values.items()}
     reader, description = described(family.text, family.source, {**family.settings, **texts})
@@ -93,9 +86,7 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
 
 
 def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
-    """Returns a family with other numbers in place of the rounded ones. ``shifts`` are the changes
-    in units of the radii; if empty there are none. ``bits`` is the precision of irrational numbers.
-    """
+    """The rounded numbers move by ``shifts`` radii; irrational ones have so many ``bits``."""
 
     def moved(rounded: Rounded) -> Mapping[int, Expression]:
         printed, radii = rounded.numbers, rounded.radii

@@ -25,18 +25,15 @@ from garkcli.tableau.box import Box, rational_or_ball, to_points
 from garkcli.tableau.embedded import as_colours
 
 INDETERMINATE = "_number"
-"""The prefix of indeterminates for known numbers."""
 _Rounded: TypeAlias = tuple[Coefficient, nodes.Expression, Number]
-"""A rounded number, in an entry."""
 
 
 def rounded_of(
     built: Builder[Values], numbers: Numbers, content: Content, tolerance: Tolerance
 ) -> Rounded:
-    """Returns the rounded numbers of a file: each decimal in it, and each fraction with a long
-    denominator. Short fractions are exact, and roots of exact numbers.
-
-    If there are none, but one tolerance for the whole file, each nonzero coefficient is rounded.
+    """Each decimal in a file, and each fraction with a long denominator; short fractions are exact,
+    and roots of exact numbers. If there are none, but one tolerance for the whole file, each
+    nonzero coefficient is rounded.
     """
     named = {id(x) for known in numbers.parameters.values() for x in _all_parts(known.expression)}
     tolerances = NumberTolerances(tolerance, content, numbers.entries)
@@ -44,11 +41,7 @@ def rounded_of(
 
 
 def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of: Radii) -> Box:
-    """Returns all methods that a file may stand for, with other radii than those of its
-    ``tolerance``.
-
-    ``radii_of`` returns the errors of the rounded numbers as written, 0 for exact ones.
-    """
+    """All methods that a file may stand for; ``radii_of`` gives 0 for exact numbers."""
     rounded = rounded_of(built, numbers, content, same_for_all(ONE))
     radii = radii_of(list(zip(rounded.written, rounded.numbers, strict=True)))
     kept = [k for k, radius in enumerate(radii) if radius]
@@ -64,10 +57,8 @@ def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of:
 
 
 class Rounded:
-    """The rounded numbers of a file and their places.
-
-    A number is a decimal, perhaps under a root; an expression that is a long fraction; or a root of
-    a polynomial with decimals, which has the errors of all of these.
+    """A rounded number is a decimal, perhaps under a root; an expression that is a long fraction;
+    or a root of a polynomial with decimals, which has the errors of all of these.
     """
 
     def __init__(
@@ -126,9 +117,7 @@ class Rounded:
         self.is_given = tuple(key in given for key in kept)
 
     def refuse_keys(self, source: Source) -> None:
-        """Reports keys of ``tolerance`` that do not apply to a number. Raises MethodFileError if
-        there are some.
-        """
+        """MethodFileError for keys of ``tolerance`` that apply to no number."""
         for node, message, cure, code in self._tolerances.refusals(self.keys):
             source.fault(node, message, cure, code=code)
         source.close()
@@ -140,8 +129,6 @@ class Rounded:
         return Box(self.numbers, self.radii, self.maker(text))
 
     def maker(self, text: PartText) -> Callable[[Sequence[Any]], Any]:
-        """Returns a function that makes the method from other numbers."""
-
         def make(numbers: Sequence[Any]) -> Any:
             with ctx.workprec(max(ctx.prec, 64)):
                 return self.made(text, numbers)
@@ -149,12 +136,12 @@ class Rounded:
         return make
 
     def literals(self, numbers: Sequence[fmpq]) -> Mapping[int, nodes.Expression]:
-        """Returns other numbers by the identity of the expressions that they replace."""
+        """Other numbers by the identity of the expressions that they replace."""
         return {key: nodes.Literal(numbers[place]) for key, place in self.places.items()}
 
     def indeterminates(self) -> Mapping[int, nodes.Expression]:
-        """Returns names for the rounded numbers, including those in sums that are 0 as printed, and
-        for the roots of known numbers, by the identity of the expressions.
+        """Names for the rounded numbers, including those in sums that are 0 as printed, and for
+        roots of known ones.
         """
         names: dict[int, nodes.Expression] = {}
         for entry in self._coefficients:
@@ -172,8 +159,8 @@ class Rounded:
     def changer(
         instead: Mapping[int, nodes.Expression],
     ) -> Callable[[nodes.Expression], nodes.Expression]:
-        """Returns a function that replaces expressions by identity. A root of a polynomial with
-        decimals is replaced by a decimal with as many digits as the precision gives.
+        """A root of a polynomial with decimals becomes a decimal with as many digits as the
+        precision.
         """
         known: dict[int, nodes.Expression] = {}
 
@@ -203,7 +190,6 @@ class Rounded:
         return change
 
     def made(self, text: PartText, numbers: Sequence[Any]) -> Any:
-        """Returns the method with other numbers, its further weights as colours."""
         builder = Builder(text, _Moved(self._coefficients, self, numbers))
         return to_points(as_colours(builder.tableau, builder.further))
 
@@ -228,7 +214,7 @@ def _copied(expression: nodes.Expression, kept: Container[int]) -> nodes.Express
 
 
 def is_of_unknowns(expression: nodes.Expression, given: Container[int]) -> bool:
-    """Returns whether an expression contains unknowns, or literals in their place."""
+    """Whether an expression contains unknowns, or literals in their place."""
     if isinstance(expression, nodes.Name) or id(expression) in given:
         return True
     return any(is_of_unknowns(x, given) for x in nodes.parts(expression))
@@ -252,8 +238,6 @@ def _rounded_in(
 
 
 class _Moved(Values):
-    """The values of the coefficients with other numbers in place of the rounded ones."""
-
     def __init__(
         self, coefficients: Sequence[Coefficient], rounded: Rounded, numbers: Sequence[Any]
     ) -> None:
@@ -269,7 +253,6 @@ class _Moved(Values):
             self._values[id(entry)] = rational_or_ball(value) if moved is None else moved
 
     def _value(self, expression: nodes.Expression) -> Any:
-        """The value of an expression with other numbers; None without any."""
         key = id(expression)
         if key not in self._found:
             self._found[key] = self._moved(expression)

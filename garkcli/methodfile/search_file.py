@@ -13,11 +13,7 @@ from garkcli.methodfile.family import FamilyFile, loads_family
 
 
 class FileSearch(Frozen):
-    """A search, described by text alone.
-
-    ``settings`` are names and values of parameters; ``order`` is the wanted one, of the method, its
-    conjugate or its pair; ``objective`` is minimised, if given.
-    """
+    """``order`` is that of the method, its conjugate or its pair."""
 
     text: str
     source: str
@@ -35,7 +31,7 @@ class FileSearch(Frozen):
 
     @property
     def family(self) -> FamilyFile:
-        """The family, read once in each process. Raises MethodError for rounded coefficients."""
+        """Read once in each process; MethodError for rounded coefficients."""
         return _family(self.text, self.source, self.settings)
 
     @property

@@ -26,16 +26,12 @@ _OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
 class UnknownLayout(Frozen):
     """A tableau whose entries are zeros, names of unknowns and sums of them.
 
-    ``kind`` is the form of its method file.
-
     ``A`` has a matrix for each colour, or the matrices of another form: α and γ of a Rosenbrock
     method; Ā of a Nyström method, and A if g depends on velocities; α and β of Shu and Osher, a row
     for each value except the first; Γ⁰ and Γ¹ of a multirate coupling, a row for each step from one
-    node to the next.
-
-    ``b`` and ``embedded`` have a row for each colour, or one for all of an ark; b̄ and b of a
-    Nyström method; none for Shu and Osher and for couplings. ``c`` has the nodes of a Nyström
-    method, or those of a coupling and the end of the step.
+    node to the next. ``b`` and ``embedded`` have a row for each colour, or one for all of an ark; b̄
+    and b of a Nyström method; none for Shu and Osher and for couplings. ``c`` has the nodes of a
+    Nyström method, or those of a coupling and the end of the step.
     """
 
     kind: Literal["tableau", "ark", "prk", "rosenbrock", "nystrom", "shu-osher", "multirate"]
@@ -54,9 +50,7 @@ class UnknownLayout(Frozen):
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> UnknownLayout:
-        """Returns the layout with changed entries in its last matrix. ``entry`` maps a row, a
-        column (from 0) and the text there to the new text.
-        """
+        """The layout with ``entry(row, column, text)``, from 0, in its last matrix."""
         *others, last = self.A
         changed = tuple(
             tuple(entry(i, j, text) for j, text in enumerate(row)) for i, row in enumerate(last)
@@ -65,7 +59,7 @@ class UnknownLayout(Frozen):
 
 
 def full_layout(stages: int) -> UnknownLayout:
-    """Returns the layout with an unknown for each entry, named by its place."""
+    """An unknown for each entry, named by its place."""
     join = _join(stages)
     numbers = range(1, stages + 1)
     rows = tuple(tuple(f"a{join}{i}{join}{j}" for j in numbers) for i in numbers)
@@ -73,12 +67,12 @@ def full_layout(stages: int) -> UnknownLayout:
 
 
 def _join(stages: int) -> str:
-    """Returns the separator of numbers in names, needed if they may have two digits."""
+    """The separator of numbers in names, needed if they may have two digits."""
     return "" if stages < 10 else "_"
 
 
 def with_embedded(layout: UnknownLayout) -> UnknownLayout:
-    """Returns the layout with an unknown for each embedded weight: bh1 beside b1."""
+    """An unknown for each embedded weight: bh1 beside b1."""
     join, stages = _join(layout.stages), range(1, layout.stages + 1)
     if layout.kind == "multirate":
         return _with_embedded_rows(layout)
@@ -87,11 +81,10 @@ def with_embedded(layout: UnknownLayout) -> UnknownLayout:
 
 
 def with_nodes(layout: UnknownLayout) -> UnknownLayout:
-    """Returns the layout with the node c_i in place of the first entry of row i.
+    """The node c_i replaces the first entry of row i.
 
     If that entry is an unknown that occurs nowhere else, it is the node minus the rest of the row:
-    the methods are the same, and nodes are what people choose. The sum d_i of a row of γ is used
-    likewise.
+    the methods are the same, and nodes are what people choose. So is the sum d_i of a row of γ.
     """
     if layout.kind in {"prk", "nystrom", "shu-osher", "multirate"}:
         return layout
@@ -150,7 +143,7 @@ def _imex(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _lower(weights: tuple[str, ...], reach: int) -> Texts:
-    """Returns rows of weights up to the diagonal, or before it."""
+    """Rows of weights up to the diagonal, or before it."""
     stages = len(weights)
     ends = (i + reach for i in range(stages))
     return tuple((*weights[:end], *(ZERO,) * (stages - end)) for end in ends)
@@ -171,7 +164,7 @@ def _low_storage(layout: UnknownLayout) -> UnknownLayout:
     s, join = layout.stages, _join(layout.stages)
 
     def weight(i: int, j: int) -> str:
-        """Returns the weight of stage j after register step i, both counted from 1."""
+        """The weight of stage j after register step i, both counted from 1."""
         terms = [
             "*".join([f"B{join}{m}", *(f"A{join}{k}" for k in range(j + 1, m + 1))])
             for m in range(j, i + 1)
@@ -184,7 +177,7 @@ def _low_storage(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _nystrom(layout: UnknownLayout) -> UnknownLayout:
-    """Returns Ā below the diagonal, and the nodes 0, c2, c3, …"""
+    """Ā below the diagonal, and the nodes 0, c2, c3, …"""
     join = _join(layout.stages)
     Abar = tuple(tuple(x.replace("a", "abar", 1) for x in row) for row in _explicit(layout).A[0])
     bbar = tuple(x.replace("b", "bbar", 1) for x in layout.b[0])
@@ -193,7 +186,6 @@ def _nystrom(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _velocities(layout: UnknownLayout) -> UnknownLayout:
-    """Adds A below the diagonal, whose row sums are the nodes."""
     if layout.kind != "nystrom":
         message = "velocities are those of a nystrom shape"
         raise MethodError(message, "begin with nystrom", code="not-together")
@@ -206,7 +198,7 @@ def _velocities(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _rest(total: str, others: Iterable[str]) -> str:
-    """Returns the text of a number minus others; zeros are left out."""
+    """A number minus others; zeros are left out."""
     terms = [x for x in others if x != ZERO]
     if total == ZERO and terms:
         return f"-{' - '.join(terms)}"
@@ -214,7 +206,6 @@ def _rest(total: str, others: Iterable[str]) -> str:
 
 
 def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
-    """Sets the last rows of Ā and A to b̄ and b, and the last node to 1."""
     if layout.stages == 1:
         message = "stiffly-accurate asks for a last node 1, which one stage does not have"
         raise MethodError(message, "take two stages", code="not-together")
@@ -228,8 +219,8 @@ def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _shu_osher(layout: UnknownLayout) -> UnknownLayout:
-    """Returns α and β, whose row i combines the values and slopes before value i + 1; the first
-    entry in each row of α is 1 minus the others.
+    """Row i combines values and slopes before value i + 1; the first entry of α is 1 minus the
+    others.
     """
     s, join = layout.stages, _join(layout.stages)
 
@@ -244,8 +235,8 @@ def _shu_osher(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _mri(layout: UnknownLayout) -> UnknownLayout:
-    """Returns an explicit coupling with a forcing that is linear in time. Linear slow solutions are
-    exact: the rows of Γ⁰ sum to the differences of the nodes, those of Γ¹ to zero.
+    """An explicit coupling with a forcing that is linear in time. Linear slow solutions are exact:
+    the rows of Γ⁰ sum to the differences of the nodes, those of Γ¹ to zero.
 
     A. Sandu, *A class of multirate infinitesimal GARK methods*, SIAM J. Numer. Anal. 57, 2019.
     """
@@ -263,7 +254,7 @@ def _mri(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _with_embedded_rows(layout: UnknownLayout) -> UnknownLayout:
-    """Adds embedded last rows to a coupling, with the row sums of the last ones."""
+    """The embedded rows have the row sums of the last ones."""
     s, join = layout.stages, _join(layout.stages)
     rows = []
     for power, total in enumerate((_rest("1", [layout.c[-2]]), ZERO), start=1):
@@ -375,9 +366,7 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
 
 
 class TableauShape(Frozen):
-    """A shape of tableaus. ``applied`` returns a layout with the shape; a shape that ``begins``
-    determines the colours and comes first.
-    """
+    """A shape that ``begins`` determines the colours and comes first."""
 
     name: str
     summary: str
@@ -425,9 +414,7 @@ SHAPES = {
 
 
 def layout_of(stages: int, names: Sequence[str]) -> UnknownLayout:
-    """Returns the tableau of unknowns with some shapes, applied in their order.
-
-    Raises MethodError if they exclude each other.
+    """Shapes apply in their order; MethodError if they exclude each other.
 
     >>> layout_of(2, ["sdirk"]).A
     ((('gamma', '0'), ('c2 - gamma', 'gamma')),)
@@ -452,10 +439,9 @@ _AFTER: dict[str, tuple[str, ...]] = {
     "shu-osher": (),
     "multirate": (),
 }
-"""The shapes that go with methods of a form of their own."""
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20
-"""The largest number of stages; twelve unknowns without structure are too many."""
+"""Twelve unknowns without structure are too many."""
 
 
 def _shape(at: Any, node: Node, where: str) -> str | None:
@@ -486,12 +472,9 @@ UNKNOWN = g.mapping(
     ),
     form=FORM,
 )
-"""The number of stages, and the shape."""
 
 
 class Shaped(Frozen):
-    """The tableau for ``unknown``, the equivalent keys, and the place in the file."""
-
     layout: UnknownLayout
     entries: Entries
     place: Extent
@@ -502,9 +485,7 @@ class Shaped(Frozen):
 
 
 def shaped(at: NumbersReader, key: Node, node: Node) -> Shaped | None:
-    """Returns the tableau for ``unknown``; None after a fault. ``key`` is the node of the word
-    ``unknown``, ``node`` that of its value.
-    """
+    """The tableau for ``unknown``, at the node ``key``; None after a fault."""
     entries: g.ReadMapping | None = UNKNOWN.read(at, node, "unknown")
     if entries is None or not entries.is_right:
         return None
@@ -554,7 +535,6 @@ def _keys(layout: UnknownLayout) -> dict[str, Any]:
 
 
 def spelled(layout: UnknownLayout) -> str:
-    """Returns the text of the equivalent method file."""
     lines = []
     for key, value in _keys(layout).items():
         if isinstance(value, dict):

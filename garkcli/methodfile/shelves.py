@@ -1,7 +1,4 @@
-"""The places of named methods: the user's folders, the package, and other packages.
-
-A shelf has its methods by the names of their files, and by their aliases.
-"""
+"""The places of named methods: the user's folders, the package, and other packages."""
 
 from __future__ import annotations
 
@@ -31,7 +28,6 @@ if TYPE_CHECKING:
 PATH_VARIABLE = "GARK_PATH"
 """The environment variable with the user's folders, like ``PATH``."""
 GROUP = "gark.catalogue"
-"""The group of entry points whose values are packages with method files."""
 INDEX = "catalogue/index.json"
 DATA = "catalogue/data"
 _DASHES = dict.fromkeys([*range(0x2010, 0x2016), 0x2212], "-")
@@ -40,7 +36,7 @@ _NO_LETTERS = r"[\W_]+"
 
 @lru_cache(4_096)
 def key_of(name: str) -> str:
-    """Returns a name for comparison: lower case, with hyphens between the words.
+    """A name for comparison.
 
     >>> key_of("Dormand_Prince 5"), key_of("Runge–Kutta")
     ('dormand-prince-5', 'runge-kutta')
@@ -50,24 +46,17 @@ def key_of(name: str) -> str:
 
 
 def letters_of(name: str) -> str:
-    """Returns the letters and digits of a name for comparison; a star counts as a word.
+    """Letters and digits; a star counts as a word.
 
-    >>> letters_of("ARK4(3)6L[2]SA"), letters_of("ARS-222") == letters_of("ARS(2,2,2)")
-    ('ark436l2sa', True)
-    >>> letters_of("lobatto-iiic*-2")
-    'lobattoiiicstar2'
+    >>> letters_of("ARK4(3)6L[2]SA"), letters_of("lobatto-iiic*-2")
+    ('ark436l2sa', 'lobattoiiicstar2')
     """
     spelt = unicodedata.normalize("NFC", name).casefold().replace("*", "star")
     return re.sub(_NO_LETTERS, "", spelt)
 
 
 class Shelved(Frozen):
-    """A method file with a name.
-
-    ``name`` is that of the file without suffix, ``folder`` the folder below the root of its shelf,
-    or empty; ``place`` and ``shelf`` are for messages; ``read`` returns its text, or raises
-    MethodFileError.
-    """
+    """``folder`` is below the root of its shelf; ``read`` may raise MethodFileError."""
 
     name: str
     folder: str
@@ -89,7 +78,7 @@ def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) ->
 
 
 class Shelf(ABC):
-    """A place with named methods; ``label`` names it in messages."""
+    """``label`` names it in messages."""
 
     def __init__(self, label: str) -> None:
         self.label = label
@@ -107,13 +96,13 @@ class Shelf(ABC):
 
     @cached_property
     def spellings(self) -> Found:
-        """The methods by the letters and digits of their names and aliases."""
+        """By the letters and digits of names and aliases."""
         return _by(
             lambda x: map(letters_of, (x.name, *self.called(x))), chain(*self.methods.values())
         )
 
     def called(self, method: Shelved) -> Sequence[str]:
-        """Returns the aliases of a method; none if its file cannot be read."""
+        """No aliases if the file cannot be read."""
         try:
             return aliases_of(method.read(), method.place)
         except MethodFileError:
@@ -124,8 +113,6 @@ class Shelf(ABC):
 
 
 class OwnFolder(Shelf):
-    """A folder with method files."""
-
     def _shelved(self) -> Iterator[Shelved]:
         for path in files_below(self.label):
             if not path.endswith(SUFFIX):
@@ -140,7 +127,7 @@ def _text_of(path: str) -> Callable[[], str]:
 
 
 class Package(Shelf):
-    """The methods that come with the program, from their index."""
+    """The methods of gark, from their index."""
 
     @cached_property
     def _index(self) -> str:
@@ -151,7 +138,7 @@ class Package(Shelf):
         return {x["name"]: x for x in json.decode(self._index)["methods"]}
 
     def named(self, key: str) -> Sequence[Shelved]:
-        """Returns the method of a name; no other entry of the index is read."""
+        """No other entry of the index is read."""
         start = self._index.find(f'\n{{"name": "{key}", ') + 1
         if not start or '"' in key:
             return ()
@@ -174,9 +161,7 @@ class Package(Shelf):
 
 
 def _resource(file: str) -> bytes:
-    """Returns a file of this package, which may be within an archive. ``importlib.resources`` takes
-    as long to import as a method to check.
-    """
+    """It may be in an archive; ``importlib.resources`` takes as long to import as a check."""
     from pkgutil import get_data
 
     data = get_data("garkcli", file)
@@ -185,7 +170,7 @@ def _resource(file: str) -> bytes:
 
 
 class OtherPackage(Shelf):
-    """Another package with method files; ``label`` is the name of its entry point."""
+    """``label`` is the name of its entry point."""
 
     def __init__(self, label: str, root: Traversable) -> None:
         super().__init__(label)
@@ -215,7 +200,7 @@ def package() -> Package:
 
 
 def own_folders() -> list[Shelf]:
-    """Returns the existing folders of ``GARK_PATH``, in its order."""
+    """The existing folders of ``GARK_PATH``, in its order."""
     given = os.environ.get(PATH_VARIABLE)
     if not given:
         return []
@@ -224,18 +209,14 @@ def own_folders() -> list[Shelf]:
 
 @cache
 def _points(_: tuple[str, ...]) -> list[EntryPoint]:
-    """Returns the entry points of the group on a search path. They are cached, because the search
-    takes longer than a check and is repeated for each unknown name.
-    """
+    """Cached: the search takes longer than a check, and follows each unknown name."""
     from importlib.metadata import entry_points
 
     return sorted(entry_points(group=GROUP), key=lambda x: x.name)
 
 
 def others() -> list[Shelf]:
-    """Returns the packages with an entry point of the group, by name. Raises MethodFileError if one
-    cannot be imported.
-    """
+    """By entry points; MethodFileError if one cannot be imported."""
     from importlib.resources import files
 
     shelves: list[Shelf] = []

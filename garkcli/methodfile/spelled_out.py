@@ -1,6 +1,4 @@
-"""Methods that are spelled out, as Butcher tableaus or in the form ``tableau``, and the further
-weights ``embedded`` and ``dense``, which are beside b in every form, and ``predictor``.
-"""
+"""Butcher tableaus, the form ``tableau``, and the weights beside b: embedded, dense, predictor."""
 
 from __future__ import annotations
 
@@ -64,7 +62,7 @@ _PAGE = "docs/method-file.md#embedded-and-dense-further-weights"
 
 
 def _all_of(*kinds: g.Schema) -> g.ValueKind:
-    """Returns a kind with one of several schemas; its value is read once the colours are known."""
+    """The value is read once the colours are known."""
     return g.ValueKind(lambda: {"anyOf": list(kinds)})
 
 
@@ -127,7 +125,6 @@ PREDICTOR_KEY = g.Key(
 
 
 def with_coefficients(*keys: g.Key, form: str) -> g.ValueKind:
-    """Returns the kind of a mapping with these keys, with A and b required."""
     also = {key.name: key.also for key in TABLEAU_KEYS}
     needed = [
         replace(key, is_needed=key.name in {"A", "b"}, also=also.get(key.name, ())) for key in keys
@@ -136,7 +133,6 @@ def with_coefficients(*keys: g.Key, form: str) -> g.ValueKind:
 
 
 def _elsewhere() -> Mapping[str, str | Home]:
-    """Returns advice about keys in a Butcher tableau that belong elsewhere."""
     # declared where this tableau is a part of files
     return {**g.declared("garkcli.methodfile.file_keys", "elsewhere")(), **_SAID_BY_B}
 
@@ -180,7 +176,7 @@ def entries_of(number: int) -> str:
 
 
 def _spelled(node: Node, wanted: int, each: str) -> str:
-    """Returns the cure for one ? in place of a list of them; empty otherwise."""
+    """The cure for one ? in place of a list of them; empty otherwise."""
     if not isinstance(node, ScalarNode) or node.value != UNKNOWN:
         return ""
     return f"write [{', '.join([repr(UNKNOWN)] * wanted)}], one per {each}"
@@ -196,12 +192,7 @@ def one_each(
     wanted: int,
     cure: str,
 ) -> bool:
-    """Returns whether there is one item for each; otherwise reports, for instance, ``b has 2 rows
-    for 3 colours``.
-
-    ``noun`` is what the items are, such as ``row``; ``each`` what they belong to, such as
-    ``colour``; ``wanted`` the number of the latter.
-    """
+    """Reports ``b has 2 rows for 3 colours`` if ``noun`` is row and ``each`` is colour."""
     count = len(items)
     if count != wanted:
         cure = _spelled(node, wanted, each) or cure
@@ -212,14 +203,13 @@ def one_each(
 
 
 def depth_of_lists(node: Node) -> int:
-    """Returns how deep lists are nested; 0 for a scalar."""
     if not isinstance(node, SequenceNode):
         return 0
     return 1 + max(map(depth_of_lists, node.value), default=0)
 
 
 def _holds_a_number(node: Node) -> bool:
-    """Returns whether nested lists contain anything but null."""
+    """Whether nested lists contain anything but null."""
     if isinstance(node, SequenceNode):
         return any(map(_holds_a_number, node.value))
     return not is_null(node)
@@ -232,7 +222,7 @@ def _has_an_empty_row(node: Node) -> bool:
 
 
 def colours_in(at: NumbersReader, node: Node, name: str) -> list[Node] | None:
-    """Returns the items of a list, one for each colour; None, with a fault, if too many."""
+    """The items of a list, one for each colour; None, with a fault, if too many."""
     items = at.source.items(node, name)
     if isinstance(node, SequenceNode) and not items:
         at.source.fault(node, f"{name} is empty", "give one for each colour", code="empty")
@@ -289,7 +279,7 @@ def nodes_fit(at: NumbersReader, node: Node, name: str, c: Row, stages: int) -> 
 
 
 def tableau(at: NumbersReader, node: Node, linear: Node | None) -> d.TableauText | None:
-    """Reads the form ``tableau``; ``linear`` lists its linear colours."""
+    """``linear`` lists its linear colours."""
     entries: g.ReadMapping | None = TABLEAU.read(at, node, "tableau")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
@@ -297,7 +287,7 @@ def tableau(at: NumbersReader, node: Node, linear: Node | None) -> d.TableauText
 
 
 def tableau_of(at: NumbersReader, entries: Entries, linear: Node | None) -> d.TableauText | None:
-    """Reads A, b and c of one colour or of several, distinguished by the nesting of A."""
+    """One colour or several, distinguished by the nesting of A."""
     A, b = entries["A"], entries["b"]
     depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
     # [[null]] may be a row of blocks as well; [[]] is the short form of [[0]]
@@ -349,7 +339,7 @@ def _predictor(at: NumbersReader, node: Node, stages: int) -> d.PredictorText | 
 
 
 def _powers(at: NumbersReader, node: Node, where: str, stages: int) -> tuple[Rows, ...]:
-    """Returns the matrices of 1, r, r², …, or that of 1 alone; none after a fault."""
+    """The matrices of 1, r, r², …, or that of 1 alone; none after a fault."""
     is_one = depth_of_lists(node) < 3
     items = [node] if is_one else at.source.items(node, where)
     if len(items) > MAX_POWERS:
@@ -440,7 +430,7 @@ def _linear(at: NumbersReader, node: Node | None, colours: int) -> tuple[int, ..
 
 
 def names_beside(name_of_b: str) -> tuple[str, str]:
-    """Returns the names of embedded weights and dense output in messages, from that of the weights.
+    """Names for messages, from that of the weights.
 
     >>> names_beside("b^{2}"), names_beside("q.b")
     (('embedded^{2}', 'dense^{2}'), ('q.embedded', 'q.dense'))
@@ -452,9 +442,6 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
 def further_of_method(
     at: NumbersReader, entries: Entries, stages: int, names: tuple[str, str] = d.BESIDE
 ) -> d.FurtherText:
-    """Reads the further weights of one colour. ``entries`` are beside b, which has ``stages``
-    weights; ``names`` are those of ``embedded`` and ``dense`` in messages.
-    """
     embedded = dense = None
     if "embedded" in entries and not _is_of_several(at, entries["embedded"], names[0], 2):
         embedded = _weights(at, entries["embedded"], names[0], stages)
@@ -468,9 +455,7 @@ def further_of_method(
 def further_of_colours(
     at: NumbersReader, entries: Entries, stages: Sequence[int], is_shared: bool = False
 ) -> tuple[d.FurtherText, ...]:
-    """Reads the further weights of several colours. ``is_shared`` allows a single row, or block,
-    for all colours.
-    """
+    """``is_shared`` allows a single row, or block, for all colours."""
     rows: dict[int, Row | None] = {}
     blocks: dict[int, Rows | None] = {}
     if "embedded" in entries:
@@ -486,7 +471,7 @@ def further_of_colours(
 def _a_colour(
     at: NumbersReader, node: Node, where: str, stages: Sized, is_shared: bool, depth: int
 ) -> Iterator[tuple[int, Node, str]]:
-    """Yields the item of each colour, ``depth`` lists deep, and its name in messages."""
+    """The item of each colour, ``depth`` lists deep, and its name in messages."""
     colours, is_one = len(stages), _depth(node) == depth
     if is_shared and is_one:
         yield from ((l, node, where) for l in range(colours))
@@ -526,7 +511,6 @@ def _weights(at: NumbersReader, node: Node, where: str, stages: int) -> Row | No
 
 
 def _parts(at: NumbersReader, entries: Entries, where: str) -> tuple[int, Node | None]:
-    """Reads the degree and the weights of dense output; None without them."""
     fields: g.ReadMapping | None = (
         DENSE.read(at, entries["dense"], where) if "dense" in entries else None
     )
@@ -571,7 +555,7 @@ def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> d.Fu
 
 
 def _depth(node: Node) -> int:
-    """Returns how deep lists are nested at their first items; 0 for a scalar."""
+    """The depth of lists at their first items; 0 for a scalar."""
     depth = 0
     while isinstance(node, SequenceNode) and node.value:
         depth += 1

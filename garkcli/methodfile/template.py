@@ -36,7 +36,6 @@ Values: TypeAlias = Mapping[str, str | Sequence[str]]
 
 
 def new_file(values: Values) -> str:
-    """Returns a method file with some keys, each with its meaning as a comment."""
     return "\n".join([*HEAD, *_lines(values), ""])
 
 
@@ -57,15 +56,12 @@ def of_tableau(name: str, pasted: Pasted) -> str:
 
 
 def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
-    """Returns a method file with members of families. ``transfer`` is the rule for the blocks
-    between them.
-    """
     between = {"transfer": transfer} if len(members) > 1 else {}
     return new_file({"name": quoted(name), "methods": [*map(str, members)], **between})
 
 
 def _row(numbers: Sequence[str]) -> str:
-    """Returns numbers in brackets, in quotes if YAML would split them."""
+    """Quoted if YAML would split them."""
     return f"[{', '.join(map(_entry, numbers))}]"
 
 

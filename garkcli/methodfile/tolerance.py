@@ -23,17 +23,14 @@ DIGITS = "digits"
 OTHERS = "others"
 """The key for all numbers without a key of their own."""
 Off: TypeAlias = "fmpq | str"
-"""A tolerance: a number, or ``DIGITS``."""
 
 _DECIMAL = r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
 _FORM = "write for instance {others: 1e-20, embedded: 1e-12}"
 
 
 class Tolerance(FrozenBut):
-    """The tolerances of a file by the places of its numbers.
-
-    The keys are ``others``, ``embedded``, ``dense``, and colours by number or name; ``places`` are
-    their nodes, none for one tolerance for all.
+    """By ``others``, ``embedded``, ``dense``, and colours by number or name; ``places`` are the
+    nodes of these keys.
     """
 
     besides = frozenset({"places"})

@@ -20,7 +20,6 @@ def _weight(rule: str) -> g.Key:
 
 
 ALL_RULES = (*RULES, *PAIR_RULES)
-"""The names of the rules."""
 _WORDS = g.word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
 _WEIGHTS = g.mapping(*map(_weight, RULES), rules=[g.OfSchema({"minProperties": 1})])
 OF_DEGREE = g.mapping(
@@ -40,11 +39,9 @@ OF_DEGREE = g.mapping(
     ),
     form="write {rule: legendre, degree: 2}",
 )
-"""The rule legendre with its degree."""
 RULE = g.ValueKind(
     lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]}
 )
-"""A rule for a block, or several with weights."""
 _OF_RULE = g.defined("rule").schema()
 _ALL_UNKNOWN: g.Schema = {
     "const": UNKNOWN,
@@ -71,13 +68,13 @@ TRANSFER = g.ValueKind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema(), _ALL_UNKNOWN]},
     inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
-"""The rules between methods; they are read once the number of colours is known."""
+"""They are read once the number of colours is known."""
 _BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 
 
 def _block_of(key: str) -> tuple[int, int]:
-    """Returns the colours of a key such as ``1,2``, from 0; equal ones if it is not valid."""
+    """The colours of a key such as ``1,2``, from 0; equal ones if it is not valid."""
     match = _BLOCK.fullmatch(key)
     if match is None:
         return 0, 0
@@ -86,9 +83,6 @@ def _block_of(key: str) -> tuple[int, int]:
 
 
 def rules_of(at: NumbersReader, node: nodes.Node, stages: Sequence[int]) -> d.TransferText:
-    """Reads ``transfer``: the rules, and the blocks given one by one. ``stages`` are those of the
-    colours.
-    """
     if _is_unknown(node):
         edges = permutations(range(len(stages)), 2)
         return d.TransferText(None, {edge: _unknown(at, node, edge, stages) for edge in edges})
@@ -113,7 +107,7 @@ def _is_unknown(node: nodes.Node) -> bool:
 def _unknown(
     at: NumbersReader, node: nodes.Node, edge: tuple[int, int], stages: Sequence[int]
 ) -> d.MatrixText:
-    """Returns a block with an unknown for each entry, named by its place."""
+    """A block with an unknown for each entry, named by its place."""
     rows, columns = (range(1, stages[k] + 1) for k in edge)
     name = d.block_name(*edge)
     places = [[f"{name}, row {i}, entry {j}" for j in columns] for i in rows]
@@ -123,7 +117,7 @@ def _unknown(
 
 
 def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
-    """Returns unknown blocks with names for their entries."""
+    """Unknown blocks with names for their entries."""
     texts = {}
     for (l, m), block in blocks.items():
         rows = [", ".join(str(name_of_place(x.where)) for x in row) for row in block.rows]

@@ -19,9 +19,7 @@ T = TypeVar("T")
 
 
 class Values:
-    """The exact values of all coefficients of a file. ``printed`` has each different coefficient,
-    as written and its value.
-    """
+    """The exact values of all coefficients; ``printed`` has each as written and its value."""
 
     def __init__(self, numbers: Numbers) -> None:
         self._values: dict[int, Number] = {}
@@ -39,7 +37,7 @@ class Values:
         _note_faults(numbers, unused)
 
     def once(self, key: object, find: Callable[[], T]) -> T:
-        """Returns a decision that does not depend on changes of rounded numbers."""
+        """A decision that does not depend on changes of rounded numbers."""
         decided = self.__dict__.setdefault("decided", {})
         if key not in decided:
             decided[key] = find()
@@ -66,9 +64,7 @@ class Values:
         return known
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
-        """Reports each coefficient without a real value, or else the common error. No field is
-        constructed, as there may be many large coefficients.
-        """
+        """Constructs no field, as there may be many large coefficients."""
         source = numbers.source
         before = len(source.faults)
         _note_faults(numbers, (*numbers.of_parameters.values(), *numbers.entries))

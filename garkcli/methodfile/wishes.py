@@ -34,7 +34,6 @@ _VALUES = {
     "number": (NUMBER, "0"),
     "smoothness": (count(0, 1), "1"),
 }
-"""The values of a demand, by its kind, and an example."""
 
 
 def _wanted() -> Iterator[Key]:
@@ -68,7 +67,7 @@ def _ranges(at: Any, node: Node, where: str) -> dict[str, Free]:
 
 
 def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:
-    """Yields the unknowns with their nodes and names in messages; reports those not in the file."""
+    """The unknowns with their nodes and names in messages; reports those not in the file."""
     numbers: Numbers = at.numbers
     for name, value in numbers.source.mapping(node, where, (), form=FORM).items():
         place = f"{where}: {name}"
@@ -104,7 +103,7 @@ NO_RANGES: Mapping[str, Free] = {}
 
 
 class Wish(Frozen):
-    """A key of ``design`` with its value; ``colour``, counted from 0, is None for all colours."""
+    """A key of ``design``; ``colour``, counted from 0, is None for all colours."""
 
     node: Node
     want: Want
@@ -113,9 +112,7 @@ class Wish(Frozen):
 
 
 class Wishes(Frozen):
-    """The content of ``design``. ``order`` is None if the command has it; ``fixed`` are pairs of
-    equal entries; ``entries`` are all its coefficients.
-    """
+    """``order`` is None if the command has it; ``fixed`` are pairs of equal entries."""
 
     order: int | None = None
     fixed: tuple[tuple[Coefficient, Coefficient], ...] = ()
@@ -129,7 +126,7 @@ class Wishes(Frozen):
 
 
 def read_wishes(at: Any, node: Node) -> Wishes:
-    """Returns the content of ``design``; the numbers of the file are left as they are."""
+    """The numbers of the file stay as they are."""
     numbers: Numbers = at.numbers
     before = len(numbers.entries)
     demands: ReadMapping | dict[str, Any] = DESIGN.read(at, node, "design") or {}
@@ -142,7 +139,6 @@ def read_wishes(at: Any, node: Node) -> Wishes:
 
 
 def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
-    """Reads a demand for all colours, or for each colour that is named."""
     kind, _ = _VALUES[want.kind]
     if not isinstance(node, MappingNode):
         value = kind.read(at, node, where)
@@ -160,7 +156,7 @@ def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
 
 
 def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
-    """Returns the colours to which a demand applies; none if the method lacks the one it names."""
+    """The colours to which a demand applies; none if the method lacks the one it names."""
     if wish.colour is None:
         return tuple(range(size))
     if wish.colour < size:
@@ -174,10 +170,8 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
 def meaning_of(
     wishes: Wishes, made: Builder[FamilyValues], source: Source, deadline: float | None = None
 ) -> WantConditions:
-    """Returns all demands as conditions on the parameters.
-
-    At ``deadline``, a value of ``time.monotonic``, the remaining ones are left undecided; None for
-    never. Demands that do not apply are reported.
+    """Demands that do not apply are reported; after ``deadline``, a value of ``time.monotonic``,
+    the rest stays undecided.
     """
     from garkcli.constructions.wants import meant_of
 

@@ -26,7 +26,6 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 NumberText: TypeAlias = Callable[[Number], str]
 Written: TypeAlias = "fmpq | Mapping[str, fmpq]"
-"""A tolerance for the file, or by keys of ``tolerance``."""
 
 
 def write_tableau_file(
@@ -38,10 +37,8 @@ def write_tableau_file(
     parameters: Sequence[str] = (),
     further: Further = NOTHING,
 ) -> str:
-    """Returns a method file with every block of ``tableau`` spelled out.
-
-    The tableau has point spaces and exact entries. ``note`` is a comment at the top, ``text``
-    writes a coefficient, ``parameters`` has a text such as ``tau: free`` for each parameter.
+    """A file with every block of an exact tableau on point spaces; ``note`` is a comment at its
+    top, ``parameters`` has a text such as ``tau: free`` for each parameter.
     """
     tableau.demand_fields("a method file")
     with with_letters(None if parameters else tableau, NAMES) as letters:
@@ -76,7 +73,6 @@ def tolerance_text(written: Written) -> str:
 
 
 def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
-    """Returns the tolerance for a file that spells a method out, or None."""
     own = method.tolerance
     by_key = {
         "embedded": None if further.embedded is None else method.embedded_tolerance,
@@ -91,7 +87,7 @@ def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
 def write_method(
     tableau: Tableau, name: str, tolerance: Written | None, further: Further = NOTHING
 ) -> str:
-    """Returns the method file of a tableau, with decimals for rounded coefficients."""
+    """Rounded coefficients are decimals."""
     text = to_text if tolerance is None else _decimal_text
     return write_tableau_file(tableau, name, tolerance, text=text, further=further)
 
@@ -104,9 +100,7 @@ def write_form(
     tolerance: Written | None = None,
     further: Further = NOTHING,
 ) -> str:
-    """Returns a method file of one colour in a form other than ``tableau``. ``keys`` has words,
-    rows and matrices of exact numbers; the nodes are written unless they are the row sums of A.
-    """
+    """Nodes are written unless they are the row sums of A."""
     text = to_text if tolerance is None else _decimal_text
     with with_letters(tableau, NAMES) as letters:
         lines = _in_form(form, keys, tableau, text, further)
@@ -138,10 +132,10 @@ def _in_form(
 
 
 def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING) -> str:
-    """Returns a method file with entries rounded to decimals, and the tolerance needed for it.
+    """Entries are within half a unit of their last digit.
 
-    An entry is within half a unit of its last digit. The tolerance is a hundred units in the last
-    digit of the largest entry, as residuals are sums of entries and of their products.
+    The tolerance is a hundred units in the last digit of the largest entry, as residuals are sums
+    of entries and of their products.
     """
     digits = entries.digits
     made = _rounded_tableau(tableau, entries)
@@ -206,7 +200,7 @@ def _is_prk(tableau: Tableau) -> bool:
 
 
 def _is_ark(tableau: Tableau) -> bool:
-    """Returns whether several colours share all stages and nodes, and none is linear."""
+    """Whether several colours share all stages and nodes, and none is linear."""
     colours = tableau.colours
     if len(colours) == 1 or len(tableau.spaces) > 1:
         return False

@@ -1,1 +1,1 @@
-"""Methods constructed from others, with one file for each construction."""
+"""Methods constructed from others: a file for each construction."""

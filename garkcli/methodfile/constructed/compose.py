@@ -21,7 +21,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def _adjoint(at: PartReader, node: Node, where: str) -> ConstructionText | None:
-    """Reads the adjoint of a method, which may have stages without simple nodes."""
+    """The method may have stages without simple nodes."""
     part = at.method(node, where, why="")
     return None if part is None else at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
 
@@ -156,8 +156,8 @@ def _steps(at: PartReader, entries: g.ReadMapping, where: str) -> Iterator[_Step
 
 
 def _orders(at: PartReader, entries: g.ReadMapping, scheme: Scheme) -> tuple[int, int]:
-    """Returns the order of the method and that of the result for a repeated scheme. The substeps
-    that raise a symmetric method of order p contain a root of degree p + 1.
+    """The orders of the method and of a repeated scheme: the substeps that raise a symmetric method
+    of order p contain a root of degree p + 1.
     """
     if not scheme.has_orders:
         for key in entries.nodes.keys() & {"order", "from"}:

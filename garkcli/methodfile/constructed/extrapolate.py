@@ -32,7 +32,6 @@ _MOST_ROWS = 20
 
 
 def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
-    """Reads numbers of substeps, which have to differ."""
     source = at.source
     items = source.items(node, where)
     numbers: list[int] = []
@@ -140,9 +139,7 @@ class _Plan(Frozen):
     tolerance: fmpq | None
 
     def made(self, base: Tableau, numbers: Numbers) -> Tableau:
-        """Returns the extrapolated method. Raises MethodError if the order of the method is
-        unknown, or high enough already.
-        """
+        """MethodError if the order of the method is unknown, or high enough already."""
         order, is_symmetric = self.base, self.is_symmetric
         if base.has_parameters and (order is None or is_symmetric is None):
             message = "the order of a method with free parameters is not determined"

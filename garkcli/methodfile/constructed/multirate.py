@@ -33,11 +33,7 @@ TableauOf: TypeAlias = Callable[[PartText], Tableau]
 
 
 class Infinitesimal(Frozen):
-    """Makes a multirate infinitesimal method.
-
-    ``fast`` is None for the exact solution; ``coupling`` makes the coupling of the slow stages;
-    ``steps`` is the number of small steps between two slow stages.
-    """
+    """``fast`` is None for the exact solution; ``steps`` are small ones between two slow stages."""
 
     fast: PartText | None
     coupling: Callable[[TableauOf, Values], mri.Coupling]
@@ -53,7 +49,7 @@ class Infinitesimal(Frozen):
 
 
 def method_of_part(tableau_of: TableauOf, part: PartText, key: str) -> Method:
-    """Returns the method of a part that has one vector field."""
+    """The method of a part; MethodError if it has several vector fields."""
     tableau = tableau_of(part)
     message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
     return one_field(tableau, message + "where a method of one vector field is expected")
@@ -68,18 +64,16 @@ _FORM_OF_COUPLING = "write slowest-first, collocation, {gamma: [[…]]}, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
 MAX_STEPS = 400
 MAX_POWERS = 12
-"""The largest number of matrices of a slow part, one for each power of τ."""
+"""One matrix for each power of τ."""
 SLOWEST_FIRST = "slowest-first"
 EXACT = "exact"
-"""Stands for the exact solution of each fast problem, in place of a fast method."""
 RESTARTS = {
     "merk": "polynomials in the time of the step, from 0 to 1",
     "sr": "polynomials in the time of the fast problem, from 0 to 1; gamma is added after it",
 }
-"""The forcing of methods whose fast problems begin at the start of the step."""
 _BLOCKS = ("fast-slow", "slow-fast")
 _NAMES = ("lambda", "M")
-"""The number of a small step, from 1, and the number of small steps, in coupling matrices."""
+"""The number of a small step, from 1, and the number of small steps."""
 
 _SMALL_STEPS = g.ValueKind(MATRIX.schema, g.as_it_is)
 _COUPLING = g.mapping(
@@ -114,8 +108,6 @@ _PREDICTOR = g.mapping(
 
 
 def _one_of(names: tuple[str, ...], kind: g.ValueKind, other: g.ValueKind) -> g.ValueKind:
-    """Returns the kind of a mapping with one of the keys, or of another value."""
-
     def is_it(node: Node) -> bool:
         return isinstance(node, MappingNode) and any(k.value in names for k, _ in node.value)
 
@@ -253,11 +245,9 @@ _KEYS = g.mapping(
 
 
 class StepPredictor(Frozen):
-    """Makes a method with a step-predictor.
-
-    ``slow`` takes the step for both parts. ``forcing`` has the rows of the fast problem, and those
-    for the embedded value; if empty, the slow slopes are interpolated. ``fast`` is None for the
-    exact solution.
+    """``slow`` takes the step for both parts. ``forcing`` has the rows of the fast problem, and
+    those for the embedded value; if empty, the slow slopes are interpolated. ``fast`` is None for
+    the exact solution.
     """
 
     slow: PartText
@@ -306,7 +296,6 @@ def _generalized(
 def _coupling_by_name(
     at: PartReader, entries: g.ReadMapping
 ) -> Callable[[TableauOf, Values], mri.Coupling]:
-    """Returns the coupling of another multirate infinitesimal method."""
     part: PartText = entries["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
     content = part.description.content
@@ -381,7 +370,6 @@ def _coupled(at: PartReader, entries: g.ReadMapping) -> Make:
 
 
 def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None:
-    """Raises MethodError if the shape of a coupling matrix does not fit its methods."""
     shape, wanted = (len(matrix), len(matrix[0])), (seeing.stages, seen.stages)
     if shape != wanted:
         message = f"{key} is {shape[0]} by {shape[1]} and should be {wanted[0]} by {wanted[1]}"
@@ -390,7 +378,7 @@ def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None
 
 
 def _small_steps(at: PartReader, node: Node, key: str, steps: int) -> Iterator[Rows]:
-    """Yields a coupling matrix for each small step, whose number its entries may use."""
+    """A coupling matrix for each small step, whose number its entries may use."""
     before = len(at.source.faults)
     for step in range(1, steps + 1):
         with _defined(at.numbers, (step, steps)):
@@ -418,7 +406,7 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
 def _polynomials(
     at: PartReader, entries: g.ReadMapping
 ) -> Callable[[TableauOf, Values], mri.Coupling]:
-    """Returns the polynomial couplings between nodes, the explicit part before the implicit one."""
+    """The polynomial couplings between nodes, the explicit part before the implicit one."""
     c: Row = entries["c"]
     restart = entries.get("restart")
     matrices: dict[str, list[Rows]] = {}
@@ -460,7 +448,6 @@ def _polynomials(
 def _check_restart(
     at: PartReader, entries: g.ReadMapping, matrices: Mapping[str, Sequence[Rows]]
 ) -> None:
-    """Reports what a method with restarts cannot have."""
     restart = entries["restart"]
     if restart == "merk" and len(matrices) > 1:
         message = "multirate, mri: restart: merk goes with omega, not with omega and gamma"
@@ -483,7 +470,6 @@ def _check_restart(
 
 
 def _embedded_rows(at: PartReader, entries: g.ReadMapping) -> dict[str, Rows] | None:
-    """Returns the embedded rows for each slow part, with one entry for each node."""
     given = entries.get("embedded")
     if given is None:
         return None
@@ -508,7 +494,7 @@ def _embedded_rows(at: PartReader, entries: g.ReadMapping) -> dict[str, Rows] | 
 
 
 def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
-    """Returns the rows filled with zeros to one column for each node."""
+    """The rows filled with zeros to one column for each node."""
     width = max(map(len, rows), default=0)
     if width > nodes:
         message = f"{name} has {counted(width, 'column')} for {counted(nodes, 'node')}"
@@ -518,9 +504,7 @@ def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> R
 
 
 def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
-    """Returns the matrix filled with zeros to one column for each node. It has one row less than
-    there are nodes; a first row of zeros, for the start of the step, is dropped.
-    """
+    """The matrix filled with zeros, without a first row of zeros for the start of the step."""
     if len(rows) == nodes and not any(map(_is_nonzero, rows[0])):
         rows = rows[1:]
     width = max(map(len, rows), default=0)
@@ -541,9 +525,7 @@ KIND = _KEYS.then(_read)
 
 
 def coupling_of(method: MethodFile) -> mri.Coupling | None:
-    """Returns the coupling of the slow stages in a file with ``multirate: {mis: …}`` or ``{mri:
-    …}``. None for other files, and if parameters of the file were given values.
-    """
+    """The coupling of the slow stages; None for other files, and with given parameters."""
     if method.form != "multirate":
         return None
     reader, description = described(method.text, method.source, NO_SETTINGS)

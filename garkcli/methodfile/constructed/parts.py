@@ -27,26 +27,19 @@ METHOD = defined("part", lambda at, node, where: at.method(node, where))
 
 
 class Opened(Frozen):
-    """A method of the catalogue."""
-
     source: Source
     numbers: Numbers
     description: Description
 
 
 Open: TypeAlias = Callable[[str], Opened]
-"""Reads a method of the catalogue.
-
-Raises MethodFileError for an unknown name, or a method that is made from itself.
-"""
+"""Reads a method of the catalogue; MethodFileError for unknown names and cycles."""
 Written: TypeAlias = Callable[[Node, str], Description | None]
 """Reads a method in this file; the text names it in messages."""
 
 
 class PartReader(NumbersReader):
-    """Reads the parts of a construction. ``written`` reads methods that are spelled out, ``opened``
-    those of the catalogue; ``parts`` collects them.
-    """
+    """``written`` reads methods that are spelled out, ``opened`` those of the catalogue."""
 
     def __init__(
         self,
@@ -65,14 +58,12 @@ class PartReader(NumbersReader):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The tolerance of the coefficients read so far; None without one in the file."""
+        """The tolerance of the coefficients read so far."""
         own = self._tolerance
         return None if own is None else own.largest(self.numbers.entries)
 
     def method(self, node: Node, where: str, why: str = AT_POINTS) -> PartText | None:
-        """Reads a method: a family, coefficients of any form, or a name. ``why`` is what needs the
-        stages to be given by points, or empty.
-        """
+        """Reads a family, a form or a name; ``why`` says what needs point stages, or is empty."""
         if isinstance(node, ScalarNode):
             return self._named(node, where, why)
         description = self._written(node, where)
@@ -109,9 +100,7 @@ class PartReader(NumbersReader):
         return part
 
     def _of_catalogue(self, name: str, why: str) -> PartText:
-        """Returns a method of the catalogue, its coefficients added to those of this file. Raises
-        MethodFileError for an unknown name, or a family with free parameters.
-        """
+        """A method of the catalogue, its coefficients added to those of this file; no family."""
         opened = self._open(name)
         if opened.numbers.free:
             message = f"{name} is a family with free parameters"
@@ -124,13 +113,10 @@ class PartReader(NumbersReader):
         return part
 
     def made(self, node: Node, make: Make, rounding: fmpq | None = None) -> ConstructionText:
-        """Returns the construction from the parts read so far. ``rounding`` is that of its own
-        numbers.
-        """
         return ConstructionText(node, tuple(self.parts), make, self.rounding(rounding))
 
     def rounding(self, *others: fmpq | None) -> fmpq | None:
-        """Returns the largest tolerance of the parts; None if all are exact."""
+        """The largest tolerance of the parts; None if all are exact."""
         tolerances = [
             x for x in (*(part.tolerance for part in self.parts), *others) if x is not None
         ]

@@ -95,7 +95,6 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
 
 
 def _terms(at: PartReader, entries: g.ReadMapping, where: str) -> int:
-    """Returns the number of parts; one method for each of them is required."""
     of = entries.nodes.get("of")
     terms: int | None = entries.get("terms")
     if isinstance(of, SequenceNode):
@@ -114,7 +113,7 @@ def _terms(at: PartReader, entries: g.ReadMapping, where: str) -> int:
 
 
 def _largest(flows: Node | None) -> int:
-    """Returns the largest number of a part among the flows, at least 2."""
+    """The largest number of a part among the flows, at least 2."""
     numbers = [2]
     for item in flows.value if isinstance(flows, SequenceNode) else ():
         for key, _ in item.value if isinstance(item, MappingNode) else ():
