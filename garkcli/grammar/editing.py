@@ -17,20 +17,19 @@ def row_text(numbers: Iterable[str]) -> str:
 
 
 def number_text(number: str) -> str:
-    """Returns a number for a list in brackets, in which the comma of root(x, n) needs quotes."""
+    """The comma of root(x, n) needs quotes in a list."""
     return quoted(number) if "," in number else number
 
 
 def quoted(text: str) -> str:
-    """Returns a text in quotes, with escapes for nonprintable characters."""
+    """Nonprintable characters are escaped."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     inside = "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
     return f'"{inside}"'
 
 
 def in_ascii(text: str) -> str:
-    r"""Returns YAML with the same values in ASCII: scalars with other characters are quoted, as
-    escapes are for quotes alone.
+    r"""YAML with the same values in ASCII; only quoted scalars can have escapes.
 
     >>> print(in_ascii("title: näher\nb: 'ö'\n"), end="")
     title: "n\U000000e4her"
@@ -55,13 +54,11 @@ def block_mapping(entries: list[tuple[Node, Node]]) -> MappingNode:
 
 
 def block_text(entries: list[tuple[Node, Node]]) -> str:
-    """Returns keys and values as YAML, each key on a line of its own."""
     mapping = block_mapping(entries)
     return str(yaml.serialize(mapping, allow_unicode=True, width=_WIDTH)) if entries else ""
 
 
 def mapping_under(root: MappingNode, name: str) -> MappingNode | None:
-    """Returns the mapping that is the value of a key; None without one."""
     mappings = (x for key, x in root.value if key.value == name and isinstance(x, MappingNode))
     return next(mappings, None)
 
@@ -72,11 +69,10 @@ Edit: TypeAlias = tuple[int, int, str]
 
 
 def with_values(text: str, root: MappingNode, name: str, values: Mapping[str, str]) -> str | None:
-    """Returns the text of a file with other values in the mapping under a key.
+    """The text of a file with other values in the mapping under a key; everything else stays.
 
-    A key in it gets the new value; one without a new value stays. New keys follow the last one.
-    Comments, blanks and everything else stay. None if there is no place for a new mapping, because
-    the file is in braces or has an empty one.
+    New keys follow the last one. None if there is no place for a new mapping, because the file is
+    in braces or has an empty one.
     """
     there = mapping_under(root, name)
     if there is None or not there.value:
@@ -113,7 +109,7 @@ def _replacements(text: str, there: MappingNode, values: Mapping[str, str]) -> I
 
 
 def _additions(text: str, there: MappingNode, values: Mapping[str, str]) -> Iterator[Edit]:
-    """Yields the edits for new keys after the last one, in braces or on lines below it."""
+    """In braces, or on lines below the last key."""
     known = {key.value for key, _ in there.value}
     new = [f"{key}: {x}" for key, x in values.items() if key not in known]
     first, _ = there.value[0]
@@ -135,7 +131,7 @@ def _line_end(text: str) -> str:
 
 
 def _end(text: str, node: Node) -> int:
-    """Returns the end of a value, before comments below a block list."""
+    """The end of a value, before comments below a block list."""
     while isinstance(node, SequenceNode) and node.value:
         if node.flow_style:
             break

@@ -7,7 +7,6 @@ import re
 from garkcli.errors import printable
 
 MOST_LOOKED_AT = 20_000
-"""The number of characters of a file that are examined."""
 _READS = "gark import {file} reads it"
 _PASTED = "gark new FILE --tableau - < {file} makes a method file of it"
 _PROGRAMS = (
@@ -43,19 +42,17 @@ _LOOKS: tuple[tuple[str, str], ...] = (
         f"this looks like a program: {_READS}; a method file has A: in place of A =",
     ),
 )
-"""Patterns of texts that are not method files, and the cures; the first that matches counts."""
+"""Patterns of files that are not YAML, and the cures; the first match counts."""
 _WITHOUT_KEYS: tuple[tuple[str, str], ...] = (
     (r"^[ \t]*([-+0-9/.]*[0-9][ \t]*[|│]|[|│][ \t]*[-+0-9])", _PASTED),
     (r"^[-+0-9/.]*,[-+0-9/., ]*$", f"this looks like CSV: {_READS}"),
     (r"\A[-+0-9/. \t\n]+\Z", _PASTED),
 )
-"""Patterns of other texts that are YAML without keys, and the cures."""
+"""Patterns of YAML without keys, and the cures."""
 
 
 def cure_of_foreign(text: str, name: str, is_yaml: bool) -> str:
-    r"""Returns a cure for a file that is not a YAML mapping; empty if its kind is not recognised.
-
-    ``is_yaml`` says that it is a YAML text or list.
+    """A cure for a file that is not a YAML mapping; empty if its kind is not recognised.
 
     >>> cure_of_foreign("A = [0 0; 1/2 0];", "m.txt", True)
     'this looks like a program: gark import m.txt reads it; a method file has A: in place of A ='

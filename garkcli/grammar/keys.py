@@ -1,8 +1,4 @@
-"""The grammar of the files that users write: each key is declared once, with the kind of its value.
-
-A declaration reads the key, makes its JSON Schema, and is the source of pages, ``gark explain`` and
-editors.
-"""
+"""The keys of files: each is declared once, for readers, schemas, pages and editors."""
 
 from __future__ import annotations
 
@@ -20,27 +16,23 @@ from garkcli.grammar.source import Cures, Entries, Home, Source
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
-"""Reads a node: from the reader of the file, which has its ``source``, the node, and its name in
-messages, to the value; None after a fault.
-"""
+"""From the reader of the file, a node and its name in messages to a value; None after a fault."""
 FILE = "the file"
 NOTHING: Mapping[str, Any] = {}
 
 
 def as_it_is(_: Any, node: Node, __: str) -> Node:
-    """Returns the node itself, for keys that are read later."""
+    """For keys that are read later."""
     return node
 
 
 class ValueKind(Frozen):
-    """The kind of value of a key, with its JSON Schema and the keys within it."""
-
     schema: Callable[[], Schema]
     read: Read = as_it_is
     inside: Callable[[], Iterable[Key]] = tuple
 
     def then(self, make: Callable[[Any, ReadMapping, str], Any]) -> ValueKind:
-        """Returns the kind with a value made from the values of the keys."""
+        """A value made from the values of the keys."""
 
         def read(at: Any, node: Node, where: str) -> Any:
             values: ReadMapping | None = self.read(at, node, where)
@@ -50,13 +42,11 @@ class ValueKind(Frozen):
 
 
 class Key(Frozen):
-    """A key of a mapping.
-
-    Attributes:
-        line: an example: a line of a file with its name, a colon and a value.
-        page: a page about it; empty for the page about such files.
-        is_word: whether ``gark explain`` finds it by its own name.
-        also: other spellings, which are read as this key.
+    """Attributes:
+    line: an example: a line of a file with its name, a colon and a value.
+    page: a page about it; empty for the page about such files.
+    is_word: whether ``gark explain`` finds it by its own name.
+    also: other spellings, which are read as this key.
     """
 
     line: str
@@ -74,7 +64,7 @@ class Key(Frozen):
         return self.line.partition(":")[0]
 
     def schema(self) -> Schema:
-        """Returns the schema of its value, with description, example and default."""
+        """With description, example and default."""
         import yaml  # only who asks for a schema reads examples
 
         schema = self.kind.schema()
@@ -86,7 +76,7 @@ class Key(Frozen):
         return told if self.default is None else {**told, "default": self.default}
 
     def entries(self, above: str, page: str) -> Iterator[KeyMeaning]:
-        """Yields the entries of the glossary for the key and the keys within it."""
+        """The entries of the glossary for the key and the keys within it."""
         path, own = above + self.name, self.page or page
         if self.is_listed:
             yield KeyMeaning(path, self.text, self.line, self.default, own, self.is_word)
@@ -96,9 +86,7 @@ class Key(Frozen):
 
 
 class ReadMapping(dict[str, Any]):
-    """The values of a mapping by key, without faulty ones. ``nodes`` has the nodes of all given
-    keys; ``is_right`` says that there is no fault.
-    """
+    """Values without faulty ones; ``nodes`` has the nodes of all given keys."""
 
     def __init__(self, node: Node, nodes: Entries) -> None:
         self.node = node
@@ -116,7 +104,7 @@ def _any_given(keys: Sequence[str]) -> Schema:
 
 
 class Together(Frozen):
-    """Keys that belong together: all of ``needed``, and perhaps others."""
+    """All of ``needed``, and perhaps others."""
 
     needed: tuple[str, ...]
     perhaps: tuple[str, ...] = ()
@@ -126,7 +114,6 @@ class Together(Frozen):
         return self.needed + self.perhaps
 
     def refuse(self, source: Source, where: str, entries: Entries) -> None:
-        """Reports missing keys if others of the group are there."""
         missing = [key for key in self.needed if key not in entries]
         there = [key for key in self.keys if key in entries]
         if missing and there:
@@ -142,9 +129,7 @@ class Ways(Frozen):
 
     Attributes:
         what: the statement, with a verb: ``the substeps are``.
-        ways: a key, or keys that belong together, for each.
         none: the message if there is none; empty if none is required.
-        cure: the cure for that.
         is_one: whether only one is allowed.
     """
 
@@ -155,7 +140,7 @@ class Ways(Frozen):
     is_one: bool = True
 
     def given(self, entries: Entries) -> list[str]:
-        """Returns the first key of each alternative that a mapping has."""
+        """The first key of each alternative that a mapping has."""
         present = []
         for way in self.ways:
             keys = (way,) if isinstance(way, str) else way.keys
@@ -172,7 +157,6 @@ class Ways(Frozen):
         return {"allOf": [choice, *whole]}
 
     def refuse(self, source: Source, node: Node, where: str, entries: Entries, _: str = "") -> None:
-        """Reports violations."""
         given = self.given(entries)
         cure = f"keep one of {', '.join(given)}"
         for key in given[1:] if self.is_one else ():
@@ -186,7 +170,7 @@ class Ways(Frozen):
 
 
 class KeyValues(Frozen):
-    """Some of the values of a key, by a schema and by a test of nodes."""
+    """By a schema and by a test of nodes."""
 
     schema: Schema
     has: Callable[[Node], bool]
@@ -196,11 +180,9 @@ class KeyRelation(Frozen):
     """Keys that a key requires, or excludes.
 
     Attributes:
-        message: the message, with ``{way}`` for the alternative that a mapping has instead.
+        message: with ``{way}`` for the alternative that a mapping has instead.
         cure: the cure, or cures by the alternative, with one for all others under ``""``.
         needs: the keys of which one is required.
-        bars: the keys that it excludes.
-        code: the kind of fault.
         values: the values to which it applies; None for all.
     """
 
@@ -220,7 +202,6 @@ class KeyRelation(Frozen):
         return {"if": about, "then": then}
 
     def refuse(self, source: Source, _: Node, where: str, entries: Entries, way: str = "") -> None:
-        """Reports violations; ``way`` is the alternative that the mapping has instead."""
         node = entries.get(self.key)
         if node is None or (self.values is not None and not self.values.has(node)):
             return
@@ -235,30 +216,26 @@ class KeyRelation(Frozen):
 
 
 class OfSchema(Frozen):
-    """A rule that only the schema has; the reader checks it elsewhere."""
+    """The reader checks such a rule elsewhere."""
 
     rule: Schema
 
     def schema(self) -> Schema:
         return self.rule
 
-    def refuse(self, *_: object) -> None:
-        """Nothing."""
+    def refuse(self, *_: object) -> None: ...
 
 
 Rule: TypeAlias = Ways | KeyRelation | OfSchema
-"""Rules about keys that require or exclude each other, for readers and schemas."""
+"""Keys that require or exclude each other."""
 
 
 def placed(where: str, message: str) -> str:
-    """Returns a message with the name of its mapping, unless that is the whole file."""
     return message if where == FILE else f"{where}: {message}"
 
 
 def homes(keys: Iterable[Key]) -> dict[str, Home]:
-    """Returns the places of the keys within others, by name; the first of several places. Names
-    that are also keys at the top, or other spellings of them, are left out.
-    """
+    """The first places of keys within others, without names that keys at the top have."""
     places: dict[str, Home] = {}
     known = list(keys)
     taken = {word.lower() for key in known for word in (key.name, *key.also)}
@@ -277,11 +254,8 @@ def entries_in(
     cures: Cures = dict,
     form: str = "",
 ) -> Entries:
-    """Returns the entries of a mapping, with misspelt keys under their correct names and faults
-    reported.
-
-    ``cures`` returns advice about keys that belong elsewhere; ``form`` is the cure if there is no
-    mapping.
+    """The entries, misspelt keys under their correct names; ``cures`` are for keys that belong
+    elsewhere, ``form`` if there is no mapping.
     """
     words = {word: name for name, key in keys.items() for word in key.also}
     return source.mapping(node, where, keys, cures, form, words)
@@ -294,11 +268,10 @@ def mapping(
     cures: Cures = dict,
     rules: Iterable[Rule] = (),
 ) -> ValueKind:
-    """Returns the kind of a mapping with these keys and no others.
+    """A mapping with these keys and no others.
 
-    ``more`` returns keys that are only needed for files with them, and for schemas; ``form`` is the
-    cure if there is no mapping, or a key is missing; ``cures`` returns advice about keys that
-    belong elsewhere.
+    ``more`` returns keys that only files with them need, and schemas; ``form`` is the cure if there
+    is no mapping, or a key is missing; ``cures`` returns advice about keys that belong elsewhere.
     """
 
     @cache
@@ -347,7 +320,7 @@ def closed(properties: Schema, *needed: str) -> Schema:
 
 
 def by_name(kind: ValueKind, **rules: Any) -> ValueKind:
-    """Returns the kind of a mapping with names from the file; values are read later."""
+    """Names from the file; values are read later."""
     schema = {"type": "object", **rules}
     return ValueKind(lambda: {**schema, "additionalProperties": kind.schema()}, inside=kind.inside)
 
@@ -398,10 +371,8 @@ def list_of(
     form: str = "",
     rules: Mapping[str, Any] = NOTHING,
 ) -> ValueKind:
-    """Returns the kind of a nonempty list.
-
-    ``noun`` names its items in messages, ``each`` one of them, with ``{}`` for the number; ``most``
-    is the largest length, ``form`` the cure if there is no list, ``rules`` is added to the schema.
+    """A nonempty list; in messages ``noun`` names its items, ``each`` one of them, with ``{}`` for
+    the number; ``form`` is the cure if there is no list.
     """
     schema = {"minItems": 1, **({} if most is None else {"maxItems": most}), **rules}
 
@@ -424,7 +395,7 @@ def list_of(
 def either(
     single: ValueKind, at_list: ValueKind | None = None, at_mapping: ValueKind | None = None
 ) -> ValueKind:
-    """Returns a kind that depends on whether the value is a scalar, a list or a mapping."""
+    """The value may be a scalar, a list or a mapping."""
     every = [x for x in (single, at_list, at_mapping) if x is not None]
 
     def read(at: Any, node: Node, where: str) -> Any:
@@ -449,9 +420,7 @@ def one_or_more(
     is_plain: bool = False,
     rules: Mapping[str, Any] = NOTHING,
 ) -> ValueKind:
-    """Returns the kind of one value or a list, read as a list. ``is_plain`` says that one value is
-    a scalar; the others are those of ``list_of``.
-    """
+    """One value or a list, read as a list; if ``is_plain`` one value is a scalar."""
     several = list_of(item, noun, most, form="name one", rules=rules)
 
     def read(at: Any, node: Node, where: str) -> list[Any] | None:
@@ -465,7 +434,6 @@ def one_or_more(
 
 
 def defined(name: str, read: Read = as_it_is) -> ValueKind:
-    """Returns the kind with a name in the definitions of a schema."""
     return ValueKind(lambda: {"$ref": f"#/definitions/{name}"}, read)
 
 
@@ -474,7 +442,7 @@ def declared(module: str, name: str) -> Any:
 
 
 def later(module: str, name: str) -> ValueKind:
-    """Returns the kind declared in a module that is imported when it is needed."""
+    """Imports the module when the kind is needed."""
 
     def kind() -> ValueKind:
         declaration: ValueKind = declared(module, name)
@@ -488,14 +456,10 @@ def later(module: str, name: str) -> ValueKind:
 
 
 def file_schema(title: str, text: str, kind: ValueKind, **more: Any) -> Schema:
-    """Returns the JSON Schema (draft-07) of files, as plain data. ``more`` is added to it, such as
-    definitions.
-    """
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
     return {**head, "description": text, **kind.schema(), **more}
 
 
 def told(keys: Iterable[Key], page: str) -> Iterator[KeyMeaning]:
-    """Yields the entries of the glossary for keys at the top of a file and those within them."""
     for key in keys:
         yield from key.entries("", page)

@@ -1,9 +1,8 @@
-"""YAML text to nodes with positions, by PyYAML's parser in Python, within limits; and what nodes
-hold.
+"""YAML text to nodes with positions, by PyYAML's parser in Python, within limits.
 
 Nodes keep what ``safe_load`` loses: the positions of values, repeated keys, and the text of
-numbers. PyYAML's loader in Python is used even where the one in C is available: their messages and
-columns differ, and a file should be answered alike on every machine.
+numbers. PyYAML's loader in C has other messages and columns, and a file should be answered alike on
+every machine.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ from yaml.nodes import SequenceNode as SequenceNode
 from garkcli.errors import Remark, nearest, printable
 
 Extent: TypeAlias = tuple[int, int]
-"""The start and the end of a place in the text of a file."""
 
 
 def keys_of(node: Node) -> set[str]:
@@ -40,7 +38,7 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
 
 
 def below(root: object, *path: str | int) -> Node | None:
-    """Returns the value below keys of mappings and indices of lists; None if there is none."""
+    """The value below keys of mappings and indices of lists; None if there is none."""
     node: Node | None = root if isinstance(root, Node) else None
     for step in path:
         if isinstance(node, MappingNode) and isinstance(step, str):
@@ -61,13 +59,13 @@ def key_of(root: MappingNode, value: Node) -> Node:
 
 
 def extent(text: str, first: Node, last: Node) -> Extent:
-    """Returns the place of the values from ``first`` to ``last``, without blanks at the end."""
+    """Without blanks at the end."""
     start, end = first.start_mark.index, last.end_mark.index
     return start, start + len(text[start:end].rstrip())
 
 
 def node_at(value: object, place: Node) -> Node:
-    """Returns nodes for a mapping, a list or a text, at the place of another node."""
+    """Nodes for a mapping, a list or a text, at the place of another node."""
     marks = place.start_mark, place.end_mark
     if isinstance(value, Mapping):
         pairs = [(node_at(key, place), node_at(x, place)) for key, x in value.items()]
@@ -82,14 +80,12 @@ def is_null(node: Node) -> bool:
 
 
 def meant_key(key: str, known: Sequence[str], words: Mapping[str, str]) -> str:
-    """Returns the known key meant by an unknown one; empty if there is none. ``words`` has other
-    spellings.
-    """
+    """The known key meant by an unknown one; empty if there is none."""
     return words.get(key.lower(), "") or nearest(key, known)
 
 
 def one_line(text: str) -> str:
-    r"""Returns a text in one line of printable characters.
+    r"""A text in one line of printable characters.
 
     >>> one_line("Gauss 2\n  and \x1b more")
     'Gauss 2 and more'
@@ -99,18 +95,13 @@ def one_line(text: str) -> str:
 
 
 def unquoted(name: str) -> str:
-    """Returns a name from the file, shortened if long, in quotes unless it is an identifier.
-
-    >>> unquoted("tau"), unquoted("no name")
-    ('tau', "'no name'")
-    """
     shown = shortened(name)
     is_word = name.isidentifier() or not name
     return shown[1:-1] if is_word else shown
 
 
 def shortened(text: str, length: int = 60) -> str:
-    """Returns ``text`` in quotes, shortened if long."""
+    """``text`` in quotes, shortened if long."""
     if len(text) > length:
         text = text[:length] + "…"
     return repr(text)
@@ -127,8 +118,6 @@ def position(mark: Any) -> tuple[int, int]:
 
 
 class TooLargeError(Exception):
-    """A file beyond the limits."""
-
     def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
         super().__init__(message)
         self.line, self.column = position(at.start_mark)
@@ -136,7 +125,7 @@ class TooLargeError(Exception):
 
 
 class _Composer(yaml.SafeLoader):
-    """PyYAML's composer, which refuses too many values and too deep nesting."""
+    """Refuses too many values and too deep nesting."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -205,13 +194,12 @@ _YAML_WORDS = (
     ("alphabetic or numeric", "a name is missing after this sign", _SIGN),
     ("", "the directive or tag is not known", "leave it out, or quote a text with % or !"),
 )
-"""Regular expressions for PyYAML's messages, what they mean, and the cure."""
+"""PyYAML's messages, what they mean, and the cure."""
 _FROM_START = ("could not find expected ':'", "found unexpected end of stream")
-"""Messages that are about the start of what PyYAML reads, not about where it gives up."""
+"""Messages about the start of what PyYAML reads, not about where it gives up."""
 
 
 def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
-    """Returns an error of PyYAML as a fault in plain words, with a cure."""
     mark = error.problem_mark or error.context_mark
     context = str(error.context or "")
     problem = str(error.problem or context)
@@ -232,7 +220,7 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
 
 
 def composed(text: str) -> Node | Remark | None:
-    """Returns the document of a text, or its fault; None if the text is empty."""
+    """The document or its fault; None if the text is empty."""
     try:
         return compose(text)
     except TooLargeError as error:
@@ -252,7 +240,7 @@ def composed(text: str) -> Node | Remark | None:
 
 
 def compose(text: str) -> Node | None:
-    """Returns the document of a text within the limits; None if the text is empty."""
+    """The document within the limits; None if the text is empty."""
     composer = _Composer(text)
     try:
         root: Node | None = composer.get_single_node()
@@ -281,7 +269,7 @@ def _walk(root: Node) -> None:
 
 
 def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
-    """Returns the line and column of character ``offset`` of a folded value."""
+    """The line and column of character ``offset`` of a folded value."""
     position = node.start_mark.index
     if node.style in {"|", ">"}:
         line_end = text.find("\n", position)
@@ -299,7 +287,7 @@ def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
 
 
 def place_of_sign(text: str, sign: object) -> tuple[int, int]:
-    """Returns the place of the first refused character; one at the start marks the encoding."""
+    """The first refused character; one at the start marks the encoding."""
     code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
     position = 0
     if isinstance(code, int):

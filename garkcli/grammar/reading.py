@@ -12,15 +12,13 @@ from garkcli.glossary.key import FileKind
 from garkcli.grammar.source import MAX_BYTES
 
 MOST_COMPARED = 1_000
-"""The number of files in a folder with which a missing name is compared."""
+"""Files in a folder with which a missing name is compared."""
 MOST_SHOWN = 4
-"""The number of files that are suggested for a missing one."""
+"""Files that are suggested for a missing one."""
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
-    """Returns the text of a file, or of standard input for ``-``, and its name. Raises
-    MethodFileError if there is no such file, or it is not text.
-    """
+    """The text and name of a file, or of standard input for ``-``; MethodFileError without text."""
     name = "<stdin>" if path == STDIN else path
     try:
         data = read_bytes(path, MAX_BYTES)
@@ -53,8 +51,8 @@ def _not_quoted(path: str, kind: FileKind) -> Remark:
 
 
 def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
-    """Returns whether errors may quote a file. It has to have a key of its kind, or be no link to
-    elsewhere and have an ending: a path chosen by someone else must not reveal secrets.
+    """Whether errors may quote a file. It has to have a key of its kind, or be no link to elsewhere
+    and have an ending: a path chosen by someone else must not reveal secrets.
     """
     if not is_elsewhere(path) and os.path.splitext(path)[1]:
         return True
@@ -64,7 +62,7 @@ def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
 
 
 def _cure_of_missing(path: str) -> str:
-    """Returns a cure with the file of nearly the same name in the folder."""
+    """The file of nearly the same name in the folder."""
     folder, name = os.path.split(path)
     try:
         with os.scandir(folder or os.curdir) as entries:
@@ -90,7 +88,7 @@ def _stem(name: str) -> str:
 
 
 def decoded(name: str, data: bytes) -> str:
-    """Returns the text of a file. Raises MethodFileError if it is too long or not UTF-8."""
+    """MethodFileError if the text is too long or not UTF-8."""
     if len(data) > MAX_BYTES:
         message = f"a file of more than {MAX_BYTES} bytes"
         raise MethodFileError(name, [Remark(message, "split it", 1, 1, code="file-too-large")])

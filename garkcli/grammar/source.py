@@ -1,4 +1,4 @@
-"""A file that is being read: its nodes, and the faults found in it."""
+"""A file that is being read, and the faults found in it."""
 
 from __future__ import annotations
 
@@ -18,13 +18,11 @@ from garkcli.grammar.nodes import composed, folded_place, keys_of, meant_key, po
 Place: TypeAlias = tuple[int, int]
 """Line and column, from 1."""
 MAX_PLACES = 3
-"""The number of further places that are listed for a cause with many faults."""
+"""Further places that are listed for a cause with many faults."""
 
 
 class NotedFault(Frozen):
-    """A reported fault. ``cause`` is equal for faults with the same cause, empty for a single one;
-    if ``is_one``, faults of this cause are always reported once.
-    """
+    """``cause`` is empty for a single fault; if ``is_one``, its faults are always reported once."""
 
     fault: errors.Remark
     cause: str = ""
@@ -36,7 +34,7 @@ def place_of(noted: NotedFault) -> Place:
 
 
 def told_once(noted: Sequence[NotedFault]) -> list[errors.Remark]:
-    """Returns the faults in file order, those of one cause at its first place."""
+    """The faults in file order, those of one cause at its first place."""
     causes = Counter(one.cause for one in noted)
     together: dict[object, list[NotedFault]] = {}
     for number, one in enumerate(noted):
@@ -51,7 +49,7 @@ def told_once(noted: Sequence[NotedFault]) -> list[errors.Remark]:
 
 
 def _elsewhere(others: Sequence[Place]) -> str:
-    """Returns the other places of a cause: ``(also at 4:12 and in 3 more places)``."""
+    """``(also at 4:12 and in 3 more places)``."""
     if not others:
         return ""
     places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
@@ -62,7 +60,6 @@ def _elsewhere(others: Sequence[Place]) -> str:
 
 MAX_BYTES = 1_000_000
 _MOST_DIGITS = 6
-"""The largest number of digits of an integer."""
 MAX_FAULTS = 200
 MAX_FAULTS_READ = 1_000
 """Reading stops after this number of faults."""
@@ -73,7 +70,7 @@ Entries: TypeAlias = dict[str, Node]
 
 
 class Home(Frozen):
-    """The place of a key: the key of the mapping that contains it, and an example with it."""
+    """The key of the mapping that contains a key, and an example with it."""
 
     key: str
     line: str
@@ -81,11 +78,10 @@ class Home(Frozen):
 
 _SHORT_VALUE = re.compile(r"[A-Za-z0-9<>=./+ -]{1,30}")
 _PLAIN_VALUE = re.compile(r"[A-Za-z0-9]\S*")
-"""A value that needs no quotes."""
 
 
 def _moved(key: str, value: Node, example: str) -> str:
-    """Returns a key with its value in the file, or an example if the value is longer."""
+    """A key with its value in the file, or an example if the value is longer."""
     if not isinstance(value, ScalarNode) or not _SHORT_VALUE.fullmatch(value.value):
         return example
     text = value.value
@@ -93,21 +89,17 @@ def _moved(key: str, value: Node, example: str) -> str:
 
 
 Cures: TypeAlias = Callable[[], Mapping[str, str | Home]]
-"""Returns advice about keys that belong elsewhere or nowhere, called when one is found."""
 _NOTHING: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
 """The prefix of tags that create Python objects."""
 
 
 class Source:
-    """A file that is being read."""
-
     def __init__(self, name: str, text: str, kind: FileKind) -> None:
         self.name = name
         self.text = text
         self.kind = kind
         self.faults: list[errors.Remark] = []
-        """The faults so far, in the order of reading."""
         self._found: list[NotedFault] = []
 
     def fault(
@@ -122,13 +114,13 @@ class Source:
         code: str,
         meant: str = "",
     ) -> None:
-        """Reports a fault at ``node``, or of the file as a whole, ``offset`` characters into its
-        text; ``meant`` is the word that was meant there.
+        """Reports a fault ``offset`` characters into the text of ``node``, or of the file as a
+        whole.
 
         ``where`` says what the value is, such as ``A^{1,1}, row 2``. The same message about a word
         of the file, with another ``where``, has the same cause and is reported once, with its other
-        places; so is any other message that occurs often. Messages with equal ``cause`` have the
-        same cause too. Raises MethodFileError after ``MAX_FAULTS_READ`` faults.
+        places; so is any message that occurs often, and messages with equal ``cause``. ``meant`` is
+        the word that was meant. Raises MethodFileError after ``MAX_FAULTS_READ`` faults.
         """
         line, column = (1, 1) if node is None else self._place(node, offset)
         text = f"{where}: {message}" if where else message
@@ -160,12 +152,12 @@ class Source:
         self.fault(node, *told, code=error.code, meant=error.meant)
 
     def close(self) -> None:
-        """Raises MethodFileError if there are faults, with all of them in file order."""
+        """Raises MethodFileError with all faults, if there are some."""
         if self._found:
             raise self.error()
 
     def error(self) -> errors.MethodFileError:
-        """Returns the faults as one error, in file order, each cause once."""
+        """All faults in file order, each cause once."""
         if not self._found:
             message = f"this is not a {self.kind.name}"
             self.fault(None, message, f"see {self.kind.page}", code="other-file")
@@ -180,7 +172,7 @@ class Source:
         return errors.MethodFileError(self.name, faults, self.text)
 
     def error_with(self, note: Callable[[], None]) -> errors.MethodFileError:
-        """Returns the faults as an error, including those that ``note`` reports temporarily."""
+        """With the faults that ``note`` reports temporarily."""
         before = len(self._found)
         note()
         error = self.error()
@@ -188,7 +180,7 @@ class Source:
         return error
 
     def compose(self) -> MappingNode | None:
-        """Returns the root of the file; None after a fault."""
+        """The root of the file; None after a fault."""
         if len(self.text) > MAX_BYTES:
             message = f"a file of more than {MAX_BYTES} characters"
             self.fault(None, message, "split it", code="file-too-large")
@@ -221,7 +213,6 @@ class Source:
         return max(others, key=lambda kind: len(keys.intersection(kind.keys)), default=None)
 
     def _foreign(self, is_yaml: bool) -> str:
-        """Returns the cure for a file of another format in place of one that it may hold."""
         return cure_of_foreign(self.text, self.name, is_yaml) if self.kind.is_imported else ""
 
     def mapping(
@@ -233,13 +224,10 @@ class Source:
         form: str = "",
         words: Mapping[str, str] = _NOTHING,
     ) -> Entries:
-        """Returns the entries of a mapping by key; repeated and unknown keys are reported.
+        """The entries of a mapping by key; repeated and unknown keys are reported.
 
         A misspelt key counts as the intended one, so that a typing error is not also a missing key.
-
-        ``allowed`` has the known keys, all if empty; ``cures`` returns advice about keys that
-        belong elsewhere, ``words`` has other spellings, ``form`` is the cure if there is no
-        mapping.
+        ``allowed`` has the known keys, all if empty; ``words`` has other spellings.
         """
         if not isinstance(node, MappingNode):
             message = f"{where}: a mapping of keys to values is expected here"
@@ -282,7 +270,7 @@ class Source:
         cures: Mapping[str, str | Home],
         words: Mapping[str, str],
     ) -> None:
-        """Reports unknown keys; those that belong in one other place as one fault."""
+        """Reports keys that belong in one other place as one fault."""
         together: dict[object, list[ScalarNode]] = {}
         for number, key_node in enumerate(unknown[:MAX_FAULTS]):
             there = cures.get(key_node.value, number)
@@ -325,7 +313,6 @@ class Source:
         return list(node.value)
 
     def scalar(self, node: Node, where: str) -> str | None:
-        """Returns the text of a scalar as written."""
         if not isinstance(node, ScalarNode):
             message, cure = "a single value is expected here", "write one number or word"
             self.fault(node, message, cure, where=where, code="value-expected")
@@ -340,7 +327,7 @@ class Source:
     def whole(
         self, node: Node, where: str, smallest: int = 0, largest: int | None = None
     ) -> int | None:
-        """Returns a nonnegative integer written in decimal digits."""
+        """Only decimal digits without leading zeros count."""
         text = self.scalar(node, where)
         if text is None:
             return None

@@ -1,4 +1,4 @@
-"""Other spellings of coefficients and lists: of other languages, printed matrices, triangles."""
+"""Spellings of other languages, printed matrices, triangles."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from garkcli.grammar.source import Source
 
 
 def is_triangle(lengths: Sequence[int]) -> bool:
-    """Returns whether all rows end at the diagonal, or all before it.
+    """Whether all rows end at the diagonal, or all before it.
 
     >>> is_triangle([1, 2, 3]), is_triangle([0, 1, 2]), is_triangle([1, 1, 3])
     (True, True, False)
@@ -42,11 +42,10 @@ _SEVERAL = r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]"
 """Two numbers without an operator between them."""
 _IN_PARENTHESES = r"\([^()]*\)"
 MAX_PRINTED = 2_000
-"""The longest text that is examined for a printed row or matrix."""
 
 
 def holds_several(text: str) -> bool:
-    """Returns whether a text has several numbers separated by blanks, commas or semicolons only.
+    """Whether a text has several numbers separated by blanks, commas or semicolons only.
 
     >>> holds_several("0 0; 1/2 0"), holds_several("1/2 - 1/3"), holds_several("root(2, 5)")
     (True, False, False)
@@ -60,7 +59,7 @@ def holds_several(text: str) -> bool:
 
 
 def bracketed(text: str) -> str:
-    """Returns numbers separated by blanks or commas, and rows by semicolons or line ends, in YAML.
+    """In YAML, with rows separated by semicolons or line ends.
 
     >>> bracketed("0 0; 1/2 0"), bracketed("1/6, 2/3, 1/6")
     ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
@@ -75,9 +74,7 @@ def bracketed(text: str) -> str:
 
 
 def is_printed(source: Source, rows: Sequence[Node], where: str, what: str) -> bool:
-    """Returns whether a row is a text of several numbers, as other programs print them, and reports
-    the first one. ``what`` is ``a row`` or ``a matrix``.
-    """
+    """Reports the first row that is a text of several numbers; ``what`` is ``a row`` or so."""
     texts = []
     for row in rows:
         while isinstance(row, SequenceNode) and len(row.value) == 1:
@@ -113,11 +110,11 @@ _SPELLINGS: tuple[tuple[str, str], ...] = (
     (r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])", "coefficients are real here: no complex ones"),
     (r"[0-9)][ \t]+[0-9.]+", "put commas between entries and points in decimals: [0.5, 1/2]"),
 )
-"""Numbers as other languages write them, and the spelling in a method file."""
+"""Numbers of other languages, and their spelling in a method file."""
 
 
 def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
-    """Returns the error with a cure for spellings of other languages."""
+    """The error with a cure for spellings of other languages."""
     start = error.start
     if len(text) > MAX_PRINTED:
         return error, ""
@@ -150,9 +147,7 @@ _NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
 
 
 def number_text(source: Source, node: Node, where: str) -> str | None:
-    """Returns the text of a number as written; None, with a fault, if it is not a scalar, or one
-    that YAML does not read as the number it looks like.
-    """
+    """As written; None, with a fault, if YAML does not read the number it looks like."""
     text = source.scalar(node, where)
     if text is None or not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return text

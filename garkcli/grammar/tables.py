@@ -18,15 +18,13 @@ BEFORE = r"(?:tool[ \t]*\.[ \t]*)?gark[ \t]*\.[ \t]*"
 TAG = "tag:yaml.org,2002:"
 QUOTED = f"{TAG}str"
 DEEPEST = 2
-"""The deepest nesting of lists and tables that is read or refused."""
+"""The deepest nesting that is read or refused."""
 
 
 def read_settings(
     source: Source, table: dict[str, Any], kind: ValueKind, where: str
 ) -> ReadMapping:
-    """Returns the values of a table by key; faults are reported. TOML gives no positions: a value
-    is placed at the first line with its key.
-    """
+    """The values of a table, each at the first line with its key: TOML gives no positions."""
     is_whole = where == FILE
     head = None if is_whole else HEAD.search(source.text)
     start = head.end() if head else 0
@@ -54,9 +52,7 @@ def read_settings(
 
 
 def _places(text: str, before: str, start: int) -> dict[str, yaml.Mark]:
-    """Returns the place of the first line with each key. ``before`` is the pattern before each key,
-    ``start`` the start of the table.
-    """
+    """The first line with each key, behind the pattern ``before``."""
     places: dict[str, yaml.Mark] = {}
     line, seen = 0, 0
     pattern = re.compile(rf"^[ \t]*[\"']?{before}([^\n=\"']*+)[\"']?[ \t]*=", re.MULTILINE)

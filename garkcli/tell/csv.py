@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 def csv_text(section: Section[T], parts: Iterable[T]) -> str:
-    """A line a part, below the keys of its rows; without a part the keys alone."""
+    """A line a part; without a part the keys alone."""
     d = Plain()
     lines = [dict(_cells(section, part, d)) for part in parts]
     heads = dict.fromkeys(
@@ -30,7 +30,7 @@ def csv_text(section: Section[T], parts: Iterable[T]) -> str:
 
 
 def csv_lines(section: Section[T], parts: Iterable[T], d: Plain) -> Iterator[str]:
-    """Yields the head and the lines of parts as they are found, in the columns of the first."""
+    """Lines of parts as they are found, in the columns of the first."""
     left = iter(parts)
     first = next(left, None)
     yield _line(dict(_cells(section, first, d)))
@@ -47,7 +47,7 @@ def _line(cells: Iterable[str]) -> str:
 
 
 def _cells(section: Section[T], part: T | None, d: Plain) -> Iterator[tuple[str, str]]:
-    """Columns with their cells; all of these are empty where there is no part."""
+    """Empty cells without a part."""
     for row in section.rows:
         what = row.kind.what
         value = None if part is None else row.answer(part).value

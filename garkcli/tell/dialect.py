@@ -1,7 +1,6 @@
 """The signs of plain text: what differs between the outputs, and nothing that knows a result.
 
-Kinds word values through a dialect; ``Plain`` is that of pipes and of the texts in JSON, the others
-change signs. Sentences are shared.
+Kinds word values through a dialect; ``Plain`` is that of pipes and of texts in JSON.
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ LONG = 40
 LONG_POLYNOMIAL = 320
 """Longer polynomials are described."""
 WORDS = 24
-"""Columns of the terminal that are enough for words."""
+"""Columns that are enough for words."""
 CUT = 8
 """Columns that are enough for the beginning of words."""
 NAME = 26
@@ -61,18 +60,12 @@ _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
 
 
 def are_numbers(cells: Iterable[str]) -> bool:
-    """Whether the cells of a column are aligned right."""
+    """Such cells are aligned right."""
     return all(map(_NUMBER.match, cells))
 
 
 class Status(Frozen):
-    """The certainty of a value; a rounded order can be all three.
-
-    Attributes:
-        within: the rounding for which it holds; None for exactly.
-        at_least: whether it may be larger.
-        open: what is undecided, and why.
-    """
+    """``within`` is the rounding for which a value holds; None for exactly."""
 
     within: fmpq | None = None
     at_least: bool = False
@@ -83,7 +76,7 @@ SURE = Status()
 
 
 class GridLayout(NamedTuple):
-    """The margin of a table, whether its last words may be cut, whether it is a stream."""
+    """The margin; whether last words may be cut; whether it is a stream."""
 
     depth: int = 0
     is_cut: bool = False
@@ -94,7 +87,7 @@ WHOLE = GridLayout()
 
 
 def _broken(text: str, width: int) -> list[str]:
-    """A cell in lines; a word that is too long for it, such as a path, goes on below too."""
+    """The lines of a cell; a word that is too long for it, such as a path, is broken."""
     if "\n" in text:
         return [x for line in text.split("\n") for x in _broken(line, width)]
     if shown_width(text) <= width:
@@ -116,14 +109,13 @@ class Plain(Mutable):
 
     Attributes:
         digits: of decimals.
-        colours: names of the colours of a method; where there is one it is not named.
-        names: of the colours in trees, where they are not numbers.
+        colours: names of the colours of a method; a single one is not named.
+        names: of the colours in trees, if they are not numbers.
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
         told: failures that were reported: the second time they are "as above".
         letters: those of roots in the numbers of a result, defined below its first line.
-        is_inserted: whether LaTeX goes into a document that has words of its own: its tables and
-            drawings alone, the words as comments.
+        is_inserted: whether LaTeX goes into a document with words of its own, which are comments.
     """
 
     digits: int = 12
@@ -140,22 +132,18 @@ class Plain(Mutable):
 
     infinity = "∞"
     breadth: ClassVar[Literal["terminal", "page", "any"]] = "terminal"
-    """The width of tables."""
 
     def prose(self, text: str) -> str:
-        """Words of ours, or of a file."""
+        """Words of gark, or of a file."""
         return printable(text)
 
     def good(self, text: str) -> str:
-        """Good news."""
         return text
 
     def bad(self, text: str) -> str:
-        """Bad news."""
         return text
 
     def note(self, text: str) -> str:
-        """Advice."""
         return text
 
     def drawing(self, lines: Iterable[str]) -> list[str]:
@@ -166,23 +154,21 @@ class Plain(Mutable):
         return text
 
     def reason(self, reason: Reason) -> str:
-        """A reason with its values in the signs of this dialect."""
         return reason.told(
             self.prose, lambda x: self.prose(x) if isinstance(x, str) else x.words(self)
         )
 
     def known(self, text: str, status: Status) -> str:
-        """A value with its rounding, or with the remark that it is a lower bound."""
+        """With its rounding, or as a lower bound."""
         if status.at_least:
             text = f"at least {text}"
         return text if status.within is None else f"{text} within {decimal(status.within)}"
 
     def formula(self, latex: str, text: str) -> str:
-        """A formula, in the signs that the output has."""
         return text
 
     def expression(self, text: str, latex: Callable[[], str] | None = None) -> str:
-        """A symbolic expression; ``latex`` makes its LaTeX if method files do not write it so."""
+        """``latex`` makes LaTeX that method files do not write so."""
         return text
 
     def number(self, x: Number) -> str:
@@ -193,13 +179,12 @@ class Plain(Mutable):
         return self.expression(text)
 
     def diagonal(self, x: Number) -> str:
-        """The diagonal entry γ, as a decimal where the text has its letter for it."""
+        """The entry γ, as a decimal if the text has its letter for it."""
         if shortest(x) == DIAGONAL:
             return f"about {to_decimal(x, self.places or 8)}"
         return self.number(x)
 
     def short(self, x: Number) -> str:
-        """An exact number among many."""
         text = shortest(x)
         return self.expression(text) if len(text) <= 12 else to_decimal(x, 4)
 
@@ -228,7 +213,7 @@ class Plain(Mutable):
         return self.polynomial(Polynomial.from_flint(root.polynomial), "x")
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
-        """A polynomial; a long one is described, one with long coefficients has decimals."""
+        """A long polynomial is described; long coefficients are decimals."""
         text, about = polynomials.polynomial_text(p, variable), ""
         is_wide = max(map(len, text.split()), default=0) > LONG
         if is_wide or (self.is_brief and polynomials.has_long_coefficients(p)):
@@ -244,7 +229,7 @@ class Plain(Mutable):
         return f"{top} / {bottom}"
 
     def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
-        """A rational function with whole coefficients, in decimals where these are long."""
+        """A rational function with whole coefficients, in decimals if these are long."""
         if self.is_brief and polynomials.has_long_coefficients(*polynomials.integral([p, q])):
             decimals = Plain.over(
                 self, *(polynomials.polynomial_decimals(x, variable) for x in (p, q))
@@ -268,16 +253,15 @@ class Plain(Mutable):
         return f"about {text}"
 
     def place(self, place: Place) -> str:
-        """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``."""
+        """``a[4,1]``; of several colours ``a{1,2}[4,1]``."""
         return self.prose(str(place))
 
     def block(self, letter: str, colours: Sequence[int]) -> str:
-        """A whole block or row of the method, by its colours, counted from 0."""
         names = [self.colours[l] for l in colours] if len(self.colours) > 1 else []
         return self.place(Place(letter, tuple(names)))
 
     def tree(self, tree: Tree | str) -> str:
-        """A tree in brackets, or these; with one colour that is not named."""
+        """In brackets; a single colour is not named."""
         if not isinstance(tree, str):
             tree = format_tree(tree, self.names or self.has_colours(tree))
         return self.code(tree)
@@ -289,11 +273,10 @@ class Plain(Mutable):
         return len(self.colours) > 1 or bool({*tree.colours} - {0})
 
     def code(self, text: str) -> str:
-        """A quoted text, such as a tree."""
         return text
 
     def sketch(self, tree: Tree) -> str:
-        """A picture of a tree in a cell, where the output has such."""
+        """A picture in a cell, if the output has such."""
         return ""
 
     def failure(self, witness: Witness, is_rounded: bool = False, order: int | None = None) -> str:
@@ -310,7 +293,6 @@ class Plain(Mutable):
         return f"order {order} fails at {self.tree(witness.tree)} by {residual}"
 
     def table(self, rows: Sequence[Sequence[int | None]], limit: int) -> str:
-        """The numbers of all blocks."""
         return " / ".join(" ".join(self.capped(x, limit) for x in row) for row in rows)
 
     def capped(self, number: int | None, limit: int) -> str:
@@ -320,11 +302,9 @@ class Plain(Mutable):
         return f"≥{number}" if number >= limit else str(number)
 
     def upto(self, sign: str, end: RealRoot) -> str:
-        """The range from 0 on in which something holds."""
         return f"{self.prose(sign)} ≤ {self.root(end)}"
 
     def interval(self, x: Interval, variable: str) -> str:
-        """A part of a line."""
         if x.is_point:
             assert x.start is not None
             return f"{variable} = {self.root(x.start)}"
@@ -336,7 +316,6 @@ class Plain(Mutable):
         return text
 
     def bounds(self, found: Bounds, before: str = "") -> str:
-        """A number that is known between bounds."""
         low, high = found.low, found.high
         if low is None:
             return "no limit"
@@ -354,27 +333,24 @@ class Plain(Mutable):
         return ", ".join(texts[:FEW]) + more
 
     def spelt(self, text: str) -> str:
-        """A text in the signs that the output has: widths are those of what is written."""
+        """In the signs of the output: widths are those of what is written."""
         return text if text.isascii() else plain_text(text, self.look.encoding)
 
     def headline(self, text: str) -> list[str]:
-        """The first line."""
         return [self.strong(line) for line in folded(self.spelt(text), self.width, "  ")]
 
     def message(self, text: str, hanging: int = 2) -> list[str]:
-        """A message, which programs want in one line; later lines of it hang."""
+        """Programs want messages in one line; otherwise later lines hang."""
         return [text]
 
     def title(self, text: str, depth: int) -> list[str]:
         return [f"{'  ' * depth}{self.strong(self.spelt(text))}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
-        """Facts that share a line."""
         margin = "  " * depth
         return folded(margin + self.spelt(text), self.width, margin + "  ")
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
-        """Labels, each with its text."""
         spelt = [(self.spelt(label), self.spelt(text)) for label, text in rows]
         room = max((shown_width(label) for label, _ in spelt), default=0) + 2
         margin = "  " * depth
@@ -387,10 +363,10 @@ class Plain(Mutable):
         return lines
 
     def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
-        """A table. A last column of words is folded where it does not fit, or cut where that may
-        be; other columns that do not fit continue below, each time beside the first one. Of a
-        stream columns are as wide as its rows so far ask for. With details a row of a table that
-        has words in other columns is its name with a line a column below.
+        """A last column of words is folded or cut if it does not fit; other columns that do not fit
+        continue below, each time beside the first one. Columns of a stream are as wide as its rows
+        so far. With details a row with words in other columns is its name with a line a column
+        below.
         """
         if not (self.is_brief or how.is_stream):
             rows = [*rows]
@@ -463,7 +439,7 @@ class Plain(Mutable):
     def beside(
         self, columns: Sequence[Cells], widths: Sequence[int], room: int, heads: int = 1
     ) -> Iterable[str]:
-        """The lines of a table; long cells are folded."""
+        """Long cells are folded."""
         are_right = [are_numbers(column[heads:]) for column in columns]
         for row in zip(*columns, strict=True):
             if len(row) > 1 and shown_width(row[0]) > widths[0]:
@@ -481,11 +457,10 @@ class Plain(Mutable):
         return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 
     def more(self, count: int, depth: int) -> list[str]:
-        """A line for the rows of a table that are left out."""
+        """For rows that are left out."""
         return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:
-        """A line for each letter of a root that is in the text."""
         from garkcli.page.exactly import definition
 
         for root, letter in letters.items():
@@ -501,7 +476,6 @@ class Plain(Mutable):
         return indented(lines, "  " * depth)
 
     def scene(self, scene: Scene, depth: int) -> list[str]:
-        """A drawing of axes, curves and areas."""
         from garkcli.plots.terminal import COLUMNS, drawn
 
         columns = min(COLUMNS, self.width - 2 * depth)
@@ -509,6 +483,5 @@ class Plain(Mutable):
         return self.picture([line for lines in panels for line in lines], depth)
 
     def page(self, lines: Iterable[str]) -> Iterator[str]:
-        """The whole text, in pieces."""
         for line in lines:
             yield f"{inert(line)}\n"

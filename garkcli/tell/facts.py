@@ -1,9 +1,8 @@
 """A result described once: rows declare what is found, kinds what a value is and how it is shown.
 
 A ``Section`` is the one declaration of a result of a type, which mypy checks each row against. The
-JSON of the result, its JSON Schema and everything that a person reads come from it. Rows are
-declared before there is a result, and asked when it is reported: what lies too deep is not
-computed.
+JSON of the result, its JSON Schema and every text come from it. Rows are declared before there is
+a result, and asked when it is reported: what lies too deep is not computed.
 """
 
 from __future__ import annotations
@@ -32,20 +31,18 @@ V_out = TypeVar("V_out", covariant=True)
 Wording: TypeAlias = "Callable[[T, Plain], str]"
 Labelling: TypeAlias = "Callable[[T, Plain], Iterable[tuple[str, str]]]"
 Phrasing: TypeAlias = "Callable[[str, T, Answer[T], Plain], str]"
-"""Makes a part of a sentence of a label, a value and its answer."""
+"""A part of a sentence."""
 
 
 class Display(Frozen, Generic[V_in]):
-    """A way to show a value."""
+    pass
 
 
 class Words(Display[V_in]):
-    """Shows a value in words, in a line.
-
-    Attributes:
-        whole: the answer in words, if its status and its reason are not added after ``words``.
-        phrase: a part of a sentence, if that is not the label with the words.
-        absent: the cell of a table if there is no value.
+    """Attributes:
+    whole: the answer in words, if its status and its reason are not added after ``words``.
+    phrase: a part of a sentence, if that is not the label with the words.
+    absent: the cell of a table if there is no value.
     """
 
     words: Wording[V_in]
@@ -55,35 +52,31 @@ class Words(Display[V_in]):
 
 
 class Labels(Display[V_in]):
-    """Shows a value as rows among those of other facts."""
-
     rows: Labelling[V_in]
 
 
 class Below(Display[V_in]):
-    """Shows a value in lines of its own, below the other facts."""
+    """In lines of its own, below the other facts."""
 
 
 class TextPicture(Below[V_in]):
-    """Shows a picture made of characters, if the output has room for it."""
+    """Made of characters, if the output has room for it."""
 
     lines: Callable[[V_in, Plain], Sequence[str]]
 
 
 class Drawing(Below[V_in]):
-    """Shows lines that are ready for the output."""
-
     draw: Callable[[V_in, Plain], Iterable[str]]
 
 
 class Plot(Below[V_in]):
-    """Shows axes, curves and areas, which each output draws in its own way."""
+    """Axes, curves and areas, which each output draws in its own way."""
 
     scene: Callable[[V_in], Scene]
 
 
 class OnePart(Display[T]):
-    """Shows the facts of a section: usually some in a line, or ``words``; with -v each alone."""
+    """Usually some facts in a line, or ``words``; with -v each alone."""
 
     section: Section[T]
     words: Wording[T] | None = None
@@ -94,11 +87,9 @@ class OnePart(Display[T]):
 
 
 class ManyParts(Display[Sequence[T]]):
-    """Shows each value of a list by the facts of a section.
-
-    Attributes:
-        words: the line of all parts, if the usual facts do not make it.
-        most: the most rows of a usual table, 0 for all; None if a line is usual.
+    """Attributes:
+    words: the line of all parts, if the usual facts do not make it.
+    most: the most rows of a usual table, 0 for all; None if a line is usual.
     """
 
     section: Section[T]
@@ -110,14 +101,14 @@ class ManyParts(Display[Sequence[T]]):
 
 
 class Stream(Below[Iterable[T]]):
-    """Shows a line for each part as soon as it is found, on a terminal below headings by ``by``."""
+    """A line for each part as soon as it is found, on a terminal below headings by ``by``."""
 
     section: Section[T]
     by: Wording[T] | None = None
 
 
 class Level(IntEnum):
-    """The reports that have a fact: first, usual ones, those with -v, those for programs."""
+    """First lines, usual reports, those with -v, those for programs."""
 
     HEADLINE = 0
     USUAL = 1
@@ -126,13 +117,11 @@ class Level(IntEnum):
 
 
 class Answer(Frozen, Generic[V_out]):
-    """A value with its status and its reason.
-
-    Attributes:
-        value: None if there is none, or none is decided.
-        level: where it is reported, if not where its row says.
-        witness: of an order whose value has none.
-        names: of the colours in trees, where they are not numbers.
+    """Attributes:
+    value: None if there is none, or none is decided.
+    level: where it is reported, if not where its row says.
+    witness: of an order whose value has none.
+    names: of the colours in trees, if they are not numbers.
     """
 
     value: V_out | None
@@ -144,8 +133,6 @@ class Answer(Frozen, Generic[V_out]):
 
 
 class Described(Protocol[V_in]):
-    """Makes JSON of values, such as a section."""
-
     @property
     def schema(self) -> Schema: ...
 
@@ -153,8 +140,8 @@ class Described(Protocol[V_in]):
 
 
 class FieldBeside(Frozen, Generic[V]):
-    """A field of JSON beside that of a row, from its answer; None is left out if it is optional. In
-    its name ``*`` is the key of the row up to the last ``order``.
+    """A field of JSON beside that of a row; in its name ``*`` is the key of the row up to the last
+    ``order``.
     """
 
     name: str
@@ -164,13 +151,9 @@ class FieldBeside(Frozen, Generic[V]):
 
 
 class Json(Frozen, Generic[V_in]):
-    """A value whose JSON is declared.
-
-    Attributes:
-        schema: of its JSON.
-        data: makes the JSON; without it the value is JSON already.
-        beside: further fields.
-        csv: a cell, or cells by their columns, if they are not made of the JSON.
+    """Attributes:
+    data: makes the JSON; without it the value is JSON already.
+    csv: a cell, or cells by their columns, if they are not made of the JSON.
     """
 
     schema: Schema
@@ -180,8 +163,6 @@ class Json(Frozen, Generic[V_in]):
 
 
 class Several(Frozen, Generic[T]):
-    """A list of values that a section describes."""
-
     section: Section[T]
     is_never_empty: bool = False
 
@@ -195,7 +176,7 @@ class Several(Frozen, Generic[T]):
 
 
 class Kind(Frozen, Generic[V_in]):
-    """A type of value: what it is for programs, or None, and how it is shown to people, or None."""
+    """The value for programs, or None, and for people, or None."""
 
     what: Described[V_in] | None
     shown: Display[V_in] | None = None
@@ -210,8 +191,6 @@ class Kind(Frozen, Generic[V_in]):
 
 
 class Said(Frozen, Generic[V]):
-    """A value with its kind, in a reason."""
-
     kind: Kind[V]
     value: V
 
@@ -223,8 +202,6 @@ class Said(Frozen, Generic[V]):
 
 
 class Fact(Frozen):
-    """An answer under its row: all that an output gets."""
-
     row: Row[Any]
     answer: Answer[Any]
     level: Level
@@ -252,8 +229,6 @@ class Fact(Frozen):
 
 
 class RowOptions(TypedDict, total=False):
-    """The place of a row in a text, as ``Row`` takes it."""
-
     label: str | None
     line: str
     is_short: bool
@@ -266,7 +241,7 @@ class Row(Generic[T_in]):
         key: its name in JSON; its label and its sentence are found by it.
         has_null: whether there may be no value.
         is_optional: whether JSON leaves it out then.
-        label: where it is not the one of the key.
+        label: if it is not that of the key.
         line: facts with the same word here share a line of the usual text.
         is_short: whether other rows tell it where everything is reported.
     """
@@ -346,13 +321,13 @@ Rows: TypeAlias = "Sequence[Row[T]]"
 
 
 class maybe(Row[T_in]):  # noqa: N801 -- it is called like a function
-    """A row whose value may be none: null in JSON."""
+    """Null in JSON without a value."""
 
     has_null = True
 
 
 class optional(Row[T_in]):  # noqa: N801
-    """A row that JSON leaves out where there is no value."""
+    """Left out of JSON without a value."""
 
     is_optional = True
 
@@ -365,7 +340,7 @@ def itself(
 
 
 def via(get: Callable[[T], U | None], rows: Iterable[Row[U]]) -> Rows[T]:
-    """Rows of a part as rows of its owner; they have no value where there is no part."""
+    """Rows of a part as rows of its owner, without values if there is no part."""
 
     def of(row: Row[U]) -> Row[T]:
         found: Row[Any] = copy(row)
@@ -397,7 +372,7 @@ class Section(Generic[T_in]):
         self.is_cut = is_cut
 
     def facts(self, whole: T_in, level: Level = Level.DATA) -> Iterator[Fact]:
-        """The facts down to a level; what lies deeper by its row is not asked for."""
+        """The facts down to a level; rows that lie deeper are not asked."""
         for row in self.rows:
             if callable(row.level) or row.level <= level:
                 yield row.fact(whole)
@@ -420,7 +395,6 @@ class Section(Generic[T_in]):
 
     @property
     def schema(self) -> Schema:
-        """The JSON Schema of such data."""
         fields = [field for row in self.rows for field in row.fields()]
         return {
             "type": "object",
@@ -431,7 +405,7 @@ class Section(Generic[T_in]):
 
 
 class SectionChoice(Section[T]):
-    """One of several sections, which ``of`` chooses for a value."""
+    """``of`` chooses one of several sections for a value."""
 
     def __init__(self, of: Callable[[T], Section[T]], *sections: Section[T]) -> None:
         super().__init__()

@@ -45,12 +45,11 @@ def record(**fields: Schema) -> Schema:
 
 
 def constant(value: object) -> facts.Kind[object]:
-    """A field with the same value in every report; for programs."""
+    """For programs, the same in every report."""
     return facts.Kind(facts.Json({"const": value}))
 
 
 def choice(*values: str | None) -> facts.Kind[str]:
-    """One of a few words."""
     return facts.Kind(facts.Json({"enum": [*values]}), TEXT.shown)
 
 
@@ -60,12 +59,10 @@ def _truth_phrase(label: str, value: bool, answer: facts.Answer[bool], d: Plain)
 
 
 def truth_words(value: bool, d: Plain) -> str:
-    """``yes`` or ``no``."""
     return d.good("yes") if value else d.bad("no")
 
 
 def counted(schema: Schema) -> facts.Kind[int]:
-    """A number that is shown without change."""
     return facts.Kind(facts.Json(schema), facts.Words(lambda x, _: str(x)))
 
 
@@ -79,7 +76,7 @@ POSITION = counted(S.POSITION)
 INDEX: facts.Kind[int] = facts.Kind(
     facts.Json(S.POSITION, lambda x, _: x + 1), facts.Words(lambda x, _: str(x + 1))
 )
-"""Counted from 0 by the program, and from 1 by people."""
+"""From 0 for the program, from 1 for people."""
 TEXT: facts.Kind[str] = facts.Kind(facts.Json(S.TEXT), facts.Words(lambda x, d: d.prose(x)))
 TEXTS: facts.Kind[Sequence[str]] = facts.Kind(
     facts.Json(array(S.TEXT), lambda x, _: list(x), csv=lambda x: csv_cell("; ".join(x))),
@@ -105,7 +102,7 @@ TREE: facts.Kind[Tree] = facts.Kind(
 def truth(
     value: bool | None, why: Reason | str = "", open_because: Reason | str = ""
 ) -> facts.Answer[bool]:
-    """A truth with the reason against it, or, of None, the reason why it is open."""
+    """With the reason against it, or why it is undecided."""
     if value is None:
         return facts.Answer(None, Status(open=as_reason(open_because or "it is open")))
     return facts.Answer(value, reason=NO_REASON if value else as_reason(why))
@@ -116,8 +113,6 @@ def as_reason(text: Reason | str) -> Reason:
 
 
 class OfFile(Protocol):
-    """A result of a file."""
-
     @property
     def file(self) -> str: ...
 
@@ -126,7 +121,7 @@ class OfFile(Protocol):
 
 
 def _name(x: OfFile) -> facts.Answer[str]:
-    """The name, which reports show if it is not that of the file."""
+    """Reports show a name if it is not that of the file."""
     return facts.Answer(x.name, level=facts.Level.DETAIL if x.name != x.file else facts.Level.DATA)
 
 
@@ -137,7 +132,6 @@ FILE_AND_NAME: facts.Rows[OfFile] = (
 
 
 def numeral_text(x: Number, d: Plain) -> str:
-    """A number exactly, or in as many decimals as are requested."""
     return to_text(x) if d.places is None else to_decimal(x, d.places)
 
 
@@ -149,7 +143,6 @@ def _numeral(x: Number, d: Plain) -> str:
 NUMERAL: facts.Kind[Number] = facts.Kind(facts.Json(S.NUMERAL, numeral_text), facts.Words(_numeral))
 
 BLOCK: Schema = {**array(S.POSITION), "minItems": 1, "maxItems": 2}
-"""The colours of a block of A, or of a row of weights."""
 
 
 def numbers_from_one(places: Sequence[Sequence[int]]) -> list[list[int]]:
@@ -294,7 +287,6 @@ def polynomial(variable: str) -> facts.Kind[Polynomial]:
 EXPRESSION: facts.Kind[str] = facts.Kind(
     facts.Json(S.TEXT), facts.Words(lambda x, d: d.expression(x))
 )
-"""A polynomial in the unknowns of a file."""
 ROOTS: facts.Kind[Sequence[RealRoot]] = facts.Kind(
     facts.Json(array(ALGEBRAIC), lambda xs, d: [root_data(x, d.digits) for x in xs]),
     facts.Words(lambda xs, d: ", ".join(map(d.root, xs))),
@@ -309,7 +301,7 @@ RADIUS: facts.Kind[SspCoefficient] = facts.Kind(
     facts.Json(one_of(S.TEXT, ROOT_OF), radius_data),
     facts.Words(lambda x, d: d.infinity if x.value is None else d.root(x.value)),
 )
-"""The reach of something, which may be without end."""
+"""The reach may be infinite."""
 
 END: facts.Kind[RealRoot] = facts.Kind(facts.Json(ALGEBRAIC, lambda x, d: root_data(x, d.digits)))
 INTERVAL: facts.Section[Interval] = facts.Section(

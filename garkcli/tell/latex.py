@@ -51,14 +51,14 @@ _ABOVE = {
 }
 _COMMAND, _UNSEEN = re.compile(r"\\([A-Za-z]+|.)"), str.maketrans("", "", "{}$^_")
 PAGE, GAP, PICTURE = 96, 2.5, 8
-"""The width of a page, of the gap between columns and of a drawn tree, in letters."""
+"""The widths of a page, a gap between columns and a drawn tree, in letters."""
 ON_A_PAGE, MEASURED = 30, 1000
-"""Rows of a table that a page has room for, some of them folded; those that say its widths."""
+"""Rows of a table on a page, some of them folded; rows that determine its widths."""
 _SIGN = re.compile(rf"\|[^|]+\||[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
 
 
 def _sign(found: re.Match[str]) -> str:
-    """A sign, a letter with what is above it, or an absolute value."""
+    """A sign, a letter with an accent, or an absolute value."""
     sign = found[0]
     if sign.startswith("|") and len(sign) > 1:
         return f"$|{_SIGN.sub(_sign, sign[1:-1]).replace('$', '')}|$"
@@ -68,7 +68,7 @@ def _sign(found: re.Match[str]) -> str:
 
 
 def expression_latex(text: str) -> str | None:
-    """An expression of method files; None if the text is another one, or too large."""
+    """None if method files do not write the text, or it is too large."""
     from garkcli.exact.expression import parse
     from garkcli.exact.rewriting import format_expression
 
@@ -79,7 +79,7 @@ def expression_latex(text: str) -> str | None:
 
 
 def place_latex(place: Place, name: Callable[[str], str] = str) -> str:
-    """An entry of a block, the names of colours as ``name`` has them."""
+    """``name`` makes the names of colours."""
     base = {"â": r"\hat a", "Â": r"\hat A"}.get(place.letter, place.letter)
     if place.colours:
         base += rf"^{{({','.join(map(name, place.colours))})}}"
@@ -89,7 +89,7 @@ def place_latex(place: Place, name: Callable[[str], str] = str) -> str:
 
 
 def _width(cell: str) -> int:
-    """The letters of a cell, about: a command is one, a picture some."""
+    """Letters, about: a command is one, a picture some."""
     return PICTURE if "tikzpicture" in cell else len(_COMMAND.sub("x", cell).translate(_UNSEEN))
 
 
@@ -104,8 +104,6 @@ def _most(widths: Sequence[int], room: int) -> int:
 
 
 class Latex(Plain):
-    """LaTeX."""
-
     infinity = r"$\infty$"
     breadth = "page"
 
@@ -190,9 +188,7 @@ class Latex(Plain):
         return [begin, r"\hline", *body, r"\hline", end, ""]
 
     def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
-        """A table. If it is wider than a page, long columns are folded; a long one goes on over
-        pages, below its head.
-        """
+        """Wide columns are folded; a long table goes on over pages, below its head."""
         left = iter(rows)
         first = [*islice(left, MEASURED)]
         widths = [max(map(_width, column)) for column in zip(head, *first, strict=True)]

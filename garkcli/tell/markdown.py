@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Markdown(Plain):
-    """Markdown, as code hosts read it."""
+    """As code hosts read it."""
 
     breadth = "any"
 

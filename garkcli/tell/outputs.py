@@ -1,7 +1,4 @@
-"""Facts told: the text of a result in a dialect, many results as a table, JSON and its schema.
-
-Nothing here knows a command or a kind.
-"""
+"""Facts told: the text of a result in a dialect, many results as a table, JSON and its schema."""
 
 from __future__ import annotations
 
@@ -29,11 +26,11 @@ from garkcli.tell.facts import (
 T = TypeVar("T")
 
 COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
-"""The level of the rows that a stream has as columns, by the breadth of the output."""
+"""The level of the columns of a stream, by the breadth of the output."""
 
 
 def words(fact: Fact, d: Plain) -> str:
-    """A fact in words: value, status and reason."""
+    """Value, status and reason."""
     answer, shown = fact.answer, fact.shown
     if answer.value is None:
         if answer.status.open:
@@ -57,7 +54,7 @@ def gist(fact: Fact, d: Plain) -> str:
 
 
 def phrases(section: Section[T], whole: T, d: Plain, level: Level) -> Iterator[str]:
-    """The facts down to a level, each as a part of a sentence."""
+    """Facts down to a level, each as a part of a sentence."""
     for fact in section.facts(whole, level):
         can_be_said = not fact.is_below and not isinstance(fact.shown, Labels)
         if fact.level <= level and fact.is_something and can_be_said:
@@ -65,7 +62,7 @@ def phrases(section: Section[T], whole: T, d: Plain, level: Level) -> Iterator[s
 
 
 def phrase(fact: Fact, d: Plain) -> str:
-    """A fact as a part of a sentence: ``order 4, proved``; ``not A-stable: R is unbounded``."""
+    """``order 4, proved``; ``not A-stable: R is unbounded``."""
     shown, name = fact.shown, label(fact, d)
     if isinstance(shown, (Words, OnePart)) and shown.phrase is not None and fact.value is not None:
         return shown.phrase(name, fact.value, fact.answer, d)
@@ -83,7 +80,6 @@ def named(row: Row[T], d: Plain) -> str:
 
 
 def cell(fact: Fact, d: Plain) -> str:
-    """The value in a table, with its status."""
     shown, answer = fact.shown, fact.answer
     if answer.value is None:
         absent = shown.absent if isinstance(shown, Words) else ""
@@ -174,7 +170,6 @@ def labelled(
 
 
 def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
-    """A part under its title; a list of flat parts as a table; a picture."""
     shown, value = fact.shown, fact.value
     match shown:
         case Drawing():
@@ -201,7 +196,7 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
 
 
 def stream(shown: Stream[T], parts: Iterable[T], d: Plain, depth: int) -> Iterator[str]:
-    """A list of flat parts, a line each, while it is found."""
+    """A line for each part, while it is found."""
     section, by = shown.section, shown.by
     level = COLUMNS[d.breadth]
     rows = section.columns_of(level)
@@ -215,7 +210,7 @@ def stream(shown: Stream[T], parts: Iterable[T], d: Plain, depth: int) -> Iterat
 
 
 def table(fact: Fact, told: ManyParts[T], d: Plain, level: Level, depth: int) -> Iterator[str]:
-    """A list of flat parts, a line each; of a long one usually the first."""
+    """A line for each part; of a long list usually the first ones."""
     section, most = told.section, told.most
     values = fact.value if level >= Level.DETAIL else fact.value[: most or None]
     shown = [dict(_cells(section, x, d, level)) for x in values]
@@ -247,7 +242,7 @@ def _cells(section: Section[T], part: T, d: Plain, level: Level) -> Iterator[tup
 def filled(
     heads: Sequence[str], rows: Sequence[Sequence[str]]
 ) -> tuple[list[str], list[list[str]]]:
-    """The table without empty columns."""
+    """Without empty columns."""
     kept = [i for i in range(len(heads)) if any(row[i] for row in rows)]
     return [heads[i] for i in kept], [[row[i] for i in kept] for row in rows]
 

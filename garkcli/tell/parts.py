@@ -18,7 +18,7 @@ T = TypeVar("T")
 def part(
     section: facts.Section[T], words: Wording[T] | None = None, phrase: Phrasing[T] | None = None
 ) -> facts.Kind[T]:
-    """A value with facts of its own; ``words`` replaces the line of the usual ones."""
+    """``words`` replaces the line of the usual facts."""
     return facts.Kind(section, facts.OnePart(section, words, phrase))
 
 
@@ -29,10 +29,7 @@ def parts(
 
 
 def table(section: facts.Section[T], most: int) -> facts.Kind[Sequence[T]]:
-    """A list of flat parts, a line each, of which so many are usual. Where the first column has no
-    label of its own, that of the list is its head. A part of a line, and what is reported as rows,
-    have columns of their own.
-    """
+    """``most`` parts are usual, a line each; the first column may have the label of the list."""
     return facts.Kind(facts.Several(section), facts.ManyParts(section, most=most))
 
 
@@ -41,10 +38,7 @@ def shown(section: facts.Section[T], most: int) -> facts.Kind[Sequence[T]]:
 
 
 def stream(section: facts.Section[T], by: Wording[T] | None = None) -> facts.Kind[Iterable[T]]:
-    """A list of flat parts that is reported while it is found, below headings of ``by``: memory
-    does not grow with it. A terminal shows the usual rows of a part, LaTeX those of details too,
-    Markdown those that programs get.
-    """
+    """Parts are reported while they are found, below headings of ``by``: memory does not grow."""
     return facts.Kind(facts.Several(section), facts.Stream(section, by))
 
 
@@ -53,14 +47,12 @@ def told(words: Wording[T], phrase: Phrasing[T] | None = None) -> facts.Kind[T]:
 
 
 SAID: facts.Kind[str] = told(lambda text, d: d.prose(text))
-"""Words for people alone."""
 
 BESIDE: facts.Kind[str] = told(lambda text, d: "" if d.breadth == "page" else d.prose(text))
-"""Words for which documents have no room."""
+"""Documents have no room for these words."""
 
 
 def answer(words: Wording[T]) -> facts.Row[T]:
-    """The answer about a result, in the first line."""
     return facts.Row("answer", told(words), lambda x: x, facts.Level.HEADLINE, label="")
 
 
@@ -77,7 +69,7 @@ def drawing(draw: Callable[[T, Plain], Iterable[str]]) -> facts.Kind[T]:
 
 
 def plot(make: Callable[[T], Scene], when: Callable[[T], bool] = lambda _: True) -> facts.Row[T]:
-    """A picture of a result, with -v, for people alone."""
+    """With -v, for people alone."""
     return facts.Row(
         "plot",
         facts.Kind(None, facts.Plot(make)),
@@ -87,8 +79,6 @@ def plot(make: Callable[[T], Scene], when: Callable[[T], bool] = lambda _: True)
 
 
 def sentence(words: Callable[[T], str]) -> facts.Row[T]:
-    """A sentence above or below a list, in its order among the rows."""
-
     def lines(x: T, d: Plain) -> list[str]:
         text = words(x)
         return d.sentence(d.prose(text), 0) if text else []

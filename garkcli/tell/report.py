@@ -22,7 +22,7 @@ Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"
 Lines: TypeAlias = "tuple[Section[Any], Iterable[Any]]"
 TABLES = ("markdown", "latex")
-"""The formats in which several results are a table, unless everything is requested."""
+"""Several results are a table in these formats, unless everything is requested."""
 NOTHING: Section[object] = Section()
 CLOSED = {"additionalProperties": False}
 FORMATS = ("text", "json", "markdown", "latex")
@@ -64,14 +64,10 @@ class Report(Frozen, Generic[Whole]):
     """The report of a command: of each file a result, by the rows of its form.
 
     Attributes:
-        schema_name: of its JSON.
-        title: of the JSON Schema.
         forms: all sections that tell a result.
-        form: the one of a result.
-        signs: attributes of the dialect for a result: digits, names of colours.
-        key: of the list of results in JSON; empty where there is one, whose fields are at the top.
+        key: of the list of results in JSON; empty for a single result, whose fields are at the top.
         tail: further fields of the document, of all results.
-        is_open: whether the schema allows others.
+        is_open: whether the schema allows other fields.
         lines: the parts of a result that CSV has, with the section that tells them.
         letters: the method of a result in whose numbers roots of polynomials have letters.
         taken: letters that a text has for something else.
@@ -99,7 +95,7 @@ class Report(Frozen, Generic[Whole]):
         lines: Callable[[Whole], Lines] | None = None,
         letters: Callable[[Whole], Tableau | None] = lambda _: None,
     ) -> Report[Whole]:
-        """A report of one result, whose fields are at the top, by one section."""
+        """A report of one result, whose fields are at the top."""
         return cls(
             schema_name,
             title,
@@ -119,15 +115,7 @@ class Report(Frozen, Generic[Whole]):
         verbosity: int = 0,
         **signs: Unpack[DialectSigns],
     ) -> str:
-        """All results in a format.
-
-        Args:
-            wholes: the results.
-            format: one of ``FORMATS``.
-            look: what the output can show.
-            verbosity: −1 the answers alone, 1 everything.
-            signs: attributes of the dialect: the width of the terminal, digits.
-        """
+        """All results in one of ``FORMATS``; verbosity −1 has the answers alone, 1 everything."""
         if format == "json":
             return self.json(wholes)
         if format == "csv":
@@ -151,14 +139,8 @@ class Report(Frozen, Generic[Whole]):
         verbosity: int = 0,
         **signs: Unpack[DialectSigns],
     ) -> Iterator[str]:
-        """A result with a stream in pieces, while it is found, also as JSON a line a part.
-
-        Args:
-            whole: the result.
-            format: one of ``FORMATS``, ``csv`` or ``ndjson``.
-            look: what the output can show.
-            verbosity: −1 without the stream, 1 for everything.
-            signs: as in ``render``.
+        """A result in pieces, while it is found, in ``FORMATS``, ``csv`` or ``ndjson``; verbosity
+        −1 leaves out its stream.
         """
         form = self.form(whole)
         streams = [row for row in form.rows if isinstance(row.kind.shown, Stream)]
@@ -235,7 +217,7 @@ class Report(Frozen, Generic[Whole]):
         return "".join(signs.page(many(self.form, wholes, lambda x: self.dialect(x, format))))
 
     def html(self, whole: Whole) -> str:
-        """A fragment of a page with its pictures, for notebooks."""
+        """For notebooks, with pictures."""
         form, d = self.form(whole), self.dialect(whole, "html", is_brief=True)
         pictures = Section([row for row in form.rows if isinstance(row.kind.shown, Plot)])
         with self._lettered(whole) as d.letters:
@@ -245,7 +227,7 @@ class Report(Frozen, Generic[Whole]):
     def labelled(
         self, whole: Whole, d: Plain, level: Level, without: Collection[str] = ()
     ) -> list[Labelled]:
-        """Titles of parts, each with labels and words, for pages with their own look."""
+        """For pages with their own look."""
         return list(labelled(self.form(whole), whole, d, level, without))
 
     def data(self, whole: Whole) -> dict[str, Any]:
@@ -292,7 +274,7 @@ def one_or_more(schemas: Sequence[Schema]) -> Schema:
 
 
 class ListReport(Report[Whole]):
-    """A report of one result whose JSON is a bare list."""
+    """The JSON of a single result is a bare list."""
 
     def json(self, wholes: Sequence[Whole]) -> str:
         (found,) = self.data(wholes[0]).values()

@@ -37,13 +37,13 @@ _LINK_NUMBER = re.compile("(?<=\x1b]8;)id=[0-9-]+")
 _HEADING = re.compile(r"^(?:Usage(?=:)|[A-Z][\w ,-]*(?=:$))", re.MULTILINE)
 _OPTION = re.compile(r"(?<![\w-])--?(?:\[no-\])?[a-zA-Z][\w-]*")
 _RULED = "    \n    \n ── \n    \n    \n    \n    \n    \n"
-"""The box of a table with a rule below its heads, as ``rich.box`` describes boxes."""
+"""A rule below the heads of a table, as ``rich.box`` describes boxes."""
 _LEAST = 20
 """Columns that are enough for words beside a label."""
 
 
 class Folding(Text):
-    """Text that is folded at blanks and where formulas and trees may break; later lines hang."""
+    """Folds at blanks and where formulas and trees may break; later lines hang."""
 
     hanging = 0
 
@@ -57,7 +57,7 @@ class Folding(Text):
         tab_size: int = 8,
         no_wrap: bool | None = None,
     ) -> Lines:
-        """Returns the lines; see ``rich.text.Text.wrap``."""
+        """See ``rich.text.Text.wrap``."""
         lines = Lines()
         for line in self.split(allow_blank=True):
             places = [] if no_wrap else _places(line.plain, width, self.hanging)
@@ -78,7 +78,7 @@ class Folding(Text):
 
 
 def _places(text: str, width: int, hanging: int) -> list[int]:
-    """Returns the places where lines after the first begin."""
+    """The places where lines after the first begin."""
     places = [0]
     room, later = width, max(width - hanging, 1)
     for start, end in pairwise([*joints(text), len(text)]):
@@ -93,8 +93,6 @@ def _places(text: str, width: int, hanging: int) -> list[int]:
 
 
 class Coloured(Plain):
-    """Plain text with its words in colours, for programs that take such."""
-
     def styled(self, style: Style, text: str) -> str:
         return style.render(text) if text and self.look.has_colour else text
 
@@ -118,7 +116,7 @@ class Coloured(Plain):
 
 
 class Terminal(Coloured):
-    """The layout of a terminal: every line fits its width."""
+    """Every line fits the width of the terminal."""
 
     def headline(self, text: str) -> list[str]:
         return self._lines(self._folding(text, STRONG, hanging=2))
@@ -215,7 +213,7 @@ class Terminal(Coloured):
 
 
 def _narrowed(widths: Sequence[int], room: int) -> list[int]:
-    """Returns widths with which a table fits a terminal: the widest column gives way."""
+    """Widths with which a table fits a terminal: the widest column gives way."""
     made = [*widths]
     widest = made.index(max(made))
     made[widest] = max(made[widest] - max(sum(made) + 2 * len(made) - 2 - room, 0), 1)
@@ -227,7 +225,6 @@ def _address(link: str) -> str:
 
 
 def coloured_help(text: str) -> str:
-    """Returns the help of a command with its headings and options in colours."""
     drawn = Text(text, end="")
     drawn.highlight_regex(_HEADING, STRONG)
     drawn.highlight_regex(_OPTION, NOTE)
