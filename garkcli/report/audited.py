@@ -24,18 +24,16 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 100
-"""Tables with findings that usual reports have at most."""
+"""In usual reports."""
 
 
 class Audit(NamedTuple):
-    """Tables to report, and whether errors are all that is wanted."""
-
     tables: Sequence[Audited]
     errors_alone: bool = False
 
     @property
     def wrong(self) -> list[tuple[Audited, Sequence[Remark]]]:
-        """The tables with errors or doubts, and what is found of them."""
+        """The tables with errors or doubts, and their findings."""
         if self.errors_alone:
             found = ((x, [y for y in x.findings if y.level == "error"]) for x in self.tables)
             return [(x, findings) for x, findings in found if findings]
@@ -173,4 +171,4 @@ FORMATS: Mapping[str, Callable[..., str]] = {
     "github": _github,
     "sarif": lambda tables, *_: log_of(list(_findings(tables)), "audit"),
 }
-"""The writer of each format, of tables; for people with colours, verbosity and width."""
+"""For people with colours, verbosity and width."""

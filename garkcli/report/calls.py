@@ -46,8 +46,8 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
 
 def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
-    """The publications of some methods, each once; without a reference those of their parts. The
-    name of a family is a method here, and ``gark`` is this program and the paper behind it.
+    """The publications of methods, each once, or else those of their parts; ``gark`` is this
+    program and its paper.
     """
     cited: list[citation.Cited] = []
     for method in methods:
@@ -70,7 +70,7 @@ WORKS = (
     ),
     ZANNA,
 )
-"""This program, and the paper that it implements."""
+"""This program, and its paper."""
 
 
 def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:
@@ -129,7 +129,7 @@ def run_sweep(
 def swept(
     plan: Plan, source: str, rows: str, is_resumed: bool = False, jobs: int = 1, scheduler: str = ""
 ) -> tuple[SweepReport, Progress]:
-    """A sweep that was read, run or gone on with; and what was done for it."""
+    """A sweep, run or resumed, and its progress."""
     with RowStore(rows, is_resumed) as store:
         with doing("methods") as work:
             for last in sweep(plan, store, jobs, scheduler):

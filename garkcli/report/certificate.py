@@ -1,6 +1,6 @@
 """Certificates: proofs that can be checked without this package, as JSON, as text and for Coq.
 
-The theory for Coq is in ``proofs/``, one file a step; ``docs/certificate.md`` says how to run it.
+The theory for Coq is in ``proofs/``; ``docs/certificate.md`` says how to run it.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ if TYPE_CHECKING:
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 DIGITS_OF_ROOT = 100
-"""Decimal places of the interval that says which root θ is."""
+"""Decimal places of the interval that determines the root θ."""
 P = TypeVar("P")
 Block: TypeAlias = "tuple[tuple[int, int], Sequence[Sequence[Number]]]"
-"""The space and the colour that it is between, and its entries."""
+"""The space and the colour between which it lies, and its entries."""
 
 
 class In(NamedTuple, Generic[P]):
@@ -62,7 +62,6 @@ class In(NamedTuple, Generic[P]):
 
 
 def _signs(proof: Proof | ExistenceProof, d: Plain) -> Plain:
-    """The dialect with the colours of a method, its conjugate or its pair."""
     return replace(d, colours=[colour.name for colour in proof.tableau.colours])
 
 
@@ -147,7 +146,7 @@ VERTICES: Section[VertexKind] = Section(
 
 
 def _own_kind(colour: Colour) -> VertexKind | None:
-    """The kind of vertices where the key ``linear`` does not say it."""
+    """None if the key ``linear`` determines the kind."""
     return None if colour.kind in FIELDS else colour.kind
 
 
@@ -259,9 +258,8 @@ def _condition_rows(proof: ExistenceProof, d: Plain) -> list[tuple[str, str]]:
 
 
 DECIMAL: S.Schema = {"type": "string", "pattern": r"^-?\d+([/.]\d+)?$"}
-"""A rational number, also in decimals."""
 MADE: S.Schema = S.one_of(DECIMAL, {"type": "integer"}, {"type": "array"})
-"""An entry: a rational number, the number of a printed one, or [sign, one, other]."""
+"""A rational number, the number of a printed one, or [sign, one, other]."""
 SHORT: Kind[fmpq] = Kind(Json(DECIMAL, lambda x, _: rational_text(x)))
 SHORTS: Kind[Sequence[fmpq]] = Kind(
     Json(S.array(DECIMAL), lambda row, _: [rational_text(x) for x in row])
@@ -316,8 +314,8 @@ REPORT: Report[MethodProof | ExistenceProof] = Report(
 
 
 def coq_proof(proof: MethodProof) -> str:
-    """A file for ``coqc``: the method, its conjugate and its pair, their orders and no higher ones.
-    Raises MethodError if a colour is linear, which the theory does not know.
+    """A file for ``coqc``: the orders of the method, its conjugate and its pair; MethodError if a
+    colour is linear, which the theory does not know.
     """
     tableau = proof.method.tableau
     tableau.demand_fields("a proof for Coq")
@@ -383,7 +381,7 @@ def _list(items: Iterable[str], separator: str = "; ") -> str:
 
 
 def _integer(x: int) -> str:
-    """Long ones in hexadecimal digits, which Coq reads in a time proportional to their number."""
+    """Long integers in hexadecimal digits, which Coq reads in linear time."""
     return str(x) if abs(x) < 10**40 else hex(x)
 
 
@@ -451,7 +449,6 @@ def _data(name: str, tableau: Tableau) -> str:
 
 
 def _order_of(label: str, name: str, proof: Proof) -> str:
-    """Statement and proof of an order, and that there is no higher one."""
     order: Order = proof.order
     basis = _Basis(proof.tableau)
     found = hulls(proof.tableau, order.order)
@@ -490,7 +487,7 @@ def _integers(vector: Iterable[int]) -> str:
 
 
 def _tree(tree: Tree, tableau: Tableau, basis: _Basis) -> str:
-    """The tree with ψ at each vertex, and ρ A^{l,m} ψ where the vertex is a branch."""
+    """The tree with ψ at each vertex, and ρ A^{l,m} ψ at each branch."""
 
     def text(vector: Vector) -> str:
         numbers, common = basis.whole(flat(vector, basis.degree))

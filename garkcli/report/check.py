@@ -1,4 +1,4 @@
-"""``gark check``: what is found of a method, declared once."""
+"""``gark check``: the findings about a method, declared once."""
 
 from __future__ import annotations
 
@@ -73,12 +73,12 @@ V = TypeVar("V", bound="bool | int | Size")
 AnyAnalysis: TypeAlias = "Analysis | OtherAnalysis"
 Edge: TypeAlias = "tuple[int, int]"
 Failing: TypeAlias = "tuple[str, Witness, Tableau]"
-"""The claim on an order, the condition at which it ends, and the tableau that misses it."""
+"""The claim on an order, the condition at which it ends, and its tableau."""
 
 
 def stages_text(tableau: Tableau) -> str:
-    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum. The stages of a colour
-    are those at which its vector field is evaluated: those of q drive q.
+    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum. The stages of q drive
+    q.
     """
     if tableau.is_partitioned:
         parts_of = [
@@ -115,7 +115,7 @@ def _method_words(outcome: Outcome, d: Plain) -> str:
 
 
 def with_arithmetic(text: str, a: AnyAnalysis) -> str:
-    """The method, with the arithmetic that decides its orders."""
+    """With the arithmetic that decides the orders."""
     if a.tolerance is not None:
         return f"{text}; coefficients rounded"
     degree = a.tableau.degree
@@ -164,7 +164,7 @@ def no_order(answer: Answer[Any], obstacle: Reason) -> Reason:
 
 
 def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
-    """The order of the conjugate or the pair: usual where a method has several colours."""
+    """Usual if a method has several colours."""
 
     def answer(a: Analysis) -> Answer[AnyOrder]:
         answer = kinds.order_answer(get(a))
@@ -176,13 +176,12 @@ def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Anal
 
 
 def _pair_in_brief(a: Analysis) -> Answer[AnyOrder]:
-    """The order of the pair of a method of one colour that is not symplectic."""
     is_told = a.tableau.size == 1 and a.pair_order is not None and not a.symplectic
     return replace(kinds.order_answer(a.pair_order), level=USUAL if is_told else DATA)
 
 
 def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
-    """The order on problems with time, told where the nodes are not the row sums."""
+    """On problems with time; usual if the nodes are not the row sums."""
 
     def answer(a: Analysis) -> Answer[AnyOrder]:
         level = USUAL if a.inconsistent else DETAIL
@@ -197,7 +196,6 @@ def witnesses(a: Analysis) -> list[Failing]:
 
 
 def drawn(found: Sequence[Failing], d: Plain) -> list[str]:
-    """Trees with the values of their conditions, drawn."""
     lines = []
     room = d.width - 2
     for claim, witness, tableau in found:
@@ -231,7 +229,7 @@ def table(
 
 
 def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] | None:
-    """A lower bound of the order, with the numbers that it is made of."""
+    """A lower bound of the order, with the numbers that determine it."""
     whose = a.pair_simplifying if is_of_pair else a.simplifying
     value = a.pair_bound if is_of_pair else a.bound
     if is_sharp:
@@ -286,7 +284,7 @@ SIMPLIFYING: Section[Analysis] = Section(
 
 
 MOST_ROWS = 3
-"""More that do not sum to their nodes are counted."""
+"""Further rows that do not sum to their nodes are counted."""
 
 
 def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[bool]:
@@ -301,7 +299,7 @@ def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[boo
 
 
 def consistent(a: Analysis) -> Answer[bool]:
-    """Whether the nodes are the row sums; told if they are not."""
+    """Whether the nodes are the row sums; usual if they are not."""
     answer = wrong(a.inconsistent, "A", a.tolerance)
     if rows := a.wrong_rows:
         names = [colour.name for colour in a.tableau.colours]
@@ -316,7 +314,7 @@ def wrong_row_sums(o: Outcome) -> list[Reason]:
 
 
 def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
-    """Whether the nodes of the conjugate are its row sums; told of several colours."""
+    """Whether the nodes of the conjugate are its row sums; usual for several colours."""
     if a.conjugate is None:
         return None
     is_told = a.conjugate_inconsistent and a.tableau.size > 1
@@ -325,7 +323,6 @@ def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
 
 
 def within(a: AnyAnalysis, key: str) -> fmpq | None:
-    """The rounding within which a method has a property; None for exactly, or for none."""
     return rounding(key, a.subject.verdict(key).value, a.tolerance)
 
 
@@ -343,7 +340,6 @@ def verdict_answer(a: Analysis, key: str, kind: type[V]) -> Answer[V]:
 
 
 def truth(key: str) -> Row[Analysis]:
-    """A property that is true, false or undecided."""
     worthy, words = find(key).noted or (None, "")
 
     def phrase(label: str, _: bool, answer: Answer[bool], d: Plain) -> str:
@@ -363,14 +359,13 @@ def _names(tableau: Tableau, space: int) -> list[str]:
 
 
 class Staged(TypedDict):
-    """Stages of colours, counted from 1; of polynomials the substitution that moves their nodes."""
+    """Stages count from 1; of polynomials the substitution moves their nodes."""
 
     colours: list[str]
     stages: list[int] | Literal["1 - x"]
 
 
 def together(a: Analysis) -> list[list[Staged]]:
-    """The stages that are solved together, system by system, space by space."""
     found: list[list[Staged]] = []
     for system in a.subject.shape.systems:
         by_space: dict[int, list[int]] = {}
@@ -391,7 +386,6 @@ def _systems_words(found: Sequence[Sequence[Staged]], d: Plain) -> str:
 
 
 def renumbering(a: Analysis) -> list[Staged] | None:
-    """The new numbers of the stages of a symmetric method, space by space."""
     return [
         {
             "colours": _names(a.tableau, space),
@@ -517,11 +511,10 @@ OWN_ROWS: dict[str, Rows[Analysis]] = {
     "stage-order": count_rows("stage-order"),
     "weak-stage-order": count_rows("weak-stage-order"),
 }
-"""Properties that are no truths, or that are reported with more than their truth."""
+"""Properties that are no truths, or that are reported with more."""
 
 
 def property_rows() -> Iterator[Row[Analysis]]:
-    """The properties that every check decides; ``gark stability`` decides the others."""
     for key, file in KEYS.items():
         if file != "stability":
             yield from OWN_ROWS.get(key) or (truth(key),)
@@ -607,7 +600,7 @@ class EntryPlace(NamedTuple):
 
 
 class PrintDistance(NamedTuple):
-    """The distance of a printed method from the method that it is taken to mean."""
+    """The distance of a printed method from the method that it probably means."""
 
     near: Nearness
     analysis: Analysis
@@ -627,7 +620,6 @@ class PrintDistance(NamedTuple):
 
 
 def _entry_words(found: EntryPlace, d: Plain) -> str:
-    """``a[3,2]``; of several colours ``a{1,2}[3,2]``."""
     x, tableau = found
     colours = [x.l] if x.m is None else [x.l, x.m]
     names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
@@ -740,7 +732,6 @@ DENSE_WITNESS: Section[DenseWitness] = Section(
 
 
 def dense_words(x: DenseFacts, _: Plain) -> str:
-    """Whether the steps of dense output fit together."""
     if not x.ends_at_step:
         return "does not end where the step does: b(1) is not b"
     smooth = x.slopes.are_continuous
@@ -753,7 +744,7 @@ def dense_order(a: Analysis) -> Answer[int] | None:
 
 
 def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer[int]:
-    """An order of dense output; of trees with colours, or with names of these."""
+    """Trees have colours, or names of these."""
     is_open = Reason(found.undecided) if found.undecided else NO_REASON
     status = Status(found.tolerance, found.is_lower_bound, is_open)
     if found.witness is None:
@@ -907,7 +898,7 @@ ANALYSIS: Rows[Analysis] = [
 
 
 MOST_CLAIMS = 6
-"""More that hold are counted."""
+"""Further claims that hold are counted."""
 CLAIM: Section[Claim] = Section(
     Row("claim", kinds.TEXT, lambda x: x.claim),
     Row("expected", kinds.TEXT, lambda x: x.expected),
@@ -966,7 +957,6 @@ VALUE = S.one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 
 
 def verdict_data(v: Verdict, _: Plain) -> object:
-    """The value in JSON; null if there is none."""
     if not isinstance(v.value, Size):
         return v.value
     return "infinity" if v.value.root is None else root_data(v.value.root)
@@ -1040,7 +1030,7 @@ def known(o: Outcome, is_same: bool) -> Known | None:
 
 
 def of_catalogue(within: Row[Known]) -> Section[Known]:
-    """A method of the catalogue, with how much entries differ."""
+    """With the difference of entries."""
     return Section(
         Row("method", kinds.TEXT, lambda x: x.method),
         within,

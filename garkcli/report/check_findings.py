@@ -1,4 +1,4 @@
-"""Findings about method files in the formats of CI: Markdown, GitHub, JUnit, SARIF; regressions."""
+"""Findings about method files for CI: Markdown, GitHub, JUnit, SARIF; regressions."""
 
 from __future__ import annotations
 
@@ -18,11 +18,10 @@ from garkcli.report.remarks import annotation, commands_off, items, log_of, rema
 from garkcli.tell.dialect import Plain
 
 ABOUT_CLAIMS = ("claim", "undecided", "no-claim")
-"""Codes of findings on claims."""
 
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:
-    """Findings as a list with cures; of one file those on claims."""
+    """A single file has the findings on claims alone."""
     found = [x for outcome in outcomes for x in findings(outcome)]
     if len(outcomes) == 1:
         found = [x for x in found if x.rule in ABOUT_CLAIMS]
@@ -34,7 +33,7 @@ def markdown_findings(outcomes: Sequence[Outcome]) -> str:
 
 
 def github(outcomes: Sequence[Outcome]) -> str:
-    """A workflow command for each finding, and what every file has for the log."""
+    """A workflow command for each finding, and the text for the log."""
     found = "".join(f"{annotation(x)}\n" for outcome in outcomes for x in findings(outcome))
     text = check_text.render(outcomes, PLAIN, 0 if len(outcomes) > 1 else -1)
     if text:
@@ -91,7 +90,7 @@ def _add_suite(root: ET.Element, outcome: Outcome) -> None:
 
 
 def _clean(text: str) -> str:
-    """``text`` without characters that XML has no way to write; signs that turn text by name."""
+    """Without characters that XML cannot write; signs that turn text by name."""
     return "\n".join(map(printable, _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text).split("\n")))
 
 
@@ -101,7 +100,7 @@ def sarif(outcomes: Sequence[Outcome]) -> str:
 
 
 def baseline_text(found: Sequence[Regression], files: int) -> str:
-    """A line for each regression, then how many of how many files."""
+    """A line for each regression, then the number of files."""
     lines = [printable(f"{x.file}: {x.what} got worse: {x.before} -> {x.now}") for x in found]
     lines.append(f"{counted(files, 'file')}: {len(found) or 'nothing'} got worse")
     return inert("\n".join(lines)) + "\n"

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
 
 Renderer: TypeAlias = "Callable[[Sequence[Outcome], Look, int, int | None, int], str]"
 MACHINES = ("sarif", "junit", "github")
-"""Formats that no option changes, by the functions of ``check_findings`` that write them."""
 
 
 def _render(
@@ -24,7 +23,7 @@ def _render(
     digits: int | None,
     width: int,
 ) -> str:
-    """All results in a format; findings follow a table of Markdown."""
+    """Findings follow a table of Markdown."""
     if format == "text":
         from garkcli.report import check_text
 
@@ -41,4 +40,3 @@ def _render(
 FORMATS: Mapping[str, Renderer] = {
     format: partial(_render, format) for format in ("text", "json", *MACHINES, "markdown", "latex")
 }
-"""Each choice of ``--format`` with what writes it."""

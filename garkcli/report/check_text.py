@@ -24,7 +24,7 @@ SHORT = {
     "pair_order": "symplectic pair",
     "w_order": "W",
 }
-"""The orders in the line of a file among others; that of the pair where it is claimed."""
+"""The orders in the line of a file among others; that of the pair if it is claimed."""
 
 
 def render(
@@ -34,15 +34,8 @@ def render(
     digits: int | None = None,
     width: int = 80,
 ) -> str:
-    """The report on some files.
-
-    Args:
-        outcomes: what was found.
-        look: what the output can show.
-        verbosity: −1 tells faults and failed claims only; 0 one file in full, several a line each;
-            1 everything of all.
-        digits: significant digits of values and residuals; None for exact numbers.
-        width: of the terminal.
+    """Verbosity −1 has faults and failed claims only; 0 one file in full, several a line each; 1
+    everything. ``digits`` is None for exact numbers.
     """
     is_full = verbosity > 0 or (verbosity == 0 and len(outcomes) == 1)
     level = Level.DETAIL if verbosity > 0 else Level.USUAL

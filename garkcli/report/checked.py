@@ -1,4 +1,4 @@
-"""The report of ``gark check``: which rows tell of a file."""
+"""The rows of ``gark check``, by the kind of the method."""
 
 from __future__ import annotations
 
@@ -30,7 +30,6 @@ def _signs(outcome: Outcome) -> DialectSigns:
 
 
 def form(outcome: Outcome) -> Section[Outcome]:
-    """The rows for a file, by the kind of its method."""
     if outcome.every is not None:
         from garkcli.report.every import EVERY
 
@@ -74,7 +73,7 @@ OF_ANALYSES = {
 
 
 def whole(found: Outcome | Analysis | OtherAnalysis, name: str) -> Outcome:
-    """The outcome itself, or one made of an analysis and a name."""
+    """The outcome itself, or one of an analysis and a name."""
     if isinstance(found, Outcome):
         return found
     return replace(Outcome(name, name), **{OF_ANALYSES[type(found).__name__]: found})

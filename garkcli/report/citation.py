@@ -25,19 +25,12 @@ _ENTRY_TYPES = {
     "thesis": "phdthesis",
     "web": "misc",
 }
-"""The kinds of BibTeX entries, by what ``type`` says of a publication."""
 _BETWEEN_WORDS = re.compile(r"([\s–—-]+)")
 _DASHES = re.compile(r"\s*[-–—]+\s*")
-"""Between the first page and the last."""
 
 
 class Cited(Frozen):
-    """A publication with the methods that are from it.
-
-    Attributes:
-        text: the reference in one line; empty without one.
-        reference: its fields; None if it is plain text.
-    """
+    """``text`` is empty without a reference, ``reference`` None if it is plain text."""
 
     methods: tuple[str, ...]
     text: str
@@ -45,8 +38,8 @@ class Cited(Frozen):
 
 
 def together(cited: Sequence[Cited]) -> list[Cited]:
-    """Methods of one publication together, in the order in which these come first. Where in the
-    work a method is and where its digits come from makes no other publication.
+    """Methods of one publication together, in the order of the first ones; the place in the work
+    and the origin of digits make no other publication.
     """
     found: dict[object, Cited] = {}
     for one in cited:
@@ -67,9 +60,7 @@ def _work(cited: Cited) -> object:
 
 
 def keys(cited: Sequence[Cited]) -> list[str]:
-    """A key for each publication, all different: ``Dormand1980``, with a letter if need be. The
-    same publications have the same keys in whatever order they come.
-    """
+    """Distinct keys, ``Dormand1980``, with a letter if need be, independent of the order."""
     plain = [_key(one) for one in cited]
     found = []
     for one, key in zip(cited, plain, strict=True):
@@ -94,7 +85,6 @@ def _key(cited: Cited) -> str:
 
 
 def _key_of_method(name: str) -> str:
-    """The name of the file without folders and endings."""
     return ascii_letters(re.split(r"[\\/]", name)[-1].partition(".")[0]) or "method"
 
 
@@ -109,7 +99,7 @@ def last_name(name: str) -> str:
 
 
 def short_name(name: str) -> str:
-    """The last name of a person, or what a group works on.
+    """The last name of a person, or the topic of a group.
 
     >>> short_name("J. C. Butcher"), short_name("The NodePy developers")
     ('Butcher', 'NodePy')
@@ -119,7 +109,7 @@ def short_name(name: str) -> str:
 
 
 def bibliography(cited: Sequence[Cited], is_brief: bool = True) -> str:
-    """The publications, each once, as BibTeX; with where the digits come from in comments."""
+    """BibTeX, with the origin of digits in comments."""
     texts = []
     for one, key in zip(cited, keys(cited), strict=True):
         source = "" if is_brief or one.reference is None else one.reference.coefficients
@@ -147,7 +137,7 @@ def _entry(names: str, kind: str, key: str, lines: Sequence[str]) -> str:
 
 
 def _entry_type(reference: Reference) -> str:
-    """The kind of BibTeX entry: as the file says, or by the fields that it has."""
+    """As the file says, or by the fields that it has."""
     if reference.type == "thesis":
         is_master = "master" in reference.note.lower()
         return "mastersthesis" if is_master else "phdthesis"
@@ -163,7 +153,6 @@ def _entry_type(reference: Reference) -> str:
 
 
 def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
-    """The fields of a BibTeX entry with their values."""
     home = "school" if _entry_type(reference).endswith("thesis") else "institution"
     note = "; ".join(letters(x) for x in [reference.where, reference.note] if x)
     found = {
@@ -192,7 +181,7 @@ def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
 
 
 def _people(names: Sequence[str]) -> str:
-    """Names for BibTeX; one whose last word is small is a group, and stays whole."""
+    """A name whose last word is small is a group, and stays whole."""
     written = []
     for name in names:
         is_whole = not last_name(name)[:1].isupper()
@@ -201,7 +190,7 @@ def _people(names: Sequence[str]) -> str:
 
 
 def title(text: str) -> str:
-    """A title in which braces keep capitals: styles turn others into small letters.
+    """Braces keep capitals: styles turn others into small letters.
 
     >>> print(title("Embedded Runge–Kutta formulae of order 5"))
     Embedded {Runge}--{Kutta} formulae of order 5
@@ -230,7 +219,6 @@ def _of(field: str) -> Row[Reference]:
 
 
 REFERENCE: Section[Reference] = Section(_of(name) for name in fields(Reference))
-"""The fields of a publication, those that it has."""
 CITED: Section[tuple[Cited, str]] = Section(
     Row("methods", TEXTS, lambda x: x[0].methods),
     Row("key", TEXT, lambda x: x[1]),

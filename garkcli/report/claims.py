@@ -1,4 +1,4 @@
-"""``gark claims``: what may be claimed of methods. As text it is what a method file has."""
+"""``gark claims``: claims that methods may make, as text for a method file."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ REPORT: Report[Claims] = Report(
 
 
 def yaml_text(claims: Sequence[Claims], width: int, is_brief: bool = True) -> str:
-    """The claims as in a method file, with what decides them in comments."""
+    """As in a method file, with the decisions in comments."""
     lines: list[str] = []
     for found, is_written in claims:
         lines += [f"# {printable(found.file)}{': written' * is_written}", "expect:"]

@@ -39,7 +39,7 @@ MOST_METHODS = 20
 
 
 class ConvergedMethod(Frozen):
-    """One method of a comparison; the exit code is that of its test."""
+    """The exit code is that of the test of the method."""
 
     file: str
     name: str
@@ -49,12 +49,7 @@ class ConvergedMethod(Frozen):
 
 
 class ConvergedMethods(Frozen):
-    """Several methods that are compared.
-
-    Attributes:
-        has_work: whether costs are reported.
-        against: the axis of the plot: step sizes, evaluations or seconds.
-    """
+    """``against`` is the axis of the plot: step sizes, evaluations or seconds."""
 
     entries: Sequence[ConvergedMethod]
     has_work: bool = False
@@ -62,7 +57,7 @@ class ConvergedMethods(Frozen):
 
     @property
     def named(self) -> list[LetteredMethod]:
-        """The methods by their letters; with the file if two have the same name."""
+        """With the file if two methods have the same name."""
         names = Counter(x.name for x in self.entries)
         return [
             LetteredMethod(
@@ -77,8 +72,6 @@ class ConvergedMethods(Frozen):
 
 
 class LetteredMethod(NamedTuple):
-    """A method of a comparison by its letter."""
-
     letter: str
     name: str
     entry: ConvergedMethod
@@ -91,7 +84,7 @@ class LetteredMethod(NamedTuple):
 
 
 def letters(count: int) -> list[str]:
-    """A, B, …, Z, a, …, z, and numbers beyond: short names of methods."""
+    """A, B, …, Z, a, …, z, and numbers beyond."""
     single = [*ascii_uppercase, *ascii_lowercase]
     return [*single, *(str(k) for k in range(len(single) + 1, count + 1))][:count]
 
@@ -194,7 +187,7 @@ def at_equal_errors(tested: Tested, what: str) -> list[tuple[str, list[tuple[str
 
 
 def _amount(decades: float | None, what: str) -> str:
-    """10 to that power, in the digits of its kind; empty if it is unknown."""
+    """10^decades, in the digits of its kind; empty if unknown."""
     if decades is None:
         return ""
     x = 10**decades
@@ -213,7 +206,7 @@ def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
 
 
 def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None:
-    """The second coordinate where the first is ``goal``, on the line between two neighbours."""
+    """The second coordinate at the first one ``goal``, on the line between two neighbours."""
     for (a, x), (b, y) in pairwise(points):
         is_between = min(a, b) <= goal <= max(a, b)
         if is_between and a != b:
@@ -353,5 +346,4 @@ REPORT: Report[ConvergedMethods] = Report.only(
 
 
 def schema() -> Schema:
-    """The JSON Schema of what the command writes, of one method or of several."""
     return published(alone.REPORT.title, one_of(*alone.REPORT.documents, *REPORT.documents))

@@ -31,17 +31,14 @@ from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
 
 MOST_DECIMALS = 20
-"""Decimals of a value; longer ones are rounded."""
+"""Longer values are rounded."""
 
 
 class ConditionRow(Frozen):
-    """One line of the table.
-
-    Attributes:
-        is_shape: whether the row stands for all colourings of the tree, whose colours mean nothing.
-        condition: its value for a method.
-        stands_for: how many conditions are equivalent to it in a symplectic method; 0 if unasked.
-        members: the trees of these conditions.
+    """Attributes:
+    is_shape: whether the row stands for all colourings of the tree, whose colours mean nothing.
+    stands_for: the number of equivalent conditions in a symplectic method; 0 if unasked.
+    members: the trees of these conditions.
     """
 
     tree: Tree
@@ -51,25 +48,19 @@ class ConditionRow(Frozen):
     members: tuple[Tree, ...] = ()
 
     def text(self, has_colours: bool = True) -> str:
-        """The condition in the paper's notation, in plain text."""
         return condition_text(self.tree, self.letters, has_colours or self.is_shape)
 
     def latex(self, has_colours: bool = True) -> str:
-        """The condition in the paper's notation, in LaTeX."""
         return condition_latex(self.tree, self.letters, has_colours or self.is_shape)
 
     @property
     def letters(self) -> tuple[str, ...] | None:
-        """A letter for the colour of each vertex, where the row is for all colours."""
+        """A letter for the colour of each vertex, if the row is for all colours."""
         return vertex_letters(self.tree) if self.is_shape else None
 
 
 class Valued(Frozen):
-    """The method whose values a table of conditions has.
-
-    Attributes:
-        only_failing: whether conditions that hold are counted but not shown.
-    """
+    """``only_failing``: conditions that hold are counted but not shown."""
 
     method: AnyTableau
     only_failing: bool = False
@@ -82,7 +73,6 @@ class Valued(Frozen):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding of its coefficients; None if they are exact."""
         return tolerance_of(self.method)
 
     @property
@@ -95,14 +85,12 @@ class Valued(Frozen):
 
 
 class ConditionTable(Mutable):
-    """The conditions that were requested.
-
-    Attributes:
-        coloured: how many colours trees have; 0 for all colourings, a subject or a method.
-        subject: the methods for which the rows are independent conditions.
-        with_members: whether all trees of a class are listed.
-        digits: of values in decimals; None for exact ones.
-        count: the rows so far; ``failed``: those whose conditions fail.
+    """Attributes:
+    coloured: the number of colours of trees; 0 for all colourings, a subject or a method.
+    subject: the methods for which the rows are independent conditions.
+    with_members: whether all trees of a class are listed.
+    digits: of values in decimals; None for exact ones.
+    count: the rows so far; ``failed``: those whose conditions fail.
     """
 
     rows: Iterable[ConditionRow]
@@ -127,7 +115,7 @@ class ConditionTable(Mutable):
         return _form(self.valued is not None, frozenset(k for k, out in left_out.items() if out))
 
     def shown(self) -> Iterator[ConditionRow]:
-        """The conditions of the table; all conditions are counted meanwhile."""
+        """All conditions are counted meanwhile."""
         for row in self.rows:
             self.count += 1
             self.failed += row.condition is not None and not row.condition.holds
@@ -145,7 +133,6 @@ class ConditionTable(Mutable):
 
     @property
     def summary(self) -> str:
-        """The number of conditions, and how many hold."""
         verdict = (
             "" if self.valued is None or not self.count else _verdict(self.failed, self.valued)
         )
@@ -155,8 +142,8 @@ class ConditionTable(Mutable):
 
 
 def legend_of(tableau: Tableau) -> str:
-    """The names of the colours and, of a method that is not a GARK method, the meaning of colours
-    and blocks; empty if the names are numbers.
+    """The names of the colours, and the meaning of colours and blocks of other methods than GARK
+    methods; empty if the names are numbers.
     """
     about = numbered([colour.name for colour in tableau.colours]), *_about_colours(tableau)
     told = "; ".join(filter(None, about))
@@ -197,7 +184,7 @@ def is_parametric(number: object) -> bool:
 
 
 def _number(condition: Condition, key: str, d: Plain) -> str:
-    """A number of a condition, in decimals where one is long or these are requested."""
+    """In decimals if one number is long or they are requested."""
     x = getattr(condition, key)
     if d.places is not None:
         return kinds.NUMERAL(x).words(d)
@@ -234,7 +221,7 @@ def _formula(row: ConditionRow, d: Plain) -> str:
 
 
 def _in_words(row: ConditionRow, d: Plain) -> str:
-    """The condition, how many it stands for, its value and by how much that is missed."""
+    """The condition, how many it stands for, its value and its residual."""
     lines = [f"{row.text(len(d.colours) > 1)}   {_multiplicity(row)}".rstrip()]
     condition = row.condition
     if condition is not None and not (condition.is_exact and d.is_brief):

@@ -1,4 +1,4 @@
-"""``gark converge``: the errors of a method over step sizes, the order that they show."""
+"""``gark converge``: the errors of a method over step sizes, and their order."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ NO_TIME = "no seconds where floats do not reach the error: the counts are for mo
 
 
 class ConvergenceReport(Frozen):
-    """The test of one method; attributes as in ``Compared``."""
+    """Attributes are as in ``ConvergedMethods``."""
 
     result: results.Convergence
     name: str
@@ -43,8 +43,6 @@ class ConvergenceReport(Frozen):
 
 
 class StepTold(NamedTuple):
-    """A step size of a test."""
-
     row: Step
     test: ConvergenceReport
 
@@ -73,7 +71,7 @@ def _number(ball: arb) -> float | None:
 
 
 def _place(order: float) -> float:
-    """An order or a slope, rounded to four decimals; never −0."""
+    """Rounded to four decimals; never −0."""
     return round(order, 4) + 0.0
 
 
@@ -307,7 +305,6 @@ def _notes_rows(texts: Sequence[str], d: Plain) -> list[tuple[str, str]]:
 
 
 FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
-"""By the kind of the problem."""
 
 
 def form(x: ConvergenceReport | FailedRun) -> facts.Section[Any]:

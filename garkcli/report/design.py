@@ -1,4 +1,4 @@
-"""``gark design``: what each order asks of the parameters, and the best methods."""
+"""``gark design``: the demands of each order on the parameters, and the best methods."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
-"""Signs of polynomials in usual reports; with details there are all."""
+"""Signs of polynomials in usual reports."""
 OF_POLYNOMIALS = 200
 """Signs of the polynomials that are zero, in usual reports."""
 MOST = 4
@@ -50,11 +50,9 @@ LONG = 2000
 
 
 class DesignReport(NamedTuple):
-    """The values for which a method has its orders.
-
-    Attributes:
-        choices: the methods that each value of --choose leaves.
-        sets: the values that are as stable as wanted, if all values have the order.
+    """Attributes:
+    choices: the methods that each value of --choose leaves.
+    sets: the values that are as stable as wanted, if all values have the order.
     """
 
     file: str
@@ -66,8 +64,6 @@ class DesignReport(NamedTuple):
 
 
 class OrderDemand(NamedTuple):
-    """The demands of an order."""
-
     design: Design
     step: steps.Step
 
@@ -95,7 +91,7 @@ class OrderDemand(NamedTuple):
 
     @property
     def likeness(self) -> tuple[object, ...]:
-        """Steps with the same one are reported together."""
+        """Steps with equal likeness are reported together."""
         return self.step.kind, self.step.known.is_real, self.zeros, self.conditions
 
 
@@ -119,7 +115,7 @@ class ShownSolution(NamedTuple):
 
 
 def joined(values: dict[str, RealRoot], d: Plain) -> str:
-    """The values of parameters; usually decimals where their polynomials are long."""
+    """Usually decimals stand for values of long polynomials."""
     texts = [f"{d.expression(name)} = {number(x, d)}" for name, x in values.items()]
     if d.is_brief and sum(map(len, texts)) > ROOM:
         texts = [f"{d.expression(name)} = {d.root(x)}" for name, x in values.items()]
@@ -132,7 +128,6 @@ def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex"
 
 
 def _listed(texts: Sequence[str], d: Plain, noun: str) -> str:
-    """Polynomials or equations; usually the first of many."""
     shown: list[str] = []
     room = OF_POLYNOMIALS if d.is_brief else len(texts) * LONG
     for text in texts:
@@ -154,7 +149,7 @@ UNDECIDED = (
     " fewer such as palindromic; --search N looks for methods and decides nothing"
 )
 LATE = "give it more; "
-"""Advice where more seconds may decide; a limit of gark gets none."""
+"""Advice if more seconds may decide."""
 
 
 def _undecided(design: Design, step: steps.Undecided) -> Iterator[str]:
@@ -228,13 +223,11 @@ def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
 
 
 def certified(order: AnyOrder, whose: str) -> str:
-    """``order at least 4 of the symplectic pair``."""
     of = "symplectic pair" if whose == "pair" else whose
     return f"order {'at least ' * order.is_lower_bound}{order.order} of the {of}"
 
 
 def _further(found: steps.Found, root: RealRoot, d: Plain) -> list[str]:
-    """The orders of a solution's embedded weights, dense output and predictor."""
     said = []
     if found.embedded is not None:
         order, error = found.embedded
@@ -251,7 +244,6 @@ def _further(found: steps.Found, root: RealRoot, d: Plain) -> list[str]:
 
 
 def _verdict(x: ShownSolution, d: Plain) -> str:
-    """Order, stability and further facts of a real solution."""
     design, found, index = x.design, x.found, x.number
     if found.order is None:
         return "no method: a weight or a denominator is zero there"
@@ -279,7 +271,6 @@ def _solution(x: ShownSolution, d: Plain) -> str:
 
 
 def groups(design: Design) -> list[list[OrderDemand]]:
-    """Orders that ask the same, together."""
     found = (OrderDemand(design, step) for step in design.steps)
     return [list(group) for _, group in groupby(found, key=lambda x: x.likeness)]
 
@@ -432,7 +423,7 @@ def stable_rows(x: DesignReport, d: Plain) -> Texts:
 
 
 def _least(minimum: Minimum, d: Plain) -> str:
-    """The value: ``least error 1/2``."""
+    """``least error 1/2``."""
     is_level = isinstance(minimum.objective, LevelObjective)
     what = d.prose(minimum.objective.key.removeprefix("-"))
     if minimum.value is None and not minimum.is_infinite:
@@ -450,7 +441,7 @@ def _least(minimum: Minimum, d: Plain) -> str:
 
 
 def _number(value: RealRoot, d: Plain) -> str:
-    """Radicals if they are simple, and decimals."""
+    """Simple radicals, and decimals."""
     simple, decimals = root_text(value), root_decimal(value, d.digits)
     if simple is None or len(simple) > 40:
         return d.prose(f"{decimals}…")

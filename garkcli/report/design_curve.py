@@ -23,8 +23,6 @@ DIGITS = 7
 
 
 class CurveReport(NamedTuple):
-    """The report of a curve."""
-
     file: str
     search: Search
     curve: OptimaCurve

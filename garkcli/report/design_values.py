@@ -29,7 +29,7 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
 
 
 def equation(family: Family, p: Any) -> str:
-    """The polynomial as an equation, solved for its first unknown if that is alone."""
+    """Solved for the first unknown if that is alone."""
     exponents = [int(k) for k in p.monoms()[0]]
     if sum(exponents) > 1:
         return f"{_text(family, p)} = 0"
@@ -38,7 +38,7 @@ def equation(family: Family, p: Any) -> str:
 
 
 def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
-    """Restrictions on values: those of the file, and that no polynomial of ``nonzero`` vanishes."""
+    """Restrictions of the file, and that no polynomial of ``nonzero`` vanishes."""
 
     def holds(p: fmpq_mpoly, relation: str) -> Reason:
         return Reason(f"{{}} {relation} 0", EXPRESSION(_text(family, p)))
@@ -83,8 +83,8 @@ LONG = 40
 
 
 def _bounds(family: Family) -> tuple[dict[str, list[str]], list[fmpq_mpoly]]:
-    """Least and greatest values of unknowns, empty if there is no limit, by ranges and by numbers
-    that may not be negative; and the rest of these numbers.
+    """Bounds of unknowns, by ranges and by numbers that may not be negative; the rest of these
+    numbers.
     """
     ends = {}
     others = list(family.not_negative)

@@ -22,14 +22,12 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 class WithinReport(NamedTuple):
-    """Values of unknowns, and the file that they are for."""
-
     file: str
     design: DesignWithin
 
 
 class _Found(NamedTuple):
-    """Values with the digits that the tolerance leaves."""
+    """``digits`` are those that the tolerance leaves."""
 
     digits: int
     values: ValuesWithin
@@ -90,7 +88,6 @@ def _printed(step: StepWithin) -> str:
 
 
 def _open(x: DesignWithin, step: StepWithin, d: Plain) -> str:
-    """The reason why an order is not decided or has no value."""
     if x.family.impossible:
         return d.prose(x.family.impossible[0])
     if step.witness is not None:
@@ -118,7 +115,7 @@ def _terms(found: _Found, name: str, d: Plain) -> str:
 
 
 def _at_zero(values: ValuesWithin, name: str) -> fmpq:
-    """The value of an unknown that depends on free ones linearly, where these are 0."""
+    """The value of an unknown that depends on free ones linearly, at 0."""
     off = values.directions.get(name, {})
     return values.values[name] - sum((s * values.values[k] for k, s in off.items()), fmpq(0))
 

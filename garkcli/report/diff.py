@@ -56,12 +56,10 @@ RELATIONS = {
     "undecided": "not decided",
 }
 STEP_ALONE = "step-alone"
-"""The word for different methods with one step, whose further weights differ."""
+"""Methods with one step, whose further weights differ."""
 
 
 class ComparedMethod(NamedTuple):
-    """One of two methods."""
-
     method: GarkMethod
     file: str
     form: str
@@ -70,7 +68,7 @@ class ComparedMethod(NamedTuple):
 
 
 class ComparedPair(NamedTuple):
-    """A comparison, with the names of its methods, and what was typed for these."""
+    """``typed`` are the arguments."""
 
     found: Comparison
     files: tuple[str, str]
@@ -102,7 +100,7 @@ def _entry_data(x: Cell, _: Plain) -> str:
 
 
 def _entry_words(x: Cell, d: Plain) -> str:
-    """An entry, exact if that is short."""
+    """Exact if that is short."""
     if isinstance(x, arb):
         return d.prose(str(x.str(12, radius=False)))
     found = value_text(x, 12)
@@ -114,7 +112,7 @@ def _known(key: str, verdict: Verdict, tolerance: fmpq | None) -> Answer[Verdict
 
 
 def _verdict_cell(verdict: Verdict, d: Plain) -> str:
-    """The value of a property, without the polynomial that a number is a root of."""
+    """Without the polynomial of a root."""
     value = verdict.value
     if isinstance(value, Size) and value.root is not None and not verdict.is_at_least:
         return d.root(value.root)
@@ -209,7 +207,7 @@ def _conditions_words(met: Met, _: Plain) -> str:
 
 
 class Gap(NamedTuple):
-    """A block that differs, with one of its entries; None if the shapes differ."""
+    """``entry`` is None if the shapes differ."""
 
     block: BlockGap
     entry: EntryGap | None
@@ -254,7 +252,7 @@ def _place_words(gap: Gap, _: Plain) -> str:
 
 
 def _side(index: int) -> Row[Gap]:
-    """The entry of one of the methods; its shape where that differs."""
+    """The entry of one of the methods; its shape if that differs."""
 
     def words(gap: Gap, d: Plain) -> str:
         if gap.entry is not None:
@@ -424,5 +422,4 @@ def _signs(tableau: Tableau) -> DialectSigns:
 
 
 def whole(found: Comparison, _: str) -> ComparedPair:
-    """The comparison with names for its methods: their own, or first and second."""
     return ComparedPair(found, (found.one.name or "first", found.other.name or "second"))

@@ -1,4 +1,4 @@
-"""``gark energy``: what becomes of conserved quantities over a long time."""
+"""``gark energy``: conserved quantities over a long time."""
 
 from __future__ import annotations
 
@@ -37,13 +37,12 @@ FATES = {
     "contractive": "the energy decays for ever",
     "marginal": "energy is lost, but not all of it",
 }
-"""The fate of the energy of the oscillator."""
 _NEARLY = 2.0
 """The largest ratio of an uncertainty to round-off at which it is round-off alone."""
 
 
 class RunClaim(Frozen):
-    """A claim about a run, the finding, and whether the claim holds; None: undecided."""
+    """``holds`` is None if undecided."""
 
     claim: str
     found: str
@@ -51,7 +50,7 @@ class RunClaim(Frozen):
 
 
 class EnergyReport(Frozen):
-    """A long run; symplecticity is None if the problem is not Hamiltonian."""
+    """Symplecticity is None if the problem is not Hamiltonian."""
 
     name: str
     run: histories.LongRun
@@ -142,7 +141,7 @@ def _undecided(history: histories.InvariantHistory, run: histories.LongRun) -> t
 
 
 def _direction(history: histories.InvariantHistory) -> str:
-    """Whether a trend rises or falls, by its slope or, without one, by its end."""
+    """By the slope or, without one, by the end."""
     drift = history.drift or 0.0
     went = drift if history.shape == "line" else history.errors[-1]
     return "rises" if went > 0 else "falls"
@@ -258,7 +257,7 @@ def _claims(claims: tuple[RunClaim, ...], d: Plain) -> list[tuple[str, str]]:
 
 
 def _seen(run: histories.LongRun) -> tuple[histories.InvariantHistory, ...]:
-    """The invariants whose errors exceed round-off, which is different on every machine."""
+    """The invariants whose errors exceed round-off, which depends on the machine."""
     return tuple(x for x in run.invariants if x.max_error > x.round_off)
 
 
@@ -359,11 +358,10 @@ def _form(problem: facts.Rows[Run]) -> facts.Section[EnergyReport]:
 
 
 FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
-"""By the kind of the problem."""
 
 
 class Moment(NamedTuple):
-    """A time of a run with the errors of all quantities; NaN where there is no value."""
+    """``errors`` is NaN without a value."""
 
     t: float
     errors: dict[str, float]

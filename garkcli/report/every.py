@@ -238,12 +238,12 @@ EVERY: Section[Outcome] = Section(
 
 
 STABILITIES = ("a-stable", "l-stable", "p-stable", "i-stable", "algebraically-stable")
-"""The kinds of stability that are decided for one parameter."""
+"""Decided for one parameter."""
 LIMIT = 60
 
 
 class EveryStability(Frozen):
-    """The stability of a family: R of all colours together, and of each."""
+    """R of all colours together, and of each."""
 
     file: str
     name: str
@@ -260,7 +260,7 @@ def every_stability(file: str, name: str, family: EveryFamily) -> EveryStability
 
 
 def _text(coefficients: Coefficients, variable: str) -> str:
-    """A polynomial, lowest power first, its coefficients in brackets where they are sums."""
+    """Lowest power first; sums have brackets."""
     return sum_text((a, power_text(variable, k)) for k, a in enumerate(coefficients))
 
 

@@ -1,4 +1,4 @@
-"""``gark import``: what was found in sources, declared once."""
+"""``gark import``: tables found in sources, declared once."""
 
 from __future__ import annotations
 
@@ -22,8 +22,6 @@ ORDER: Kind[int] = Kind(COUNT.what, Words(lambda x, _: str(x), absent="no method
 
 
 class ImportedMethod(NamedTuple):
-    """A result with the file that it was written to."""
-
     result: TableResult
     file: str | None
 
@@ -32,7 +30,7 @@ class ImportedMethod(NamedTuple):
         return self.result.table.name or self.result.stem
 
     def order(self, get: Callable[[TableSubject], Judged | None]) -> Answer[int]:
-        """An order, as well as the digits of the method let it be known."""
+        """As far as the digits of the method determine it."""
         method = self.result.method
         found = None if method is None else get(method)
         if method is None or found is None:
@@ -103,5 +101,5 @@ REPORT: Report[Sequence[ImportedMethod]] = Report.only(
 
 
 def yaml_text(results: Sequence[TableResult]) -> str:
-    """The method files, parted as YAML parts documents."""
+    """The method files as documents of YAML."""
     return "---\n".join(x.method.text for x in results if x.method is not None)

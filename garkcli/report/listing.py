@@ -1,4 +1,4 @@
-"""``gark list`` and ``gark list exports``: what files and commands can name, declared once."""
+"""``gark list`` and ``gark list exports``: names for files and commands, declared once."""
 
 from __future__ import annotations
 
@@ -23,8 +23,6 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Lists(NamedTuple):
-    """Families, schemes, splittings and problems by name, and summaries of rules."""
-
     families: Mapping[str, MethodFamily]
     rules: Mapping[str, str]
     schemes: Mapping[str, Scheme]
@@ -108,7 +106,6 @@ ROWS: dict[str, Row[Lists]] = {
     "splittings": Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
     "problems": Row("problems", table(PROBLEM, 0), lambda x: [*x.problems.values()]),
 }
-"""The rows of lists by their names."""
 
 
 def _counted(row: Row[Lists], lists: Lists) -> str:
@@ -157,7 +154,7 @@ PROOF = Bridge(
 
 
 def all_targets() -> Mapping[str, Bridge]:
-    """Returns all that ``gark export`` writes, certificates too."""
+    """With certificates."""
     return dict(sorted({**bridges(), PROOF.name: PROOF}.items()))
 
 

@@ -1,4 +1,4 @@
-"""``gark explain``: what words mean, for people and for programs."""
+"""``gark explain``: meanings of words, for people and for programs."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def every_term() -> list[Told]:
 
 
 def list_text(width: int) -> str:
-    """The names of the terms by topic."""
+    """By topic."""
     lines = []
     for topic, title in TOPICS.items():
         names = "; ".join(term.name for term in terms_of(topic))

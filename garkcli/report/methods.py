@@ -30,7 +30,7 @@ HEADLINE, USUAL, DETAIL, DATA = facts.Level
 V = TypeVar("V")
 Entry: TypeAlias = dict[str, Any]
 ORDER = "order"
-"""The line of a report that has orders and how large errors are."""
+"""The line of a report with orders and the sizes of errors."""
 
 
 def _field(
@@ -53,7 +53,7 @@ def _order(key: str, level: facts.Level = USUAL, label: str | None = None) -> fa
 
 
 def _size_words(text: str, d: Plain) -> str:
-    """A number of the index; decimals for a long fraction."""
+    """Decimals for a long fraction."""
     over, _, under = text.partition("/")
     is_fraction = over.lstrip("-").isdecimal() and under.isdecimal()
     return d.prose(shortest(fmpq(int(over), int(under))) if is_fraction else text)
@@ -87,7 +87,7 @@ BY_KIND = {
     "family": "with free parameters",
 }
 KEYS_OF_KINDS = {"rosenbrock": "row", "nystrom": "rkn", "derivatives": "mdrk", "multirate": "mri"}
-"""Kinds by the keys of their files, where these differ."""
+"""If these differ from the kind."""
 _KIND = choice(*BY_KIND, None)
 METHOD: facts.Rows[Entry] = [
     _field("name", TEXT, USUAL, has_null=False),
@@ -131,7 +131,7 @@ MARKS = {
     "t": ("", "another order for y' = f(t, y)"),
     "~": ("", "rounded"),
 }
-"""One letter each of what most people look for."""
+"""Letters of frequent questions."""
 TYPES = {
     "explicit": "explicit",
     "sdirk": "SDIRK",
@@ -139,7 +139,7 @@ TYPES = {
     "diagonally_implicit": "DIRK",
     "fully_implicit": "implicit",
 }
-"""Words for how the stages depend on each other, the narrower before the wider."""
+"""Dependences of stages, the narrower before the wider."""
 
 
 def marks(entry: Entry) -> list[str]:
@@ -214,7 +214,7 @@ _MORE = "gark list methods --kind rk lists one kind, --sort order all; gark list
 
 
 def by_kind(entries: Sequence[Entry], width: int) -> list[str]:
-    """Returns the numbers of methods by kind and type, and how to list them."""
+    """The numbers of methods by kind and type, and how to list them."""
     groups: dict[tuple[str, str], list[Entry]] = {}
     for entry in entries:
         groups.setdefault((entry["kind"] or "", _type(entry)), []).append(entry)
@@ -257,8 +257,6 @@ DETAIL, DATA = facts.Level.DETAIL, facts.Level.DATA
 
 
 class ShownMethod(Frozen):
-    """A method of the catalogue or of a file, with its entry in the list of methods."""
-
     entry: Entry
     tableau: Tableau
     entries: Entries

@@ -1,4 +1,4 @@
-"""``gark modified``: the modified equation of a method, and the orders that it tells."""
+"""``gark modified``: the modified equation of a method, and its orders."""
 
 from __future__ import annotations
 
@@ -28,11 +28,9 @@ _FORMLESS = Reason("no Hamiltonian problem has its form")
 
 
 class ModifiedReport(Frozen):
-    """The modified equation of one method.
-
-    Attributes:
-        with_equation: whether rooted trees are shown although there is a Hamiltonian.
-        formula: on a problem, multiplied out.
+    """Attributes:
+    with_equation: whether rooted trees are shown although there is a Hamiltonian.
+    formula: on a problem, multiplied out.
     """
 
     file: str
@@ -57,7 +55,7 @@ class ModifiedTerm(NamedTuple):
 
 
 def _size(factor: Number, d: Plain) -> str:
-    """A factor in decimals; tables of documents have no room for it."""
+    """In decimals; tables of documents have no room for it."""
     return "" if d.breadth == "page" else to_decimal(factor, 4)
 
 
@@ -78,8 +76,8 @@ TERM: facts.Section[ModifiedTerm] = facts.Section(
 
 
 def _equation(report: ModifiedReport) -> facts.Answer[list[ModifiedTerm]]:
-    """The nonzero coefficients b(u); usual if there is no Hamiltonian. A rounded method has those
-    of its orders above 1 left out: they are zero within the tolerance.
+    """The nonzero coefficients b(u); usual if there is no Hamiltonian. Those of a rounded method
+    are left out up to its order: they are zero within the tolerance.
     """
     found = report.found
     zero = range(2, found.order.order + 1) if found.tolerance is not None else ()

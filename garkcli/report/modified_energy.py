@@ -24,7 +24,7 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 12
-"""Rows of a table in a terminal, usually."""
+"""Rows of a usual table in a terminal."""
 
 
 class ModifiedEnergyReport(Frozen):
@@ -58,7 +58,6 @@ def _verdict(verdict: str, d: Plain) -> str:
 
 
 def _answer(energies: Sequence[ModifiedEnergy], d: Plain) -> str:
-    """The verdicts, each with the Hamiltonians it is on."""
     found: dict[str, list[str]] = {}
     for energy in energies:
         found.setdefault(energy.verdict, []).append(_terms(energy))

@@ -1,7 +1,4 @@
-"""Methods and results in notebooks: tables in plain HTML, and LaTeX.
-
-Nothing is coloured, so that a page is readable whatever its background; all text is escaped.
-"""
+"""Methods and results in notebooks: tables in plain HTML, without colours, and LaTeX."""
 
 from __future__ import annotations
 
@@ -34,7 +31,7 @@ MAX_COLUMNS = 24
 
 
 def method_latex(method: GarkMethod) -> str | None:
-    """The tableau as arrays of LaTeX; None if it is too large to be examined."""
+    """None if the tableau is too large to be examined."""
     if _is_large(method):
         return None
     with with_letters(method.tableau) as letters:
@@ -43,7 +40,7 @@ def method_latex(method: GarkMethod) -> str | None:
 
 
 def method_html(method: GarkMethod) -> str:
-    """The tableau as a table, and the region of stability if there is one."""
+    """With the region of stability if there is one."""
     if _is_large(method):
         return f"<pre>{_text(repr(method))}</pre>"
     with with_letters(method.tableau) as letters:
@@ -118,7 +115,7 @@ def _text(text: str) -> str:
 
 
 def stability_latex(found: Stability) -> str:
-    """R(z), and the step matrix on the oscillator, as formulas."""
+    """R(z), and the step matrix on the oscillator."""
     from garkcli.report.stability import formulas
 
     lines = " \\\\\n".join(f"{name} &{value}" for name, value in formulas(found))

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 A = TypeVar("A", bound="OtherAnalysis")
 Linear: TypeAlias = "RosenbrockAnalysis | DerivativesAnalysis"
-"""Analyses of methods that are Runge–Kutta methods on linear problems."""
+"""Methods that are Runge–Kutta methods on linear problems."""
 
 
 def _names(a: OtherAnalysis) -> list[str]:
@@ -37,7 +37,6 @@ def _names(a: OtherAnalysis) -> list[str]:
 def _order(
     key: str, level: facts.Level = USUAL, label: str | None = None
 ) -> facts.Row[OtherAnalysis]:
-    """The order that the claim of that name is on."""
     claim = key.replace("_", "-")
 
     def get(a: OtherAnalysis) -> facts.Answer[AnyOrder]:
@@ -119,7 +118,7 @@ STABILITY: facts.Rows[Linear] = (
 def _form(
     get: Callable[[Outcome], A | None], flag: str, words: facts.Wording[A], analysis: facts.Rows[A]
 ) -> facts.Section[Outcome]:
-    """The rows of a kind of method; ``flag`` is the field of JSON that names the kind."""
+    """``flag`` is the field of JSON that names the kind."""
 
     def method(a: A, d: Plain) -> str:
         return c.with_arithmetic(words(a, d), a)

@@ -24,11 +24,11 @@ Stepped: TypeAlias = Oscillator | Problem
 P = TypeVar("P", Oscillator, Hamiltonian, RightHandSide)
 
 _LONGEST = 80
-"""Characters of the terms that are still shown; longer ones are counted."""
+"""Longer terms are counted."""
 
 
 def describe(problem: Stepped) -> str:
-    """A problem and its split in one line; long terms are counted."""
+    """The problem and its split; long terms are counted."""
     if isinstance(problem, Oscillator):
         energies = [_energy(k, v) for k, v in problem.shares]
         return f"q̈ = −ω²q, ω = {problem.omega}; {', '.join(_numbered('H', energies))}"
@@ -51,7 +51,7 @@ def describe(problem: Stepped) -> str:
 
 
 def _numbered(letter: str, texts: Sequence[str]) -> list[str]:
-    """Terms by the numbers of their colours; one alone has none."""
+    """A single term has no number."""
     if len(texts) == 1:
         return [f"{letter}: {texts[0]}"]
     return [f"{letter}{{{l}}}: {text}" for l, text in enumerate(texts, start=1)]
@@ -66,7 +66,6 @@ def _energy(k: object, v: object) -> str:
 
 
 def _formula(text: str) -> str:
-    """An expression of sympy with ^ for powers."""
     return text.replace("**", "^")
 
 
@@ -128,6 +127,6 @@ STEPPED: dict[type[Stepped], Rows[Run]] = {
         ),
     ),
 }
-"""By the kind of the problem; for programs it has ω and the shares (k_l, v_l) of each term, the
-terms H^{l}, or the components of each term f^{l}.
+"""For programs: ω and the shares (k_l, v_l) of each term, the terms H^{l}, or the components of
+f^{l}.
 """

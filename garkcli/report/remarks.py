@@ -26,7 +26,7 @@ AT: Rows[Remark] = (
     Row("code", TEXT, lambda x: x.code),
 )
 FAULT: Section[Remark] = Section(AT, MESSAGE, HELP)
-"""A remark on a file; the place is null where the whole file is meant."""
+"""The place is null for the whole file."""
 FINDING: Section[Remark] = Section(
     AT, Row("level", choice("error", "warning", "hint"), lambda x: x.level), MESSAGE, HELP
 )
@@ -39,8 +39,6 @@ OF_TABLE: Section[Remark] = Section(
 
 
 class FailedRun(NamedTuple):
-    """A run without a result."""
-
     name: str
     faults: Sequence[Remark]
 
@@ -48,13 +46,11 @@ class FailedRun(NamedTuple):
 FAILURE: Section[FailedRun] = Section(
     Row("name", TEXT, lambda x: x.name), Row("errors", parts(FAULT), lambda x: x.faults)
 )
-"""The report of such a run, for programs; people read it elsewhere."""
+"""For programs; people read it elsewhere."""
 
 
 def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """Remarks with their levels and codes, cures below; hints of a usual report have neither code
-    nor cure, as they say what to change.
-    """
+    """With levels and codes, cures below; hints of a usual report have neither code nor cure."""
     found: list[tuple[str, str]] = []
     for x in remarks:
         level = d.bad(x.level) if x.level == "error" else d.note(x.level)
@@ -68,7 +64,6 @@ def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
 
 
 def fault_rows(faults: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """Faults with their places and codes, cures below."""
     placed = [
         replace(x, message=f"line {x.line}, column {x.column}: {x.message}") if x.line else x
         for x in faults
@@ -77,7 +72,7 @@ def fault_rows(faults: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
 
 
 def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator[str]:
-    """Remarks on the text of a file, each with a caret under its place."""
+    """Each with a caret under its place."""
     source = text.splitlines()
     for x in remarks:
         place = printable(file)
@@ -91,7 +86,7 @@ def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator
 
 
 def items(finding: Finding) -> Iterator[str]:
-    """A finding as an item of a list in Markdown, with the cure."""
+    """An item of a list in Markdown, with the cure."""
     x = finding.remark
     level = "" if x.level == "error" else f"{x.level}: "
     place = f"`{_code(finding.file)}:{x.line}:{x.column}`"
@@ -126,7 +121,7 @@ def annotation(finding: Finding) -> str:
 
 
 def commands_off(text: str) -> str:
-    """The text with workflow commands switched off: names of files come from strangers."""
+    """Switches workflow commands off: names of files come from strangers."""
     from hashlib import sha256  # few runs
 
     token = sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
@@ -134,17 +129,17 @@ def commands_off(text: str) -> str:
 
 
 def _text_of_command(text: str) -> str:
-    """The text of a command: what ends a line is written by its number, other signs by name."""
+    """Line ends by their numbers, other signs by name."""
     return printable(text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A"))
 
 
 def _property_of_command(text: str) -> str:
-    """A property of a command: colons and commas end it."""
+    """Colons and commas end a property."""
     return _text_of_command(text).replace(":", "%3A").replace(",", "%2C")
 
 
 def log_of(found: Sequence[Finding], command: str) -> str:
-    """A SARIF log of the findings of a command, with every rule in words."""
+    """SARIF, with every rule in words."""
     kinds = findings_of(command)
     rules = [
         {
@@ -192,7 +187,7 @@ def _result(finding: Finding, place: int) -> dict[str, object]:
 
 
 def _uri(path: str, separator: str = os.sep) -> str:
-    r"""A path as SARIF wants it, with slashes on every system.
+    r"""A path for SARIF, with slashes on every system.
 
     >>> _uri(r"tables\my rk.gark.yaml", "\\")
     'tables/my%20rk.gark.yaml'

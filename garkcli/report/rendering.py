@@ -1,4 +1,4 @@
-"""Values of calls in the formats of commands: by rows, or by a writer of their own."""
+"""Values of calls in the formats of commands: by rows, or by a writer."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 Writer: TypeAlias = "Callable[[Sequence[Any], str, str], str]"
-"""Writes values in a format; the text is the name of the method."""
+"""The text is the name of the method."""
 WIDTH = 80
 TOLD_BY = {
     "backward.BackwardAnalysis": "modified",
@@ -42,8 +42,8 @@ TOLD_BY = {
     "sweep.SweepReport": "sweep",
     "stability.Stability": "stability",
 }
-"""By room and class of a value the file that tells it by its ``REPORT``; ``whole`` there makes the
-result that this tells of the value and a name, if that is not the value.
+"""By room and class of a value the file with its ``REPORT``; ``whole`` there makes the result from
+the value and a name, if it is not the value.
 """
 
 
@@ -89,7 +89,6 @@ def render(value: object, format: str = "text", name: str = "") -> str:
 
 
 def latex(method: GarkMethod) -> str:
-    """The tableau of a method in LaTeX."""
     return render(method, "latex")
 
 
@@ -111,7 +110,7 @@ def _told_by(file: str) -> tuple[Report[Any], Callable[[Any, str], Any]]:
 
 
 def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
-    """The class of a value, its writer, and the formats. Raises MethodError if nothing does."""
+    """MethodError if there is no writer."""
     if kind := _kind(value, WRITERS):
         return kind, *WRITERS[kind]
     if kind := _kind(value, TOLD_BY):
@@ -165,4 +164,4 @@ WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
     "sweep.SweepReport": (_sweeps, (*FORMATS, "csv", "jsonl")),
     "tableau.GarkMethod": (_methods, FORMATS),
 }
-"""By room and class the writers of values that have further formats, or no rows; the formats."""
+"""By room and class the writers of values with further formats, or without rows."""

@@ -1,7 +1,4 @@
-"""The JSON Schemas of what the commands write: one function a command.
-
-A command with a JSON report adds itself to ``REPORTS``.
-"""
+"""The JSON Schemas of reports; a command with a JSON report adds itself to ``REPORTS``."""
 
 from __future__ import annotations
 
@@ -50,11 +47,11 @@ REPORTS = {
     "import": "garkcli.report.imported:REPORT",
     "sweep": "garkcli.report.sweep:REPORT",
 }
-"""The place of a report, or of the function that makes its schema."""
+"""A report, or the function that makes its schema."""
 
 
 REFERENCES = (("publication",), ("reference",))
-"""The fields whose parts are those of a reference in a method file."""
+"""Fields whose parts are those of a reference in a method file."""
 
 
 def report_schema(command: str) -> dict[str, Any]:
@@ -79,7 +76,6 @@ def report_schema(command: str) -> dict[str, Any]:
 
 
 def told(schema: Schema, report: str) -> Schema:
-    """The schema with a description of each field."""
     found: Schema = _walked(schema, (report,))
     return found
 
@@ -108,7 +104,7 @@ def _field(schema: Any, path: tuple[str, ...]) -> Any:
 
 
 def text_of(path: tuple[str, ...]) -> str:
-    """The description of a field: its own, or that of the claim, column or key it is."""
+    """The description of the field, or of the claim, column or key it is."""
     name = path[-1]
     if path[-2:-1] in REFERENCES:
         return _elsewhere().get(name, "")

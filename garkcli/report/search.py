@@ -1,4 +1,4 @@
-"""``gark design --search``: the methods that random starts lead to."""
+"""``gark design --search``: methods from random starts."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SHOWN = 24
 LONG = 50
 """Signs of a number that nobody reads."""
 PRECISION = 1000
-"""Bits in which it is evaluated."""
+"""Bits for the evaluation of long numbers."""
 ROOT = re.compile(r"root_of\([^()]*\)")
 ENDINGS: dict[Ending, str] = {
     "interrupt": "interrupted",
@@ -40,7 +40,7 @@ ENDINGS: dict[Ending, str] = {
 
 
 class SearchReport(NamedTuple):
-    """The methods that a search found, their files, and the method of the first start."""
+    """``files`` has None for methods that are not written."""
 
     file: str
     search: Search
@@ -54,7 +54,7 @@ class SearchReport(NamedTuple):
 
 
 def _found(x: SearchReport, d: Plain) -> str:
-    """The number of methods, or the best value, and of how many starts."""
+    """The number of methods, or the best value, and the starts."""
     search, result = x.search, x.result
     order = f"order {search.order}" + f" of the {search.whose}" * (search.whose != "method")
     found = f"{counted(len(result.methods), 'method')} of {order} found"
@@ -72,7 +72,7 @@ def _found(x: SearchReport, d: Plain) -> str:
 
 
 def solved(successes: int, starts: int) -> str:
-    """The number of starts that succeed, in words.
+    """The starts that succeed.
 
     >>> solved(1, 3)
     '1 of 3 starts solves the conditions in floats'
@@ -95,7 +95,7 @@ def _verdict(method: FoundMethod) -> str:
 
 
 def with_root(values: Mapping[str, str]) -> Mapping[str, str]:
-    """Values that name the one long root in them ``r``.
+    """Names the one long root in the values ``r``.
 
     >>> with_root({"a": "root_of(x**3 - 2, 1.25)", "b": "1 - root_of(x**3 - 2, 1.25)"})
     {'r': 'root_of(x**3 - 2, 1.25)', 'a': 'r', 'b': '1 - r'}
@@ -118,7 +118,7 @@ def _values(method: FoundMethod, d: Plain) -> Iterator[str]:
 
 
 def _shown(value: str, d: Plain) -> str:
-    """A number; decimals if it is long, unless it has a root with a name."""
+    """Decimals for a long number, unless it has a root with a name."""
     if len(value) < LONG or ROOT.search(value):
         return d.expression(value)
     try:
@@ -145,7 +145,7 @@ def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
 
 
 def _of(objective: Single | WeightedSum) -> str:
-    """The name of an objective without its sign."""
+    """Without its sign."""
     return objective.key if isinstance(objective, WeightedSum) else objective.key.removeprefix("-")
 
 

@@ -1,4 +1,4 @@
-"""``gark stability``: what is found, declared once."""
+"""``gark stability``: the findings, declared once."""
 
 from __future__ import annotations
 
@@ -42,18 +42,15 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 Extent: TypeAlias = "Sequence[Interval] | Bounds"
-"""A part of an axis."""
 Form: TypeAlias = "tuple[Polynomial, Polynomial, Polynomial]"
 """A quadratic form of (ωq, p)."""
 
 
 class StabilityReport(Frozen):
-    """The stability of one method.
-
-    Attributes:
-        springs: the two-frequency problem for a slow frequency; ``slow``: for an interval of them.
-        plane: both frequencies in floats, for a picture.
-        is_order_star: whether the picture is |R(z)| > |e^z|.
+    """Attributes:
+    springs: the two-frequency problem for a slow frequency; ``slow``: for an interval of them.
+    plane: both frequencies in floats, for a picture.
+    is_order_star: whether the picture is |R(z)| > |e^z|.
     """
 
     file: str
@@ -87,7 +84,7 @@ def _square_root(root: RealRoot, digits: int) -> str:
 def _around_zero(
     bounds: str, nowhere: str, everywhere: str, end: Callable[[RealRoot, Plain], str]
 ) -> facts.Wording[Extent]:
-    """Words for the interval that begins at 0: of −z on the real axis, of y² on the imaginary."""
+    """The interval that begins at 0: of −z on the real axis, of y² on the imaginary one."""
 
     def words(found: Extent, d: Plain) -> str:
         if isinstance(found, Bounds):
@@ -109,7 +106,7 @@ def _height(end: RealRoot, d: Plain) -> str:
 
 
 def _end_data(found: Extent, d: Plain) -> dict[str, object]:
-    """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
+    """The end of the first interval: in −z on the real axis, in y² on the imaginary one."""
     if isinstance(found, Bounds):
         return kinds.BOUNDS.data(found, d)
     if not found:
@@ -145,7 +142,7 @@ SECTOR: facts.Kind[RealRoot] = facts.Kind(
     ),
     facts.Words(lambda x, d: d.prose(f"α = {_degrees(x, d.digits)}°, cos α = ") + d.root(x)),
 )
-"""A sector by its cosine."""
+"""By its cosine."""
 
 
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
@@ -244,7 +241,7 @@ def sector(x: LinearStability) -> RealRoot | facts.Answer[RealRoot] | None:
 
 
 def _less_than_all(answer: facts.Answer[RealRoot]) -> facts.Level:
-    """Usual reports have a sector unless A-stability says it."""
+    """Usual unless A-stability implies the sector."""
     if answer.value is None:
         return USUAL if answer.status.open else DETAIL
     return USUAL if answer.value.exact != 0 else DETAIL
@@ -425,7 +422,7 @@ PHASE: facts.Kind[int] = facts.Kind(facts.Json(S.COUNT), facts.Words(lambda n, _
 
 
 def stable_in(latex: str, text: str) -> facts.Kind[Sequence[Interval]]:
-    """The kind of stable intervals of x, with the root of each end, which is one of ``text``."""
+    """Stable intervals of x, with the root of each end in the sign of ``text``."""
 
     def zone(x: Interval, d: Plain) -> str:
         if x.is_point or x.end is None:
@@ -574,14 +571,12 @@ OF_COLOURS: facts.Rows[Colours] = (
 
 
 class ImexParts(NamedTuple):
-    """Both parts of an implicit-explicit method, each driven alone."""
-
     explicit: LinearStability
     implicit: LinearStability
 
 
 def imex_parts(x: StabilityReport) -> ImexParts | None:
-    """The parts of an implicit-explicit method; None for other methods."""
+    """None for other methods."""
     explicit = explicit_colour(x.found.tableau) if x.found.linear else None
     if explicit is None:
         return None
@@ -619,7 +614,7 @@ def _end_of(found: Extent | Ray) -> RealRoot | fmpq | None:
 
 
 def _interval(axis: str, found: Extent | Ray | None, d: Plain, power: int = 1) -> str:
-    """The interval of z on an axis; with ``power`` 2 the square of its end is given."""
+    """With ``power`` 2 the square of the end is given."""
     if found is None or found == OPEN:
         return d.prose(f"{axis} interval not decided")
     end = _end_of(found)
@@ -656,7 +651,6 @@ def _implicit_words(x: LinearStability, d: Plain) -> str:
 
 
 def _line(section: facts.Section[T]) -> facts.Kind[T]:
-    """The rows of a section, shown in text but not in JSON."""
     return facts.Kind(None, part(section).shown)
 
 
@@ -691,7 +685,7 @@ SEVERAL: facts.Rows[StabilityReport] = [
 
 
 def _of_linear(*keys: str) -> facts.Section[LinearStability]:
-    """Returns rows of ``LINEAR`` by their keys."""
+    """Rows of ``LINEAR`` by their keys."""
     rows = {row.key: row for row in LINEAR}
     return facts.Section([rows[key] for key in keys])
 
@@ -712,7 +706,7 @@ PARTS: facts.Rows[StabilityReport] = [
     *facts.via(imex_parts, OF_BOTH),
     facts.Row("coupled", _after_colon(_coupled_words), coupled, HEADLINE),
 ]
-"""An implicit-explicit method by its parts: what one λ for both says comes with -v."""
+"""An implicit-explicit method by its parts; one λ for both comes with -v."""
 ONE_LAMBDA: facts.Row[StabilityReport] = facts.Row(
     "one_lambda", _line(OF_ALL), lambda x: x.found.linear[0], DETAIL, label="one λ"
 )
@@ -734,7 +728,7 @@ def _by_parts(rows: facts.Rows[StabilityReport]) -> facts.Rows[StabilityReport]:
 
 
 def _waves(linear: str, waves: str) -> facts.Rows[StabilityReport]:
-    """The rows of the oscillator; first where there is no other test equation."""
+    """First if there is no other test equation."""
     rows = WAVES[waves]
     if linear != "none":
         return rows
@@ -749,7 +743,7 @@ WAVES: dict[str, facts.Rows[StabilityReport]] = {
     "late": [facts.maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
     "known": facts.via(lambda x: x.found.oscillator, OSCILLATOR),
 }
-"""Rows about the oscillator, by the state of knowledge."""
+"""By the state of knowledge."""
 
 
 def _left_out_words(_: StabilityReport, d: Plain) -> str:
@@ -777,7 +771,7 @@ LINEARS: dict[str, facts.Rows[StabilityReport]] = {
     "parts": [*head("linear"), *_by_parts([*SEVERAL, EMBEDDED])],
     "rounded parts": [*head("linear"), *_by_parts([*ALIKE, ALONE, EMBEDDED])],
 }
-"""Rows by the colours on the linear test equation: ``R`` has a z for each colour, or one."""
+"""By the colours on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 COLUMNS_OF_PARTS = ("file", "implicit_part", "explicit_part", "coupled")
 FORMS = {
@@ -840,7 +834,7 @@ SLOW: facts.Section[StabilityReport] = facts.Section(
 
 
 def form(x: StabilityReport) -> facts.Section[StabilityReport]:
-    """The rows of a report: fields are there by what the method is."""
+    """The method determines the fields."""
     if x.slow is not None:
         return SLOW
     if x.springs is not None:
@@ -867,7 +861,6 @@ def whole(found: Stability, name: str) -> StabilityReport:
 
 
 def formulas(found: Stability) -> Iterator[tuple[str, str]]:
-    """Names and values of what decides stability, in LaTeX."""
     if found.colours is not None and found.colours.R is not None:
         names = ", ".join(f"z_{{{k + 1}}}" for k in range(found.colours.size))
         yield f"R({names})", _fraction(found.colours.R)

@@ -29,20 +29,18 @@ Names = tuple[str, ...]
 
 
 class StableReport(NamedTuple):
-    """A set of values, with its file and the digits of algebraic numbers."""
-
     file: str
     values: StableValues
     digits: int = 12
 
 
 def number(root: RealRoot, d: Plain) -> str:
-    """An algebraic number, whole: in radicals with decimals, or as the root of a polynomial."""
+    """In radicals with decimals, or as the root of a polynomial."""
     return replace(d, is_brief=False).root(root)
 
 
 def stability(values: StableValues, d: Plain) -> str:
-    """For which values a method is stable: ``A-stable for exactly 1/4 ≤ g``."""
+    """``A-stable for exactly 1/4 ≤ g``."""
     wanted = values.stability.in_words(values.family.tableau)
     text = d.prose("stable" if values.two_springs else wanted)
     names = values.names if values.is_plane else values.family.parameters
@@ -64,7 +62,7 @@ def stability(values: StableValues, d: Plain) -> str:
 
 
 def _part(values: StableValues, x: Interval, d: Plain) -> str:
-    """A part of the set; a value of a linear form is that of its first parameter."""
+    """A value of a linear form is that of its first parameter."""
     if values.forms and x.is_point and x.start is not None:
         value = root_text(x.start) or f"{root_decimal(x.start, d.digits)}…"
         return " = ".join(map(d.expression, values.forms[0].solved(value)))
@@ -224,7 +222,7 @@ FOUND: Rows[StableValues] = [
 ]
 APART: Row[StableValues] = optional("apart", TRUTH, lambda x: x.is_apart or None, DATA)
 VALUES = Section(WANTED, COLOUR, EMBEDDED, FOUND, APART)
-"""The values as a part of the report of an order."""
+"""As a part of the report of an order."""
 
 
 def _answer(x: StableValues, d: Plain) -> str:

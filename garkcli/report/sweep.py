@@ -74,7 +74,7 @@ def _column(name: str) -> Row[Judged]:
 def _table(
     plan: Plan | None, label: str, get: Callable[[SweepReport], Sequence[Judged]], most: int = 10
 ) -> Row[SweepReport]:
-    """Methods in lines: the criteria, and the method."""
+    """The criteria, and the method."""
     criteria = [] if plan is None else [_column(name) for name in plan.criteria.columns]
     line: Section[tuple[int, Judged]] = Section(
         Row("number", COUNT, lambda x: x[0]),
@@ -128,7 +128,7 @@ def section(report: SweepReport | None = None) -> Section[SweepReport]:
 
 
 def flat(plan: Plan) -> Section[Judged]:
-    """A row without nesting, for CSV and Parquet."""
+    """Without nesting, for CSV and Parquet."""
 
     def setting(name: str) -> Row[Judged]:
         def get(row: Judged) -> str | None:
@@ -161,9 +161,7 @@ def json_lines(report: SweepReport) -> str:
 
 
 def refuse_parquet(path: str) -> None:
-    """Refuse a file that could not be written, before the work is done. Raises UsageProblem if
-    pyarrow is not installed, or there is no such folder.
-    """
+    """UsageProblem before the work if pyarrow is not installed, or there is no such folder."""
     from importlib.util import find_spec
 
     from garkcli.page.writing import refuse_unwritable
@@ -176,9 +174,7 @@ def refuse_parquet(path: str) -> None:
 
 
 def write_parquet(report: SweepReport, path: str) -> None:
-    """The kept rows, best first, as a Parquet file; infinite numbers are those of floats. Raises
-    UsageProblem if pyarrow is not installed, or the file cannot be written.
-    """
+    """The kept rows, best first; infinite numbers are floats. UsageProblem if that fails."""
     refuse_parquet(path)
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -195,7 +191,7 @@ def write_parquet(report: SweepReport, path: str) -> None:
 
 
 def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
-    """A column of criteria with ∞ as a float, and then all of it in floats."""
+    """A column of criteria with ∞ is all in floats."""
     if name not in plan.criteria.columns or "infinity" not in values:
         return values
     return [None if value is None else float(value) for value in values]

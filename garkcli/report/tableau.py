@@ -46,7 +46,7 @@ Grid: TypeAlias = "Sequence[Sequence[Cell]]"
 
 
 class ShownTableau(NamedTuple):
-    """A tableau with the entries that are shown; rounded ones have long fractions as decimals."""
+    """Rounded entries have decimals for long fractions."""
 
     tableau: Tableau
     entries: Entries
@@ -68,9 +68,8 @@ def of_method(
     with_transformation: bool = False,
     coupling: Coupling | None = None,
 ) -> ShownTableau:
-    """A method, its entries in decimals if digits are named; ``coupling`` is that of the slow
-    stages of a multirate method. Raises MethodError if the transformation is requested, and there
-    is none.
+    """Entries in decimals if there are ``digits``; ``coupling`` is that of slow stages. MethodError
+    if the transformation is requested, and there is none.
     """
     entries = method.entries
     if digits is not None:
@@ -101,7 +100,7 @@ def _numeral(entries: Entries, cell: Cell) -> str:
 
 
 def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> Rows[Entries]:
-    """c, A, b and further weights with their entries changed into what ``entry`` describes."""
+    """c, A, b and further weights with entries that ``entry`` describes."""
 
     def rows(entries: Entries, found: Grid | None) -> list[list[object]] | None:
         return None if found is None else [[change(entries, x) for x in row] for row in found]
@@ -189,7 +188,7 @@ OF_POSITIONS = OF_NYSTROM[0], "b, with 0 in place of A: g depends on q alone"
 
 
 def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:
-    """The tableaus of a method with titles: α and γ, Ā and A, or the slow method."""
+    """With titles: α and γ, Ā and A, or the slow method."""
     if is_derivatives(tableau):
         return [*_of_derivatives(tableau, whole)]
     if tableau.exact_to is not None:

@@ -33,7 +33,7 @@ T = TypeVar("T")
 
 
 class Query(Frozen):
-    """The request: colours count from 1 in ``root`` and from 0 in ``used``."""
+    """Colours count from 1 in ``root`` and from 0 in ``used``."""
 
     colours: int
     order: int
@@ -50,7 +50,7 @@ class Query(Frozen):
 
 
 class TreeRow(NamedTuple):
-    """One tree: its text, root colour from 0, order, symmetry σ and density γ."""
+    """``root`` counts from 0; symmetry σ and density γ."""
 
     tree: str
     root: int
@@ -60,7 +60,7 @@ class TreeRow(NamedTuple):
 
 
 class TreeList(Mutable):
-    """Trees, and their numbers if these are known before; no rows if they are only counted."""
+    """No rows if the trees are only counted."""
 
     query: Query
     rows: Iterable[TreeRow] | None
@@ -68,7 +68,7 @@ class TreeList(Mutable):
 
     @property
     def counts(self) -> Counts:
-        """The numbers of trees; of those listed if nothing else tells them."""
+        """Rows are counted if the numbers are unknown."""
         if self.known is None:
             assert self.rows is not None
             self.rows = [*self.rows]
@@ -101,7 +101,7 @@ def picture(tree: Callable[[T], Tree]) -> Row[T]:
 
 
 def drawn(tree: Callable[[T], Tree]) -> Row[T]:
-    """The tree on a terminal, if it is small."""
+    """On a terminal, if the tree is small."""
 
     def small(x: T, d: Plain) -> str:
         found = tree(x)
@@ -126,8 +126,6 @@ def counts(what: str) -> Kind[dict[str, int]]:
 
 
 class HasTree(Protocol):
-    """A row about a tree."""
-
     @property
     def tree(self) -> Tree: ...
 
@@ -221,12 +219,8 @@ _PROBLEMS = {
 
 
 class SymplecticSubject(Frozen):
-    """Symplectic methods of a kind, or one of them.
-
-    Attributes:
-        kind: the kind; ``pair`` also where a method's structure has no name.
-        structure: its colours, and how roots move among them.
-        method: its tableau, with its rounding where it is rounded; None without one.
+    """``kind`` is ``pair`` also if a structure has no name; ``structure`` tells how roots move
+    among colours.
     """
 
     kind: Symplectic
@@ -301,7 +295,6 @@ class SymplecticSubject(Frozen):
 
     @property
     def all_conditions(self) -> int:
-        """The conditions of all orders if the method were not symplectic."""
         return sum(k for _, _, k in self.counts)
 
     @property
@@ -324,9 +317,7 @@ SUBJECT: Section[SymplecticSubject] = Section(
 
 
 def subject_of_kind(kind: Symplectic, terms: int | None, orders: range) -> SymplecticSubject:
-    """The symplectic methods of a kind. Raises UsageProblem if the kind does not exist with so many
-    terms.
-    """
+    """UsageProblem if the kind does not exist with so many terms."""
     if terms is None:
         terms = 2 if kind in _PROBLEMS else 1
     try:
@@ -341,13 +332,10 @@ def subject_of_kind(kind: Symplectic, terms: int | None, orders: range) -> Sympl
 
 
 def subject_of_method(method: AnyTableau, orders: range) -> SymplecticSubject:
-    """One method: a partitioned one or its own conjugate as it is, of any other the symplectic
-    pair.
+    """A partitioned method or its own conjugate as it is, of any other the symplectic pair.
 
-    Raises:
-        UsageProblem: a partitioned method that is not symplectic, or linear in positions or in
-            momenta only.
-        ZeroWeight: the pair would divide by zero.
+    Raises UsageProblem for a partitioned method that is not symplectic, or linear in positions or
+    in momenta only; ZeroWeight if the pair would divide by zero.
     """
     from garkcli.order.simplifying import is_symplectic
 
@@ -393,7 +381,7 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
 
 
 class FreeList(Frozen):
-    """Free trees, a class of conditions each; None if they are only counted."""
+    """A class of conditions each; None if they are only counted."""
 
     subject: SymplecticSubject
     classes: Iterable[symplectic.ConditionClass] | None
@@ -401,8 +389,6 @@ class FreeList(Frozen):
 
 
 class ListedClass(NamedTuple):
-    """A class among those of a subject."""
-
     subject: SymplecticSubject
     found: symplectic.ConditionClass
 
@@ -423,7 +409,7 @@ class ClassCount(Frozen):
 
 
 def _by_order(x: FreeList) -> dict[str, int] | None:
-    """The classes of each order if there are several orders."""
+    """If there are several orders."""
     counts = x.subject.counts
     return {str(n): few for n, few, _ in counts} if len(counts) > 1 else None
 
@@ -500,5 +486,5 @@ FREE_TREES: Report[FreeList] = Report(
 
 
 def trees_report_schema() -> Schema:
-    """The JSON Schema of ``gark trees``: rooted trees or free ones, listed or counted."""
+    """Rooted trees or free ones, listed or counted."""
     return published("report of gark trees", one_of(*REPORT.documents, *FREE_TREES.documents))
