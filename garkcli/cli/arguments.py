@@ -18,18 +18,17 @@ if TYPE_CHECKING:
     from flint import fmpq
 
 _NOTES = "garkcli.notes"
-"""The key in a context under which notes are kept until the verbosity is known."""
+"""Notes are kept in a context until the verbosity is known."""
 _VARIABLE = "GARK_PATH"
 SPELLINGS = {"color": "colour", "minimiz": "minimis", "recogniz": "recognis"}
 """American spellings in options, and those in the help."""
 OLD_NAMES = {"emit-all": "output-dir"}
-"""Former names of options."""
 DECADES = 50
 """Times, frequencies and errors are between 10^-50 and 10^50."""
 
 
 class InputType(click.Path):
-    """A path that the command reads and never overwrites; errors are reported when it is read."""
+    """The command reads it and never overwrites it; errors are reported when it is read."""
 
     name = "file"
 
@@ -65,7 +64,6 @@ class MethodType(InputType):
 
 
 def _entries_beginning(path: str) -> Iterator[str]:
-    """Yields files that begin with a text, and folders followed by a separator."""
     folder, start = os.path.split(path)
     with suppress(OSError):
         for name in sorted(os.listdir(folder or ".")):
@@ -94,7 +92,6 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
     def shell_complete(
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
-        """Returns the names and problem files; below a folder the shell completes."""
         from click.shell_completion import CompletionItem
 
         from garkcli.problems.builtin import PROBLEMS
@@ -107,7 +104,7 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
 
 def named(place: str) -> Any:
-    """Returns an object of a module of the package; of a function, its result."""
+    """An object of a module; of a function, its result."""
     file, _, name = place.partition(":")
     found = getattr(import_module(f"garkcli.{file}"), name)
     return found() if callable(found) else found
@@ -118,8 +115,8 @@ def completed(place: str) -> Callable[..., list[str]]:
 
 
 def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
-    """Adds folders before those of ``GARK_PATH``, for this run and its processes. Raises
-    UsageProblem if one of them is not a folder.
+    """Adds folders before those of ``GARK_PATH``, for this run and its processes; UsageProblem for
+    files.
     """
     if not folders or context.resilient_parsing:
         return
@@ -156,7 +153,7 @@ def with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
 
 
 def notes() -> list[str]:
-    """Returns the notes that were kept, and forgets them."""
+    """The notes that were kept, which are forgotten."""
     context = click.get_current_context(silent=True)
     kept: list[str] = context.meta.pop(_NOTES, []) if context else []
     return kept
@@ -178,14 +175,14 @@ def pairs(
 
 
 def finite(_: click.Context, __: click.Parameter, seconds: float | None) -> float | None:
-    """Returns a number of seconds; fails for NaN, which no range excludes."""
+    """Fails for NaN, which no range excludes."""
     if seconds is not None and seconds != seconds:
         raise click.BadParameter("nan is not a number of seconds")
     return seconds
 
 
 def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | None:
-    """Returns the file of a plot. Raises UsageProblem for a suffix that cannot be drawn."""
+    """UsageProblem for a suffix that cannot be drawn."""
     if path is not None:
         from pathlib import Path
 
@@ -196,8 +193,7 @@ def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | No
 
 
 def spelled(word: str) -> str:
-    """Returns an option or a word of it in the spelling of the help: ``--minimize`` becomes
-    ``--minimise``, ``--colors`` becomes ``--colours``. ``--color`` is about text and stays.
+    """``--minimize`` becomes ``--minimise``; ``--color`` is about text and stays.
 
     >>> spelled("minimize"), spelled("colors-used"), spelled("color"), spelled("emit-all")
     ('minimise', 'colours-used', 'color', 'output-dir')
@@ -210,7 +206,6 @@ def spelled(word: str) -> str:
 
 
 def workers(_: click.Context, __: click.Parameter, jobs: int | None) -> int | None:
-    """Returns the number of processes, one for each processor if 0 is given."""
     return (os.cpu_count() or 1) if jobs == 0 else jobs
 
 
@@ -225,9 +220,7 @@ def read_by(read: Callable[[str, str], Any]) -> Callable[..., Any]:
 
 
 def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
-    """Returns the rational number given for ``option``. ``cure`` is for irrational numbers. Raises
-    UsageProblem for other texts.
-    """
+    """UsageProblem for other texts; ``cure`` is for irrational numbers."""
     from garkcli.exact.domain import Domain
     from garkcli.exact.expression import parse
     from garkcli.exact.field import Algebraic
@@ -245,9 +238,7 @@ def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
 
 
 def positive(option: str, text: str) -> fmpq:
-    """Returns the positive rational number given for ``option``, a time, a frequency or an error.
-    Raises UsageProblem for other texts, and for numbers out of range.
-    """
+    """A time, a frequency or an error; UsageProblem for other texts, and beyond ``DECADES``."""
     from flint import fmpq
 
     number = rational(option, text)
@@ -265,7 +256,7 @@ def positives(option: str, text: str) -> tuple[fmpq, ...]:
 
 
 def point(option: str, text: str) -> tuple[fmpq, fmpq]:
-    """Returns the real and the imaginary part. Raises UsageProblem unless they are rational."""
+    """The real and the imaginary part; UsageProblem unless they are rational."""
     from garkcli.exact.given import complex_parts
 
     real, imaginary = (rational(option, x, "such as 0.01+2i") for x in complex_parts(text))
@@ -273,7 +264,7 @@ def point(option: str, text: str) -> tuple[fmpq, fmpq]:
 
 
 def ratio(option: str, text: str) -> fmpq:
-    """Returns the ratio of two radii. Raises UsageProblem for other texts."""
+    """The ratio of two radii; UsageProblem for other texts."""
     number = rational(option, text)
     if number <= 0:
         message = f"--ratio {text}: radii are positive"
@@ -282,9 +273,7 @@ def ratio(option: str, text: str) -> fmpq:
 
 
 def square(option: str, text: str) -> fmpq:
-    """Returns the nonnegative rational number given for ``option``. Raises UsageProblem for other
-    texts.
-    """
+    """A nonnegative rational number; UsageProblem for other texts."""
     number = rational(option, text)
     if number < 0:
         message = f"{option} {text}: a square is not negative"

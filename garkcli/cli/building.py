@@ -1,4 +1,4 @@
-"""``gark new`` and ``gark claims``: method files, and what they claim."""
+"""``gark new`` and ``gark claims``: method files and their claims."""
 
 from __future__ import annotations
 
@@ -26,8 +26,6 @@ EXAMPLE = "gark new midpoint.gark.yaml --tableau '0 |; 1/2 | 1/2; | 0 1'"
 
 
 class New(opt.Options):
-    """The options of ``gark new``."""
-
     file: str | None = opt.maybe_argument("FILE", opt.FILE)
     tableau: str | None = opt.option(
         "--tableau",
@@ -111,9 +109,7 @@ def new(given: New, output: Output) -> None:
 
 
 def of_tableau_text(name: str, text: str) -> str:
-    """Returns a method file for a pasted tableau; ``-`` is standard input, ``@FILE`` a file. Raises
-    MethodError if it is not a tableau.
-    """
+    """A file for a pasted tableau, or one of ``-`` or ``@FILE``; MethodError if it is none."""
     from garkcli.glossary.key import METHOD_FILE
     from garkcli.grammar.reading import read_text
     from garkcli.methodfile.pasted import read_pasted
@@ -127,7 +123,6 @@ def of_tableau_text(name: str, text: str) -> str:
 
 
 def _member(text: str) -> Member:
-    """Returns the family and the stages. Raises UsageProblem for other texts."""
     from garkcli.families.registry import member_named
     from garkcli.methodfile.template import Member
 
@@ -140,9 +135,7 @@ def _member(text: str) -> Member:
 
 
 def _asked(given: New) -> New:
-    """Returns the options with a name, a tableau, or families and a transfer rule from a dialogue.
-    Raises UsageProblem without a terminal.
-    """
+    """Asks for a name, a tableau, or families and a rule; UsageProblem without a terminal."""
     if not is_terminal(sys.stdin):
         raise UsageProblem("a new method needs --tableau or --family", EXAMPLE, code="option-alone")
     hush()
@@ -172,8 +165,6 @@ def _typed_line() -> str:
 
 
 class ClaimsOptions(opt.Options):
-    """The options of ``gark claims``."""
-
     files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
     write: bool = opt.flag(
         "--write", "Put the claims into the files, and change nothing else.", heading="Claims"
@@ -230,7 +221,7 @@ def claims(given: ClaimsOptions, output: Output) -> None:
 
 
 def _loaded(path: str) -> MethodFile:
-    """Returns a method with its claims. Raises UsageProblem for a family of methods."""
+    """A method with its claims; UsageProblem for a family of methods."""
     from garkcli.methodfile.load import load
 
     try:

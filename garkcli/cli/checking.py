@@ -26,8 +26,6 @@ from garkcli.report.check_formats import FORMATS
 
 
 class Check(opt.WithSettings):
-    """The options of ``gark check``."""
-
     files: tuple[str, ...] = opt.arguments_of("[FILE...]", opt.METHOD)
     max_order: int | None = opt.option(
         "--max-order", opt.number("N", 1, 400), of="check_file.limit", heading="Report"
@@ -95,7 +93,6 @@ def check(given: Check, output: Output) -> int:
 
 
 def _explain(word: str, output: Output) -> int:
-    """Writes the meaning of a word, as ``gark explain`` does."""
     from garkcli.cli.looking_up import tell_meaning
     from garkcli.tell.report import FORMATS as TOLD
 
@@ -134,10 +131,9 @@ def _outcomes(project: Project, given: Check, output: Output) -> list[Outcome]:
 
 
 def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) -> Iterator[Outcome]:
-    """Yields the outcomes of ``paths`` in order, with ``jobs`` processes; 0 is one per processor.
+    """The outcomes of ``paths`` in order, with ``jobs`` processes; 0 is one per processor.
 
-    A file that ends its worker, by lack of memory or a signal, has an outcome that says so; the
-    others are not affected.
+    A file that ends its worker, by lack of memory or a signal, has an outcome that says so.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(paths))
     if any(map(is_stream, paths)):

@@ -28,7 +28,7 @@ CONTEXT = {
     "max_content_width": 100,
     "token_normalize_func": arguments.spelled,
 }
-"""Settings of every command; ``-h`` and ``--help`` are an option of each."""
+"""``-h`` and ``--help`` are an option of each command."""
 ONE_METHOD = (
     "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
     "or - for standard input"
@@ -40,7 +40,7 @@ SEVERAL = (
 
 
 class Declared(Frozen, Generic[Given]):
-    """A command before it is made for click: its options, those on its output, what it runs."""
+    """A command before it is made for click."""
 
     name: str
     options: type[Given]
@@ -55,7 +55,7 @@ class Declared(Frozen, Generic[Given]):
 
     @property
     def all_options(self) -> list[opt.Option]:
-        """All options and arguments, former ones too, without those of a bundle."""
+        """Former ones too, without those of a bundle."""
         catalogue = [_CATALOGUE] if self.has_catalogue or self.methods else []
         return [*self._own, *catalogue, *self.output.values()]
 
@@ -75,7 +75,7 @@ class Declared(Frozen, Generic[Given]):
         )
 
     def _params(self) -> Iterator[click.Parameter]:
-        """Yields the parameters with their headings, the class's own before inherited ones."""
+        """With their headings, the class's own before inherited ones."""
         inherited = {x for base in self.options.__bases__ for x in declared_by(base)}
         made: dict[str, list[click.Parameter]] = {}
         heading = "Options"
@@ -148,7 +148,7 @@ OUTPUT_HEADING, METHOD_HEADING = "Output", "Method"
 
 
 class GroupedCommand(click.Command):
-    """A command whose help begins with lines to copy and has its options below headings."""
+    """The help begins with lines to copy and has options below headings."""
 
     def __init__(self, name: str, examples: Sequence[str], **settings: Any) -> None:
         self.examples = examples
@@ -163,7 +163,7 @@ class GroupedCommand(click.Command):
         super().format_help_text(ctx, formatter)
 
     def groups(self, ctx: click.Context) -> dict[str, list[tuple[str, str]]]:
-        """Returns the options with their help, by the headings; those on the output are last."""
+        """Options with their help, by headings; those on the output are last."""
         groups: dict[str, list[tuple[str, str]]] = {}
         for param in self.get_params(ctx):
             if isinstance(param, GroupedOption) and (record := param.get_help_record(ctx)):
@@ -182,7 +182,7 @@ class GroupedCommand(click.Command):
 
 
 def _in_short(name: str) -> str:
-    """Returns the flags of a switch as one.
+    """A switch as one flag.
 
     >>> _in_short("--l-stable / --no-l-stable")
     '--[no-]l-stable'
@@ -194,8 +194,8 @@ def _in_short(name: str) -> str:
 class GroupedOption(click.Option):
     """An option with the heading of its group in the help.
 
-    For an argument of a function of the package the help and the default are those of the
-    argument, looked up only for the help; if it is not given, it is not passed.
+    For an argument of a function of the package the help and the default are those of the argument,
+    looked up only for the help; if it is not given, it is not passed.
     """
 
     def __init__(self, flags: list[str], heading: str, of: str = "", **settings: Any) -> None:
@@ -215,7 +215,7 @@ class GroupedOption(click.Option):
         self._help = text
 
     def get_default(self, ctx: click.Context, call: bool = True) -> Any:
-        """Returns the default of the argument for the help, unless the command has its own."""
+        """The default of the argument for the help, unless the command has its own."""
         if self._has_default:
             return super().get_default(ctx, call)
         default = None if call else parameter_of(self._of).default
@@ -242,13 +242,13 @@ def _parameter(option: opt.Option, name: str, heading: str) -> click.Parameter:
 
 
 def parameter_of(of: str) -> inspect.Parameter:
-    """Returns the argument ``function.argument`` of the package."""
+    """``function.argument`` of the package."""
     function, _, name = of.partition(".")
     return inspect.signature(getattr(import_module("garkcli"), function)).parameters[name]
 
 
 def told(of: str) -> str:
-    """Returns the text about an argument in the docstring of a function."""
+    """The text about an argument in the docstring of a function."""
     function, _, name = of.partition(".")
     lines = iter((inspect.getdoc(getattr(import_module("garkcli"), function)) or "").splitlines())
     found = ""
@@ -291,8 +291,8 @@ def declared(
 ) -> Callable[[Body[Given]], Body[Given]]:
     """Makes the function the implementation of a command of the table.
 
-    It takes the options and the ``Output``, and returns the exit code, or None for 0. ``formats``
-    are those it writes, the first by default; ``output`` its options on them.
+    It takes the options and the ``Output``, and returns the exit code, or None for 0. The first of
+    ``formats`` is the default; ``output`` has its options on them.
     """
 
     def declare(body: Body[Given]) -> Body[Given]:
@@ -314,9 +314,7 @@ def command_of(name: str) -> click.Command:
 
 
 def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
-    """Notes methods whose coefficients look rounded, with the missing line. ``gark check`` has this
-    in its report. It takes as long as a check and is skipped with -q.
-    """
+    """Notes methods whose coefficients look rounded, with the missing line: as slow as a check."""
     if output.verbosity < 0:
         return
     from garkcli.check.analysis import looks_rounded

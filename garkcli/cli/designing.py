@@ -44,7 +44,7 @@ AnyResult = TypeVar("AnyResult", "SearchResult", "OptimaCurve")
 _STANDARD_INPUT = {STDIN, "<stdin>"}
 _PLOT = "--plot draws the stable values of two parameters"
 PROOFS = ("exact", "exists", "numerical")
-"""The certainty of methods that were found, the most certain first."""
+"""The most certain first."""
 
 
 SECONDS = 60.0
@@ -52,8 +52,6 @@ _STABLE = "stable_values.wanted"
 
 
 class DesignOptions(opt.Derivable):
-    """The options of ``gark design``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     order: int | None = opt.option(
         "--order", opt.number("P", 1, 60), of="find_parameters.order", heading="Wanted"
@@ -204,7 +202,7 @@ class DesignOptions(opt.Derivable):
 
     @cached_property
     def moment(self) -> float | None:
-        """The reading of the clock at which the time is over, counted from the first look at it."""
+        """The clock when the time is over, counted from the first look at it."""
         seconds = SECONDS if self.seconds is None and self.search is None else self.seconds
         return None if seconds is None else monotonic() + seconds
 
@@ -274,7 +272,7 @@ def design(given: DesignOptions, output: Output) -> int:
 
 
 def _refuse_rounded(family: FamilyFile, given: DesignOptions) -> None:
-    """Raises UsageProblem if an option needs exact coefficients that the file does not have."""
+    """UsageProblem if an option needs exact coefficients that the file does not have."""
     if family.tolerance is None:
         return
     asked = {
@@ -307,7 +305,7 @@ def _within(family: FamilyFile, given: DesignOptions, output: Output) -> int:
 
 
 def _check_stability(given: DesignOptions) -> None:
-    """Raises UsageProblem for options that a set of values excludes: files or a search."""
+    """UsageProblem for options that a set of values excludes: files or a search."""
     others = (given.emit, given.folder, given.search, given.minimise)
     if all(option is None for option in others):
         return
@@ -347,14 +345,13 @@ def _asked(family: FamilyFile, given: DesignOptions) -> RequiredStability | None
 
 
 def _refuse_unsettled(family: FamilyFile) -> None:
-    """Raises UsageProblem if a demand of the file was not worked out in time."""
+    """UsageProblem if a demand of the file was not worked out in time."""
     for key in family.unsettled:
         message = f"the demand {key} under design was not worked out within --seconds"
         raise UsageProblem(message, "give it more time, or demand less", code="not-found")
 
 
 def make_folder(path: str) -> None:
-    """Makes a folder for files unless it exists. Raises UsageProblem if it cannot be made."""
     if not path:
         raise UsageProblem("the name of the folder is empty", "name a folder", code="cannot-write")
     try:
@@ -365,7 +362,7 @@ def make_folder(path: str) -> None:
 
 
 def _refuse_other_wishes(family: FamilyFile, asked: RequiredStability, is_of_springs: bool) -> None:
-    """Raises UsageProblem for demands of the file that a set of stable values ignores."""
+    """UsageProblem for demands of the file that a set of stable values ignores."""
     wishes = [str(x) for x in family.stable if is_of_springs or x != asked]
     if family.order is not None:
         wishes.insert(0, f"order {family.order}")
@@ -444,8 +441,8 @@ def _sets(found: Design, given: DesignOptions) -> tuple[StableValues, ...] | Non
 
 
 def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
-    """Returns what each value of --choose leaves. Raises UsageProblem if a choice is not valid,
-    leaves no unknown, or leads to a question that is not decided in time.
+    """The remains of each value of --choose; UsageProblem if it is not valid, leaves no unknown, or
+    a question is not decided in time.
     """
     from garkcli.design.choices import walk_down
 
@@ -495,8 +492,8 @@ def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> 
 def _emit(
     found: Design | DesignWithin | Minimum, family: FamilyFile, given: DesignOptions, output: Output
 ) -> None:
-    """Writes the first of the methods found, or all. Raises UsageProblem if there is none,
-    MethodError if its values cannot be written in a method file.
+    """Writes the first of the methods found, or all; UsageProblem if there is none, MethodError if
+    a method file cannot hold the values.
     """
     if given.emit is None and given.folder is None:
         return
@@ -534,7 +531,7 @@ def file_names(folder: str, source: str) -> Iterator[str]:
 
 
 EXIT_CODES = {True: 0, False: 1, None: 3}
-"""By whether the order is reached; an undecided question is not an error of the file."""
+"""An undecided question is not an error of the file."""
 
 
 def _search(family: FamilyFile, starts: int, given: DesignOptions, output: Output) -> int:
@@ -552,7 +549,6 @@ def _search(family: FamilyFile, starts: int, given: DesignOptions, output: Outpu
 
 
 def _curve(family: FamilyFile, starts: int, given: DesignOptions, output: Output) -> int:
-    """Optima along a curve: report them, draw them, and return the exit code."""
     from garkcli.design.search.curve import OptimaCurve, along, front
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.report.design_curve import REPORT, CurveReport
@@ -597,8 +593,8 @@ def _order(family: FamilyFile, given: DesignOptions) -> int:
 def _searched(
     asked: FileSearch, starts: int, given: DesignOptions
 ) -> tuple[SearchResult, int | None]:
-    """Returns the result, and the exit code if an interrupt or a lost worker ended the search. If
-    the time did, the exit code is that of the result.
+    """The result, and the exit code if an interrupt or a lost worker, not the time, ended the
+    search.
     """
     from garkcli.design.search.run import MOST, SearchResult, results
 
@@ -654,7 +650,6 @@ def _worked(
 
 
 def _lost(_task: SearchTask, why: str) -> Timed:
-    """Raises WorkerLost for a part of a search whose process ended."""
     message = f"a process of the search was ended {why}"
     raise WorkerLost(message, "where memory is short use fewer --jobs")
 
@@ -678,14 +673,11 @@ def _written(
 
 
 def _proof(found: FoundFile) -> int:
-    """Returns a sort key, larger for weaker proofs."""
     member: Any = found.member
     return PROOFS.index(member.proof)
 
 
 class Sweep(opt.Options):
-    """The options of ``gark sweep``."""
-
     spec: str = opt.argument("SPEC", opt.INPUT)
     rows: str | None = opt.option(
         "--rows",

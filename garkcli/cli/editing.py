@@ -16,8 +16,6 @@ from garkcli.terminal import is_terminal
 
 
 class LspOptions(opt.Options):
-    """The options of ``gark lsp``."""
-
     once: str | None = opt.option(
         "--once", opt.input_file("FILE"), "What an editor shows of FILE; no server is started."
     )

@@ -43,7 +43,7 @@ ENDINGS: Mapping[str, tuple[str, ...]] = {
     ".py": ("python",),
     ".r": ("r",),
 }
-"""Formats by endings; of several, a command writes the first that it can."""
+"""A command writes the first of several formats that it can."""
 CURES = {
     "yaml": "gark convert, design --emit and claims --write write method files",
     "html": "gark report writes pages",
@@ -56,15 +56,15 @@ CURES = {
 """Commands that write the formats which others cannot."""
 PICTURES = ("png", "svg", "pdf")
 UNDRAWN = ("tableau", "tree")
-"""Pictures of ``gark plot`` that no other command draws."""
+"""No other command draws these."""
 DRAWN_BY_OTHERS = ("check", "plot", "show", "stability")
-"""Commands on one method, of which other commands draw a picture."""
+"""Other commands draw pictures of their methods."""
 DRAWING = {"convergence": "converge", "energy": "energy"}
-"""Commands that draw the pictures of ``gark plot`` that are not of stability."""
+"""These draw the pictures of ``gark plot`` that are not of stability."""
 
 
 def ending_of(path: str) -> str:
-    """Returns the ending of a file in lower case; empty if it is not known."""
+    """In lower case; empty if unknown."""
     ending = splitext(path)[1].lower()
     return ending if ending in ENDINGS else ""
 
@@ -72,11 +72,8 @@ def ending_of(path: str) -> str:
 def settled(
     path: str, formats: Sequence[str], chosen: str | None = None, option: str = "-o"
 ) -> str | None:
-    """Returns the format of a file: that of its ending, otherwise the chosen one; None without
-    either.
-
-    ``option`` is the one that names the file, for the message. Raises UsageProblem if the ending
-    belongs to another format.
+    """The format of the ending, otherwise the chosen one, or None; UsageProblem for another format,
+    with ``option`` in the message.
     """
     ending = ending_of(path)
     if not ending:
@@ -101,7 +98,7 @@ def settled(
 
 
 def _drawing(path: str) -> str:
-    """Returns the option of this command that draws into a file, or the line of another one."""
+    """The option of this command that draws into a file, or the line of another one."""
     context = click.get_current_context(silent=True)
     options = [] if context is None else [x for y in context.command.params for x in y.opts]
     given = {} if context is None else context.params

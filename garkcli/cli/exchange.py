@@ -44,8 +44,6 @@ WRITTEN = {
 
 
 class Export(opt.Derivable):
-    """The options of ``gark export``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     to: str = opt.required(
         "--to",
@@ -144,7 +142,7 @@ def _write_certificate(given: Export, output: Output) -> None:
 
 
 def _refuse_other_ending(path: str, bridge: Bridge) -> None:
-    """Raises UsageProblem for a file whose ending belongs to another target."""
+    """UsageProblem for a file whose ending belongs to another target."""
     ending, held = ending_of(path), ENDINGS.get(bridge.suffix.lower(), ())
     if not ending or {*held} & {*ENDINGS[ending]}:
         return
@@ -161,8 +159,6 @@ def _refuse_other_ending(path: str, bridge: Bridge) -> None:
 
 
 class Import(opt.Options):
-    """The options of ``gark import``."""
-
     sources: tuple[str, ...] = opt.arguments_of("SOURCE...", opt.INPUT)
     source_format: str | None = opt.option(
         "--from",
@@ -263,9 +259,7 @@ def _tell_wrong(results: Sequence[TableResult]) -> None:
 
 
 def _refuse_several(results: Sequence[TableResult], place: str, option: str) -> None:
-    """Raises UsageProblem for several methods in one method file. ``place`` is the option and the
-    file, ``option`` the one that names a folder.
-    """
+    """UsageProblem for several methods in the file ``place``; ``option`` names a folder."""
     names = [x.table.name or x.stem for x in results if x.method is not None]
     if len(names) > 1 and ending_of(place):
         more = f" and {len(names) - 8} more" if len(names) > 8 else ""
@@ -291,7 +285,7 @@ def _tell_unread(unread: Sequence[TableResult], output: Output) -> None:
 
 
 def _other(table: FoundTable) -> tuple[str, str]:
-    """Returns the remark about arrays that may not be a method, and the cure."""
+    """The remark about arrays that may not be a method, and the cure."""
     place = f"{printable(table.source)}:{table.line}"
     cure = f"--from {table.format} takes them for one"
     if table.c[0] is None:
@@ -358,8 +352,6 @@ def _written(results: Sequence[TableResult], folder: str) -> Mapping[int, str]:
 
 
 class AuditOptions(opt.Options):
-    """The options of ``gark audit``."""
-
     paths: tuple[str, ...] = opt.arguments_of("PATH...", opt.INPUT)
     strict: bool = opt.flag(
         "--strict", "Fail if gark could not read a possible table.", heading="Audit"
@@ -421,7 +413,6 @@ NOT_MENDED = "the others have no single sign, digit or number that is certain to
 
 
 def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output) -> None:
-    """Writes the certain repairs, and notes the number of tables."""
     from garkcli.bridges.patching import patches
 
     if any(map(is_stream, files)):

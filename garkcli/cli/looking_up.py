@@ -44,8 +44,6 @@ LISTS = ("families", "transfer", "schemes", "splittings", "problems")
 
 
 class Explain(opt.Options):
-    """The options of ``gark explain``."""
-
     words: tuple[str, ...] = opt.arguments_of(
         "[WORD...]", opt.completed("WORD", "check.meanings:known_words")
     )
@@ -77,8 +75,6 @@ def tell_meaning(word: str, output: Output) -> None:
 
 
 class RangeType(click.ParamType):  # type: ignore[type-arg]
-    """A whole number or a range."""
-
     name = "range"
 
     def convert(
@@ -93,7 +89,7 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]
 
 
 def _filters() -> list[click.Option]:
-    """Returns the options that filter and sort the lists of methods, by keys of entries."""
+    """The options that filter and sort the lists of methods, by keys of entries."""
     from garkcli.catalogue.entries import ORDERS
     from garkcli.properties.subject import every_property
     from garkcli.report.methods import BY_KIND, KEYS_OF_KINDS
@@ -134,8 +130,6 @@ _SORT = "The column by which the list is sorted; by default the order."
 
 
 class ListOptions(opt.Options):
-    """The options of ``gark list``."""
-
     what: str | None = opt.maybe_argument(
         "WHAT", opt.Kind({"type": click.Choice(["methods", *LISTS, "exports"])})
     )
@@ -196,8 +190,6 @@ BIBTEX = "bibtex"
 
 
 class Show(opt.WithSettings):
-    """The options of ``gark show``."""
-
     files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
     reference: bool = opt.flag(
         "--reference", "The publications alone, as BibTeX, or in the format of --format."
@@ -260,8 +252,6 @@ def _cite(given: Show, output: Output) -> None:
 
 
 class Page(opt.Derivable):
-    """The options of ``gark report``."""
-
     files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
     order: int | None = opt.option(
         "--order -n", opt.number("n", 1, 100), of="report_page.order", heading="Page"
@@ -325,7 +315,7 @@ def report(given: Page, output: Output) -> int:
 
 
 def _is_no_page(path: str) -> bool:
-    """Returns whether a file is there that is not a page of gark."""
+    """Whether a file is there that is not a page of gark."""
     try:
         return b"gark report" not in begin_of(path, 20_000).lower()
     except NotAFile:
@@ -335,7 +325,7 @@ def _is_no_page(path: str) -> bool:
 
 
 def _page_name(paths: list[str], which: str | None) -> str:
-    """Returns the default file of a page: METHOD.html, or report.html for several methods."""
+    """METHOD.html, or report.html for several methods."""
     if len(paths) > 1 or is_stream(paths[0]):
         return "report.html"
     from garkcli.methodfile.naming import called
@@ -349,9 +339,7 @@ def _page_name(paths: list[str], which: str | None) -> str:
 
 
 def _meant(path: str, given: Page) -> str | GarkMethod:
-    """Returns the subject of the page: a file, or the conjugate or the pair of its method. Raises
-    UsageProblem for free parameters.
-    """
+    """A file, or the conjugate or the pair of its method; UsageProblem for free parameters."""
     if given.which is None:
         return path
     try:
@@ -369,8 +357,6 @@ _REPORT: opt.Kind[str] = opt.alone(opt.completed("[COMMAND]", "report.schemas:RE
 
 
 class SchemaOptions(opt.Options):
-    """The options of ``gark schema``."""
-
     problem: bool = opt.flag("--problem", "The schema of problem files.", heading="Schema")
     sweep: bool = opt.flag("--sweep", "The schema of spec files of gark sweep.")
     project: bool = opt.flag("--project", "The schema of .gark.toml.")

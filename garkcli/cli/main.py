@@ -32,7 +32,7 @@ COMPLETION = "_GARK_COMPLETE"
 
 
 class _LazyGroup(click.Group):
-    """A group that imports a command only to run it or to show its help."""
+    """Imports a command only to run it or to show its help."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -57,7 +57,7 @@ class _LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Returns the commands, the word for help, and the commands behind it."""
+        """The commands, the word for help, and the commands behind it."""
         from click.shell_completion import CompletionItem
 
         found = super().shell_complete(ctx, incomplete)
@@ -125,9 +125,7 @@ gark.params.append(help_option())
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Runs the command line and exits.
-
-    Exit codes: 0 success, 1 a claim fails, 2 wrong usage or input, or no place for the report, 3
+    """Exit codes: 0 success, 1 a claim fails, 2 wrong usage or input, or no place for the report, 3
     undecided, or an internal error, 128 + n ended by signal n: 130 interrupted, 141 the reader of
     the report is gone.
     """
@@ -176,7 +174,7 @@ def _exit_code(arguments: list[str]) -> int:
 
 
 def _run(arguments: list[str]) -> int:
-    """Runs the command line without the exit of click, whose code 1 would be a failing claim."""
+    """Runs without the exit of click, whose code 1 would be a failing claim."""
     if arguments[:1] == [HELP]:
         names = [x for x in arguments[1:] if not x.startswith("-")]
         if len(names) > 1:

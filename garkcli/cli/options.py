@@ -28,9 +28,7 @@ Word = TypeVar("Word", bound=str)
 
 
 class Kind(Frozen, Generic[T]):
-    """The values of an option: the settings of click that read them as a T. ``choices`` is the
-    place of the words that it accepts, ``holds`` the format of a file that the command writes.
-    """
+    """``choices`` is the place of accepted words, ``holds`` the format of a written file."""
 
     settings: Mapping[str, Any]
     choices: str = ""
@@ -41,8 +39,8 @@ class Option(Frozen):
     """An option, or an argument.
 
     ``flags`` are as on the command line, of an argument its word in the usage; ``of`` is the
-    function and the argument in Python, or empty; without ``help`` the docstring of the argument
-    serves. ``heading`` begins a group in the help. ``is_former`` keeps it out of the help.
+    function and the argument in Python, or empty, whose docstring serves without ``help``.
+    ``heading`` begins a group in the help; ``is_former`` keeps it out of the help.
     """
 
     flags: tuple[str, ...]
@@ -72,24 +70,22 @@ class Option(Frozen):
 
 
 class Bundle(Frozen):
-    """Further options that a function makes; their values are a mapping by their names."""
+    """Options that a function makes; their values are a mapping by their names."""
 
     make: Callable[[], list[click.Option]]
 
 
 class Value(Frozen):
-    """One value of an option, in a rule."""
-
     option: Option
     value: object
 
 
 class Rule(Frozen):
-    """Options that require or exclude others: of the first ones the one that is given requires one
-    of the others if ``needs``, otherwise excludes them all.
+    """The one of ``options`` that is given needs one of the others if ``needs``, otherwise excludes
+    all.
 
-    OPTION in the message is the option that is given. For ``--format`` the effective format counts,
-    for ``--output`` a file.
+    OPTION in the message is that option. For ``--format`` the effective format counts, for
+    ``--output`` a file.
     """
 
     options: tuple[Option | Value, ...]
@@ -100,11 +96,10 @@ class Rule(Frozen):
 
     @property
     def code(self) -> str:
-        """The kind of fault."""
         return "option-alone" if self.needs else "options-clash"
 
     def check(self, value_of: Callable[[Option], object]) -> None:
-        """Raises UsageProblem for options that break the rule."""
+        """UsageProblem for options that break the rule."""
 
         def is_given(each: Option | Value) -> bool:
             if isinstance(each, Value):
@@ -118,7 +113,7 @@ class Rule(Frozen):
 
 
 def needs(given: object, others: object, message: str, cure: str) -> Rule:
-    """Declares a rule by which an option, or each of several, needs another, or one of others."""
+    """An option, or each of several, needs another, or one of others."""
     return Rule(_options(given), True, _options(others), message, cure)
 
 
@@ -127,7 +122,7 @@ def excludes(given: object, others: object, message: str, cure: str) -> Rule:
 
 
 def being(given: object, value: object) -> Value:
-    """Declares the value of an option in a rule."""
+    """The value of an option in a rule."""
     first = given[0] if isinstance(given, tuple) else given
     return Value(cast("Option", first), value)
 
@@ -145,19 +140,19 @@ def option(
     heading: str = "",
     is_former: bool = False,
 ) -> T | None:
-    """Declares an option whose value is None unless it is given."""
+    """The value is None unless the option is given."""
     return cast("T", Option(tuple(flags.split()), kind, of, help, heading, is_former))
 
 
 def preset(
     flags: str, kind: Kind[T], default: T, help: str = "", *, of: str = "", heading: str = ""
 ) -> T:
-    """Declares an option whose default is that of the command, not of the Python argument."""
+    """The default is that of the command, not of the Python argument."""
     return cast("T", option(flags, _with(kind, default=default), help, of=of, heading=heading))
 
 
 def always(flags: str, kind: Kind[T], help: str = "", *, heading: str = "") -> T:
-    """Declares an option of a kind that has a value if the option is not given."""
+    """The kind has a value if the option is not given."""
     return cast("T", option(flags, kind, help, heading=heading))
 
 
@@ -168,7 +163,7 @@ def required(flags: str, kind: Kind[T], help: str = "", *, of: str = "", heading
 def repeated(
     flags: str, kind: Kind[T], help: str = "", *, of: str = "", heading: str = ""
 ) -> tuple[T, ...]:
-    """Declares an option that can be given several times."""
+    """The option can be given several times."""
     declared: object = option(flags, _with(kind, multiple=True), help, of=of, heading=heading)
     return cast("tuple[T, ...]", declared)
 
@@ -179,13 +174,13 @@ def flag(flags: str, help: str = "", *, of: str = "", heading: str = "") -> bool
 
 
 def switch(flags: str, help: str = "", *, of: str = "") -> bool | None:
-    """Declares ``--yes/--no``, None unless one is given."""
+    """``--yes/--no``, None unless one is given."""
     kind: Kind[bool] = Kind({} if of else {"default": None})
     return option(flags, kind, help, of=of)
 
 
 def flag_of(word: Word, help: str, of: str) -> Word | None:
-    """Declares a flag that stands for a word; ``either`` makes one field of several."""
+    """A flag that stands for a word; ``either`` makes one field of several."""
     kind: Kind[Word] = Kind({"is_flag": True, "flag_value": word, "default": None})
     return option(f"--{word}", kind, help, of=of)
 
@@ -195,7 +190,7 @@ def either(first: T, *others: T, heading: str) -> T:
 
 
 def bundle(make: Callable[[], list[click.Option]]) -> Mapping[str, Any]:
-    """Declares further options, which a function makes when the command is made."""
+    """The function makes the options when the command is made."""
     return cast("Mapping[str, Any]", Bundle(make))
 
 
@@ -208,7 +203,7 @@ def maybe_argument(written: str, kind: Kind[T]) -> T | None:
 
 
 def arguments_of(written: str, kind: Kind[T]) -> tuple[T, ...]:
-    """Declares an argument that is given several times; in brackets it may be left out."""
+    """In brackets the argument may be left out."""
     is_needed = not written.startswith("[")
     declared: object = option(written, _with(kind, required=is_needed, nargs=-1))
     return cast("tuple[T, ...]", declared)
@@ -231,22 +226,22 @@ def words(*choices: Word) -> Kind[Word]:
 
 
 def words_of(place: str, metavar: str | None = None) -> Kind[Any]:
-    """A kind of words that are looked up when the command is made."""
+    """The words are looked up when the command is made."""
     return Kind({} if metavar is None else {"metavar": metavar}, place)
 
 
 def completed(metavar: str, place: str) -> Kind[str]:
-    """A kind of texts that the shell completes with the words of a list."""
+    """The shell completes texts with the words of a list."""
     return Kind({"metavar": metavar, "shell_complete": arguments.completed(place)})
 
 
 def read(metavar: str, reader: Callable[[str, str], T]) -> Kind[T]:
-    """A kind of values that a function makes of the option and its text."""
+    """A function makes the value of the option and its text."""
     return Kind({"metavar": metavar, "callback": arguments.read_by(reader)})
 
 
 def file(holds: str = "", metavar: str = "FILE") -> Kind[str]:
-    """A kind of files that the command writes, in one format if ``holds`` says so."""
+    """A file that the command writes, in one format if ``holds`` says so."""
     settings: dict[str, Any] = {"metavar": metavar, "type": arguments.PATH}
     if holds:
         settings["callback"] = partial(_held, holds)
@@ -304,12 +299,10 @@ DECIMALS = number("N", 1, 1000)
 
 
 class Options(Frozen):
-    """The arguments and options of a command, each by its name."""
-
     rules: ClassVar[tuple[Rule, ...]] = ()
 
     def of(self, function: str) -> dict[str, Any]:
-        """Returns the given options that are arguments of a function of the package."""
+        """The given options that are arguments of a function of the package."""
         found = {}
         for name, declared in declared_by(type(self)).items():
             value = getattr(self, name)
@@ -335,13 +328,13 @@ SET = always("--set", SETTINGS, "Give a parameter of FILE a value; repeatable.",
 
 
 class WithSettings(Options):
-    """Options of a command on methods whose parameters may be given values."""
+    """Parameters of methods may be given values."""
 
     settings: Mapping[str, str] = SET
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """Returns a method with the values of --set. Raises MethodFileError if it is not a method,
-        HasFreeParameters if a parameter has no value.
+        """With the values of --set; MethodFileError if there is no method, HasFreeParameters
+        without a value.
         """
         from garkcli.methodfile.load import load
 
@@ -356,7 +349,7 @@ PAIR = flag("--pair", "Take the symplectic pair of FILE instead, 2N colours.")
 
 
 class Derivable(WithSettings):
-    """Options of a command for which the conjugate or the pair can stand for a method."""
+    """The conjugate or the pair can stand for a method."""
 
     conjugate: bool = CONJUGATE
     pair: bool = PAIR
@@ -369,9 +362,7 @@ class Derivable(WithSettings):
         return "conjugate" if self.conjugate else "pair" if self.pair else None
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """Returns a method with the values of --set, or its conjugate or its pair. Raises the
-        errors of WithSettings, and ZeroWeight if a conjugate would divide by zero.
-        """
+        """Also ZeroWeight if a conjugate would divide by zero."""
         found = super().method(file, is_any_kind)
         return found.conjugate if self.conjugate else found.pair if self.pair else found
 
@@ -393,7 +384,6 @@ REPORTED: Mapping[str, object] = {
     "verbose": VERBOSE,
     "color": COLOR,
 }
-"""The options on the output of most commands."""
 OPEN = flag("--open", "Show it in the browser.", heading="Report")
 CATALOGUE = option(
     "--catalogue", FOLDER, "Add the method files below DIR to the catalogue; repeatable."
@@ -428,6 +418,6 @@ FAST = option(
 
 
 def of_springs(slow: object) -> tuple[Rule, Rule]:
-    """The rules by which ``--slow`` and ``--fast`` belong together."""
+    """``--slow`` and ``--fast`` belong together."""
     said = "--slow and --fast belong together", "give both"
     return needs(slow, FAST, *said), needs(FAST, slow, *said)

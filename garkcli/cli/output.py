@@ -28,8 +28,7 @@ class Output:
 
     ``path`` is the file of ``-o``, or None; ``verbosity`` −1, 0 or 1; ``is_streamed`` says that
     ``-o -`` was given, ``is_by_ending`` that the ending of the file determines the format,
-    ``is_default`` that nothing does. Raises UsageProblem, before any work, if the report cannot be
-    written.
+    ``is_default`` that nothing does. UsageProblem, before any work, if nothing can be written.
     """
 
     def __init__(
@@ -53,10 +52,9 @@ class Output:
 
     @classmethod
     def of(cls, values: Mapping[str, Any], formats: Sequence[str] = ()) -> Output:
-        """Returns the output for the values of ``--format``, ``-o``, ``-q``, ``-v`` and
-        ``--color``, as far as a command has them.
+        """The output for the values of its options, as far as a command has them.
 
-        ``formats`` are those that the command writes, empty if it checks the ending itself. Raises
+        ``formats`` are those that the command writes, empty if it checks the ending itself.
         UsageProblem if the ending of the file belongs to another format.
         """
         verbosity = values.get("verbose", False) - values.get("quiet", False)
@@ -76,7 +74,7 @@ class Output:
         return output
 
     def check_place(self, path: str | None = None) -> None:
-        """Raises UsageProblem if the report, or another file, cannot be written."""
+        """UsageProblem if the report, or another file, cannot be written."""
         path = self.path if path is None else path
         if path is not None:
             from garkcli.page.writing import refuse_unwritable
@@ -86,10 +84,8 @@ class Output:
     def files_meant(
         self, files: Sequence[str], settings: Mapping[str, str] | None = None
     ) -> list[str]:
-        """Returns the files that FILE... stands for, and protects them from being overwritten.
-
-        Raises UsageProblem if the report would go to one of them, or if --set is given with
-        several.
+        """The files of FILE..., never overwritten; UsageProblem if the report would be one, or for
+        --set with several.
         """
         from garkcli.methodfile.naming import find_files
 
@@ -112,13 +108,11 @@ class Output:
 
     @property
     def width(self) -> int:
-        """The width of the terminal in columns, or 80."""
+        """In columns, or 80."""
         return width_of_terminal() if self.path is None else TERMINAL
 
     def write(self, text: str | Iterable[str], format: str = "") -> None:
-        """Writes the report; a file appears whole or not at all. ``format`` overrides that of
-        ``--format``.
-        """
+        """A file appears whole or not at all; ``format`` overrides ``--format``."""
         pieces = [text] if isinstance(text, str) else text
         format = format or self.format
         coloured = self._has_colour
@@ -129,7 +123,7 @@ class Output:
         self.save(self.path, safe_pieces(pieces, format, coloured))
 
     def write_exactly(self, text: str) -> None:
-        """Writes a text with all its characters and line ends, such as a patch."""
+        """With all characters and line ends, such as a patch."""
         if self.path is None:
             put_exactly(text)
         else:
@@ -145,8 +139,8 @@ class Output:
         self.write(report.render(wholes, self.format, self.look, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
-        """Writes a result while it is computed. ``is_document`` says whether LaTeX has its preamble
-        or only names it; None for neither.
+        """While the result is computed; ``is_document``: LaTeX has its preamble, or names it; None
+        for neither.
         """
         pieces = report.pieces(whole, self.format, self.look, self.verbosity, width=self.width)
         if self.format == "latex" and is_document is not None:
@@ -156,13 +150,12 @@ class Output:
         self.write(pieces)
 
     def suit(self) -> None:
-        """Replaces the format ``auto`` by the one that suits the environment."""
+        """Replaces ``auto`` by the format that suits the environment."""
         if self.format == "auto":
             is_job = os.environ.get("GITHUB_ACTIONS") == "true"
             self.format = "github" if is_job else "text"
 
     def note(self, text: str) -> None:
-        """Writes a remark to stderr unless -q is given."""
         if self.verbosity >= 0:
             say(text)
 
@@ -175,13 +168,13 @@ class Output:
         self.note(f"wrote {path}")
 
     def demand_file(self) -> None:
-        """Raises UsageProblem if --open is given with -o -."""
+        """UsageProblem if --open is given with -o -."""
         if self.is_streamed:
             message = "--open shows a file, and -o - writes none"
             raise UsageProblem(message, "leave one of them out", code="options-clash")
 
     def show(self, path: str) -> None:
-        """Opens a file that was written in the browser of the user."""
+        """In the browser of the user."""
         import webbrowser
         from pathlib import Path
 
@@ -211,7 +204,7 @@ def faults_of(error: GarkError) -> tuple[Remark, ...]:
 
 
 def failure_code(error: GarkError) -> int:
-    """Returns the exit code of a failed run: 1 for a step, 2 for anything else."""
+    """1 for a step, 2 for anything else."""
     from garkcli.stepping.integrator import StepFailed
 
     return 1 if isinstance(error, StepFailed) else 2

@@ -21,8 +21,6 @@ What: TypeAlias = Literal[
 
 
 class PlotOptions(opt.Derivable):
-    """The options of ``gark plot``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     what: What | None = opt.option(
         "--what",
@@ -61,7 +59,7 @@ def plot(given: PlotOptions, output: Output) -> None:
 
 
 def _temporary(what: str) -> str:
-    """Returns a file that stays when the command ends, for the browser to read."""
+    """It stays when the command ends, for the browser to read."""
     from pathlib import Path
     from tempfile import mkdtemp
 
@@ -69,9 +67,7 @@ def _temporary(what: str) -> str:
 
 
 def _panel_of(what: str, method: GarkMethod, file: str) -> Panel:
-    """Returns the picture of a method. Raises UsageProblem with the pictures that the method may
-    have if it has no such one.
-    """
+    """UsageProblem with the pictures that the method may have if it has no such one."""
     from garkcli.webpage.pictures import NotDrawn, panel_named
 
     try:
@@ -102,7 +98,7 @@ def _possible(method: GarkMethod) -> list[str]:
 
 
 def _first(method: GarkMethod) -> tuple[str, Panel | None]:
-    """Returns the picture of a method if none is named: region, oscillator or tableau."""
+    """Region, oscillator or tableau."""
     from garkcli.webpage.pictures import NotDrawn, panel_named
 
     for what in ("region", "oscillator"):
@@ -141,7 +137,7 @@ def _last_tree(method: GarkMethod) -> Tree:
 
 
 def _tree(tree: Tree, method: GarkMethod, output: Output) -> None:
-    """Writes a tree, its colours with the names that gark check gives them."""
+    """Colours have the names of gark check."""
     from garkcli.ntrees.drawing import draw_svg_sheet, draw_text
     from garkcli.ntrees.notation import format_tree
     from garkcli.page.plaintext import plain_text

@@ -21,9 +21,7 @@ MOST_BYTES = 1_000_000
 
 
 class Project(Frozen):
-    """The settings of a project.
-
-    ``paths`` are the method files, folders or patterns that are checked if none are named;
+    """``paths`` are the method files, folders or patterns that are checked if none are named;
     ``needed`` are required claims; ``defaults`` are values for options that are not given.
     """
 
@@ -35,10 +33,8 @@ class Project(Frozen):
 
 
 def find_project() -> Project:
-    """Returns the project of the current folder: the first file in it or above with settings for
-    gark, up to the root of the repository.
-
-    Raises UsageProblem if the file cannot be read, MethodFileError with all its faults.
+    """The first file with settings for gark, in the current folder or above, up to the root of the
+    repository; UsageProblem if it cannot be read, MethodFileError with all its faults.
     """
     for folder in _folders():
         for name in (OWN, SHARED):
@@ -67,9 +63,7 @@ def _folders() -> Iterator[str]:
 
 
 def _text(path: str, name: str) -> str | None:
-    """Returns the text of a file; None if it cannot have settings for gark. Raises UsageProblem if
-    it cannot be read, or is too large.
-    """
+    """None without settings for gark; UsageProblem if the file cannot be read, or is too large."""
     try:
         data = read_bytes(path, MOST_BYTES)
         if name == SHARED and re.search(_TOOL, data, re.MULTILINE) is None:
@@ -90,7 +84,7 @@ _TOOL = (
 
 
 _DEEP = r"(?<![\w\"'-])(?:[\w\"'-]++[ \t]*+\.[ \t]*+){100}"
-"""A key of a hundred names with dots between: the time of tomllib is quadratic in their number."""
+"""A key of a hundred names with dots between: tomllib takes quadratic time."""
 
 
 def _not_toml(path: str, error: Exception) -> UsageProblem:
@@ -99,7 +93,7 @@ def _not_toml(path: str, error: Exception) -> UsageProblem:
 
 
 def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
-    """Returns the settings for gark, or None. Raises UsageProblem unless the file is TOML."""
+    """The settings for gark, or None; UsageProblem unless the file is TOML."""
     import tomllib
 
     try:
@@ -152,9 +146,7 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
 
 
 def _from_here(path: str) -> str:
-    """Returns the path relative to the current folder, if there is one: on Windows not to another
-    drive. It is never mistaken for a name of the catalogue, or for standard input.
-    """
+    """Relative to the current folder, if it can be, and never a name of the catalogue or ``-``."""
     try:
         here = os.path.relpath(path)
     except ValueError:

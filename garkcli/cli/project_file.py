@@ -30,7 +30,7 @@ def _written(kind: g.ValueKind, is_quoted: bool) -> g.ValueKind:
 
 
 def _path(at: Any, node: Node, where: str) -> str | None:
-    """Reads a path or a pattern; NUL cannot be in the name of a file."""
+    """NUL cannot be in the name of a file."""
     text: str | None = g.TEXT.read(at, node, where)
     if text is None or "\0" not in text:
         return text
@@ -40,7 +40,7 @@ def _path(at: Any, node: Node, where: str) -> str | None:
 
 
 def file_of(formats: Iterable[str]) -> g.ValueKind:
-    """Returns the keys of the file. ``formats`` are those of ``gark check``."""
+    """``formats`` are those of ``gark check``."""
     return g.mapping(
         g.Key(
             'paths: ["methods"]',

@@ -59,8 +59,6 @@ STIFFNESS = opt.option(
 
 
 class OnProblem(opt.Derivable):
-    """Options of a command that follows a problem over time."""
-
     omega: fmpq | None = OMEGA
     split: str | None = SPLIT
     seed: int | None = SEED
@@ -74,8 +72,6 @@ class OnProblem(opt.Derivable):
 
 
 class Converge(OnProblem):
-    """The options of ``gark converge``."""
-
     files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
     problem: str | None = opt.option(
         "--problem",
@@ -115,8 +111,6 @@ class Converge(OnProblem):
 
 
 class Energy(OnProblem):
-    """The options of ``gark energy``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     problem: str = opt.preset(
         "--problem",
@@ -161,8 +155,6 @@ class Energy(OnProblem):
 
 
 class Modified(opt.Derivable):
-    """The options of ``gark modified``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     order: int = opt.preset(
         "--order -n",
@@ -192,11 +184,10 @@ class Modified(opt.Derivable):
 DRIFTING = frozenset({"drifts", "unstable"})
 """Verdicts that contradict ``--bounded``."""
 UNDECIDED = 3
-"""The exit code of undecided questions."""
 
 
 def _refuse_misplaced(problem: str, given: OnProblem) -> None:
-    """Raises UsageProblem for options that do not apply to a problem."""
+    """UsageProblem for options that do not apply to a problem."""
     from garkcli.problems.builtin import PROBLEMS, check_seed, check_stiffness
 
     for option, value in (("--omega", given.omega), ("--split", given.split)):
@@ -278,11 +269,8 @@ def _one(path: str, given: Converge, output: Output) -> int:
 
 
 def _several(paths: Sequence[str], given: Converge, output: Output) -> int:
-    """Tests all files and compares them. Failures are reported at once on stderr and do not stop
-    the other tests.
-
-    Raises MethodFileError for faults of the problem file, UsageProblem if the steps do not fit the
-    time.
+    """Failures are reported at once and do not stop the other tests; MethodFileError for faults of
+    the problem file, UsageProblem if the steps do not fit the time.
     """
     from garkcli.methodfile.naming import called
     from garkcli.plots.convergence import errors_scene
@@ -340,7 +328,7 @@ class Problems:
     """The problem of a convergence test, split for each of the tested methods.
 
     A file is read once. All methods get the same sum of terms, even if its coefficients depend on
-    their number. Without a name, the problem is one for which every tree of the methods matters.
+    their number. Without a name every tree of the methods matters for the problem.
     """
 
     def __init__(self, given: Converge) -> None:
@@ -366,9 +354,7 @@ class Problems:
             check_steps(whole, given.t_end or usual_time(whole), given.steps)
 
     def prepare(self, methods: Sequence[GarkMethod], output: Output) -> None:
-        """Chooses the same problem for all methods. Raises UsageProblem without one for their
-        structures.
-        """
+        """One problem for all methods; UsageProblem without one for their structures."""
         tableaux = [self._stepped(method) for method in methods]
         self._tableaux = tableaux
         if self._name is None and tableaux:
@@ -379,7 +365,7 @@ class Problems:
             note_changing(self._read, output)
 
     def _stepped(self, method: GarkMethod) -> Tableau:
-        """Returns the tableau that takes the steps; a method for a single problem names it."""
+        """The tableau that takes the steps; a method for a single problem names it."""
         from garkcli.api.stepped import stepped
 
         problem = self._read or self._name
@@ -389,9 +375,7 @@ class Problems:
         return tableau
 
     def of(self, tableau: Tableau) -> Problem | Oscillator:
-        """Returns the problem for one of the prepared methods. Raises UsageProblem if it cannot be
-        split.
-        """
+        """For a prepared method; UsageProblem if the problem cannot be split."""
         from garkcli.api.problems import problem_for, split_for
         from garkcli.convergence.convergence import in_common
         from garkcli.problems.builtin import PROBLEMS
@@ -405,9 +389,7 @@ class Problems:
         return problem_for(self._name, tableau, None, given.stiffness, given.omega, given.split)
 
     def tested(self, method: GarkMethod) -> Convergence:
-        """Returns the test of one method. Raises GarkError if the problem does not fit, or a step
-        fails.
-        """
+        """GarkError if the problem does not fit, or a step fails."""
         from garkcli.api.runs import converge
 
         given = self._given
@@ -466,8 +448,8 @@ def energy(given: Energy, output: Output) -> int:
 
 
 def _followed(tableau: Tableau, given: Energy, output: Output) -> Oscillator | Problem:
-    """Returns the problem of a long run, with as many terms as the tableau needs. Raises
-    UsageProblem if nothing is conserved, or --symplecticity does not apply.
+    """With as many terms as the tableau needs; UsageProblem if nothing is conserved, or
+    --symplecticity does not apply.
     """
     from garkcli.api.problems import problem_for
     from garkcli.problems.builtin import is_path
@@ -538,7 +520,7 @@ def _claims(run: LongRun, given: Energy) -> tuple[RunClaim, ...]:
 
 
 def _in_modified(order: int, given: Energy, output: Output) -> int:
-    """Reports the error in the modified Hamiltonian, for exact coefficients only."""
+    """For exact coefficients only."""
     from garkcli.api.problems import hamiltonian_for
     from garkcli.api.runs import modified_run
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
@@ -598,9 +580,7 @@ def modified(given: Modified, output: Output) -> None:
 
 
 def _formula(method: GarkMethod, problem: str, given: Modified) -> ModifiedFormula:
-    """Returns the formula on the problem of --problem. Raises UsageProblem for rounded
-    coefficients, or if the problem is not Hamiltonian.
-    """
+    """UsageProblem for rounded coefficients, or if the problem is not Hamiltonian."""
     from garkcli.api.problems import hamiltonian_for
     from garkcli.api.runs import modified_formula
 

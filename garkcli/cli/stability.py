@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 
 class StabilityOptions(opt.Derivable):
-    """The options of ``gark stability``."""
-
     files: tuple[str, ...] = opt.arguments_of("FILE...", opt.METHOD)
     at: tuple[tuple[fmpq, fmpq], ...] = opt.repeated(
         "--at", opt.read("Z", point), of="find_stability.at", heading="One λ"
@@ -114,7 +112,7 @@ def stability(given: StabilityOptions, output: Output) -> None:
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:
-    """Returns the colour given for --fast, counted from 1. Raises UsageProblem if there is none."""
+    """From 1; UsageProblem if the method has no such colour."""
     names = [x.name for x in tableau.colours]
     if colour not in names:
         message = f"--fast: no colour {colour!r}"
@@ -159,7 +157,7 @@ def _report(
 
 
 def _strengths(slow: str) -> tuple[fmpq, fmpq]:
-    """Returns the ends of --slow, equal ones for one number."""
+    """The ends of --slow, equal ones for one number."""
     first, dots, last = slow.partition("..")
     low = square("--slow", first)
     high = rational("--slow", last) if dots else low

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 HANDLER = "garkcli.plaintext"
 """The name of the error handler of streams."""
 READER_GONE = 128 + 13
-"""The exit code if the reader of the report is gone: that of a program ended by SIGPIPE."""
+"""The exit code if the reader of the report is gone, as after SIGPIPE."""
 INTERRUPTED = 128 + signal.SIGINT
 
 
@@ -36,7 +36,7 @@ class ReaderGone(Exception):
 
 
 def prepare() -> None:
-    """Prepares streams: no encoding fails, and no file is opened in place of a closed stream."""
+    """No encoding fails then, and no file is opened in place of a closed stream."""
     _fill_places()
     codecs.register_error(HANDLER, _handled)
     for stream in (sys.stdout, sys.stderr):
@@ -68,7 +68,7 @@ def _fill_places() -> None:
 
 
 def put(text: str, format: str = "text", coloured: bool = False) -> None:
-    """Writes a part of a report to standard output. Raises NoStandardOutput or ReaderGone."""
+    """To standard output; NoStandardOutput or ReaderGone."""
     if not text:
         return
     if sys.stdout is None:
@@ -84,7 +84,7 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
 
 
 def put_help(text: str) -> None:
-    """Writes the help of a command, in colours on a terminal that has them."""
+    """In colours on a terminal that has them."""
     is_coloured = is_drawn_on(sys.stdout) and wants_colour(sys.stdout)
     if is_coloured:
         from garkcli.tell.terminal import coloured_help
@@ -94,9 +94,7 @@ def put_help(text: str) -> None:
 
 
 def put_exactly(text: str) -> None:
-    """Writes a text as UTF-8 with its line ends, whatever the encoding of standard output. Raises
-    NoStandardOutput or ReaderGone.
-    """
+    """As UTF-8 with its line ends, on any stream; NoStandardOutput or ReaderGone."""
     if sys.stdout is None:
         raise NoStandardOutput
     buffer = getattr(sys.stdout, "buffer", None)
@@ -111,7 +109,6 @@ def put_exactly(text: str) -> None:
 
 
 def flush() -> None:
-    """Flushes standard output. Raises ReaderGone."""
     if sys.stdout is None:
         return
     try:
@@ -121,7 +118,7 @@ def flush() -> None:
 
 
 def say(text: str, coloured: bool = False, is_folded: bool = True) -> None:
-    """Writes lines to standard error, ignoring failures; on a terminal they are folded."""
+    """To standard error, ignoring failures; on a terminal lines are folded."""
     text = safe(text, "text", coloured)
     with aside():
         try:
@@ -133,7 +130,7 @@ def say(text: str, coloured: bool = False, is_folded: bool = True) -> None:
 
 
 def _fitting(text: str) -> str:
-    """Returns a text in lines that fit the terminal, if standard error is one."""
+    """Folded if standard error is a terminal."""
     if not is_terminal(sys.stderr):
         return text
     from garkcli.page.lines import folded
@@ -143,14 +140,13 @@ def _fitting(text: str) -> str:
 
 
 def say_problem(error: GarkError) -> None:
-    """Reports a problem and its cure, one line each, whatever they contain."""
+    """The problem and its cure, one line each for any content."""
     say(f"gark: {printable(error.message)}")
     if error.help:
         say(f"help: {printable(error.help)}")
 
 
 def complain(error: GarkError) -> None:
-    """Reports a problem with a file, an option or a run, and its cure."""
     if isinstance(error, MethodFileError):
         from garkcli.check.outcome import Outcome
 
@@ -181,7 +177,7 @@ def drop(stream: io.TextIOBase | object) -> None:
 
 
 def safe(text: str, format: str = "text", coloured: bool = False) -> str:
-    """Returns a text without commands to a terminal or to the runner of a job."""
+    """Without commands to a terminal or to the runner of a job."""
     from garkcli.page.safety import without_commands, written_out
 
     text = written_out(text, format, coloured)
@@ -194,7 +190,7 @@ def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[
 
 
 def _for(encoding: str | None, text: str, format: str, width: int | None = None) -> str:
-    """Returns a text for a stream of this encoding; formats with escapes lose nothing."""
+    """For the encoding of a stream; formats with escapes lose nothing."""
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):
         return text
@@ -218,10 +214,8 @@ def look_of(stream: object, has_colour: bool) -> Look:
 
 
 def wants_colour(stream: object) -> bool:
-    """Returns whether text on a stream is coloured without an option.
-
-    A nonempty ``NO_COLOR`` turns colours off and ``FORCE_COLOR`` on; otherwise terminals have them,
-    unless they declare themselves dumb.
+    """Without an option: a nonempty ``NO_COLOR`` turns colours off and ``FORCE_COLOR`` on;
+    otherwise terminals have them, unless they declare themselves dumb.
     """
     if os.environ.get("NO_COLOR"):
         return False

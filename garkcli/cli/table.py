@@ -6,8 +6,8 @@ from garkcli.frozen import Frozen
 
 
 class Command(Frozen):
-    """A command: its heading in the help, its module, the functions of the package for it, and
-    lines to copy, with which its help begins. Its arguments and options are declared in the module.
+    """``group`` is a heading in the help, ``calls`` are functions of the package, ``examples``
+    lines to copy.
     """
 
     group: str
@@ -231,4 +231,4 @@ FORMER = {
     "cite": ("show", "--reference"),
     "certificate": ("export", "--to", "certificate"),
 }
-"""Former names of commands, which the help does not list, and the words they stand for."""
+"""Former names, which the help does not list, and their words."""

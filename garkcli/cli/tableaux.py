@@ -32,7 +32,7 @@ EXIT_CODES = {
 
 
 REDUCED = "reduced"
-"""The value of ``--to`` for the smallest equivalent method, besides the forms."""
+"""The value of ``--to`` for the smallest equivalent method."""
 
 
 def forms() -> list[str]:
@@ -49,8 +49,6 @@ TRANSFORMATION = opt.flag(
 
 
 class TableauOptions(opt.Derivable):
-    """The options of ``gark tableau``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     digits: int | None = opt.DIGITS
     transformation: bool = TRANSFORMATION
@@ -107,16 +105,7 @@ def write_tableau(
     is_document: bool = False,
     with_transformation: bool = False,
 ) -> None:
-    """Writes a tableau as text, JSON or LaTeX.
-
-    Args:
-        method: any.
-        output: where to, and in which format.
-        digits: the digits of all entries; None for exact entries where the nodes have simple
-            radicals.
-        is_document: whether LaTeX gets a preamble.
-        with_transformation: whether the eigenvalues of A⁻¹ and its real block form are added.
-    """
+    """``digits`` are those of all entries, None for exact ones if nodes have simple radicals."""
     from garkcli.report.tableau import REPORT, of_method
 
     shown = of_method(method, digits, with_transformation, coupling_of_slow_stages(method))
@@ -134,7 +123,7 @@ def coupling_of_slow_stages(method: GarkMethod) -> Coupling | None:
 
 
 def _method_file(method: GarkMethod, digits: int | None) -> str:
-    """Returns a method as a method file. Raises UsageProblem if it cannot be spelled out."""
+    """UsageProblem if the method cannot be spelled out."""
     from garkcli.methodfile.writer import tolerance_of_file, write_rounded, write_tableau_file
     from garkcli.tableau.pointwise import in_points
 
@@ -154,9 +143,7 @@ def _method_file(method: GarkMethod, digits: int | None) -> str:
 
 
 def _derived_file(made: GarkMethod, output: Output) -> str:
-    """Returns the method file of a conjugate or a pair. Raises UsageProblem if the nodes of a pair
-    have no simple radicals.
-    """
+    """UsageProblem if the nodes of a pair have no simple radicals."""
     from garkcli.methodfile.carried import write_conjugate_of
     from garkcli.methodfile.writer import can_spell_out, write_tableau_file
     from garkcli.tableau.pointwise import in_points
@@ -176,7 +163,6 @@ def _derived_file(made: GarkMethod, output: Output) -> str:
 
 
 def _refuse_partitioned(tableau: Tableau) -> None:
-    """Raises UsageProblem for a partitioned method without method file."""
     from garkcli.methodfile.writer import can_spell_out
 
     if not can_spell_out(tableau):
@@ -193,11 +179,10 @@ def read_family(
     needs: Mapping[str, object],
     is_judged: bool = True,
 ) -> tuple[FamilyFile, EveryFamily]:
-    """Returns the family of a file, from the error of reading it as a method.
+    """The family of a file, from the error of reading it as a method.
 
-    ``needs`` has options that require numbers, with their values. With ``is_judged`` decisions
-    follow, for which exact coefficients are required. Raises UsageProblem if that fails, or if one
-    of the options was given.
+    ``needs`` has options that require numbers. With ``is_judged`` decisions follow, which need
+    exact coefficients. UsageProblem if that fails, or if one of the options was given.
     """
     from garkcli.check.every_family import every_family
     from garkcli.methodfile.family import family_of, refuse_rounded
@@ -218,8 +203,8 @@ def read_family(
 
 
 def _write_family(error: HasFreeParameters, given: TableauOptions, output: Output) -> None:
-    """Writes the tableau of a family, with rational functions of the parameters. Raises
-    UsageProblem if the nodes have no simple radicals, or decimals are requested.
+    """With rational functions of the parameters; UsageProblem if the nodes have no simple radicals,
+    or decimals are requested.
     """
     from garkcli.order.meant import derived, printed
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
@@ -264,7 +249,7 @@ def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
 
 
 def _end_text(parameter: str, end: RealRoot | None) -> str:
-    """Returns an end of a range as in a file. Raises UsageProblem if it has no simple radicals."""
+    """An end of a range as in a file; UsageProblem if it has no simple radicals."""
     from garkcli.exact.polynomial_text import root_text
 
     text = None if end is None else root_text(end)
@@ -312,8 +297,6 @@ def _stages(tableau: Tableau) -> str:
 
 
 class Convert(opt.WithSettings):
-    """The options of ``gark convert``."""
-
     file: str = opt.argument("FILE", opt.METHOD)
     to: str | None = opt.option(
         "--to",
@@ -373,7 +356,7 @@ def convert(given: Convert, output: Output) -> None:
 
 
 def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
-    """With details, returns the comparison with the method in the file, as a comment."""
+    """With details the comparison with the method in the file, as a comment."""
     if output.verbosity <= 0 or not first.tableau.has_fields_alone:
         return ""
     from garkcli.comparison.comparison import compare
@@ -386,8 +369,6 @@ def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
 
 
 class Diff(opt.WithSettings):
-    """The options of ``gark diff``."""
-
     first: str = opt.argument("FIRST", opt.METHOD)
     second: str = opt.argument("SECOND", opt.METHOD)
     strict: bool = opt.flag(
@@ -419,7 +400,7 @@ def diff(given: Diff, output: Output) -> int:
 
 
 def _as_typed(argument: str, name: str) -> str:
-    """Returns the name of a method as it was typed: RK4 is rk4, an alias stays."""
+    """RK4 is rk4, an alias stays."""
     from garkcli.methodfile.shelves import key_of
 
     return name if key_of(argument) == name else argument

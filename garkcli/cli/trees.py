@@ -28,7 +28,7 @@ MANY = 1_000_000
 """For more lines the command asks first."""
 MAX_PICTURES = 2000
 BLOCK_SIZE = 1 << 14
-"""The number of trees that are made at a time."""
+"""Trees that are made at a time."""
 
 
 COLOURS = opt.option(
@@ -60,8 +60,6 @@ RULES = (
 
 
 class TreesOptions(opt.Options):
-    """The options of ``gark trees``."""
-
     order_asked: int | None = opt.maybe_argument("ORDER", opt.number("n", 1, 10_000))
     order: int | None = opt.option(
         "--order -n", opt.number("n", 1, 10_000), of="trees.order", heading="Trees"
@@ -153,7 +151,7 @@ def _orders(order: int | None, upto: bool) -> range:
 
 
 def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
-    """Returns the number of trees by root colour for each order."""
+    """By root colour for each order."""
     from garkcli.ntrees.count import Admissible, count_by_root, counts_upto
 
     if not query.upto:
@@ -181,7 +179,7 @@ def rows_of(query: Query, orders: Iterable[int]) -> Iterator[TreeRow]:
 
 
 def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Output) -> None:
-    """Draws trees into a file. Raises UsageProblem if they are too many for a sheet."""
+    """UsageProblem if there are too many trees for a sheet."""
     from garkcli.ntrees.drawing import draw_svg_sheet
     from garkcli.ntrees.notation import format_tree
 
@@ -193,9 +191,7 @@ def _draw_sheet(path: str, listed: Iterable[Tree], has_colours: bool, output: Ou
 
 
 def _refuse_millions(lines: int | None, yes: bool) -> None:
-    """Asks on a terminal whether so many lines are wanted. Raises UsageProblem if not, or without a
-    terminal.
-    """
+    """Asks on a terminal whether so many lines are wanted; UsageProblem if not, or without one."""
     if yes or lines is None or lines <= MANY:
         return
     if is_terminal(sys.stdin) and is_terminal(sys.stderr):
@@ -273,8 +269,6 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
 
 
 class ConditionsOptions(opt.Derivable):
-    """The options of ``gark conditions``."""
-
     file: str | None = opt.maybe_argument("FILE", opt.METHOD)
     order: int = opt.preset(
         "--order -n",
@@ -380,7 +374,7 @@ def conditions(given: ConditionsOptions, output: Output) -> None:
 
 
 def _valued(file: str, given: ConditionsOptions) -> Valued:
-    """Returns the method whose values are reported, with rational functions for free parameters."""
+    """With rational functions for free parameters."""
     from garkcli.methodfile.load import load
     from garkcli.order.meant import as_meant, derived
     from garkcli.report.conditions import Valued
@@ -399,7 +393,7 @@ def _valued(file: str, given: ConditionsOptions) -> Valued:
 
 
 def _subject(given: ConditionsOptions, orders: range, valued: Valued | None) -> SymplecticSubject:
-    """Returns a kind of methods, or the method of a file, for independent conditions."""
+    """A kind of methods, or the method of a file, for independent conditions."""
     from garkcli.report.trees import subject_of_kind, subject_of_method
 
     if valued is None:

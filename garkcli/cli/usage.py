@@ -23,7 +23,7 @@ MEANT = {
     "simulate": "converge",
     "solve": "converge",
 }
-"""Words that people type for a command, and the command."""
+"""Words that people type for a command."""
 CURES = {
     "FILE...": "name a file, a folder, or a method of the catalogue, such as rk4",
     "FILE": "name a file, or a method of the catalogue, such as rk4",
@@ -34,14 +34,13 @@ CURES = {
     "SPEC": "name a spec file, as docs/sweep.md shows it",
     "--to": "gark list exports shows what can be written",
 }
-"""Advice about missing arguments and options."""
 _NUMBERS = re.compile(r"is not a valid (integer|float)( range)?")
 _CHOICE = re.compile(r"'([^']*)' is not one of (.*)\.")
 _EXTRA = re.compile(r"[Gg]ot unexpected extra arguments? \((\d+)\)")
 
 
 def no_such_command(word: str, commands: Iterable[str]) -> str:
-    """Returns the message for an unknown command: a method is for ``gark check``."""
+    """A method is for ``gark check``."""
     message = f"no such command {printable(word)!r}"
     if word == STDIN:
         return f"{message}\nhelp: it stands for a file behind a command, as in gark check -"
@@ -54,7 +53,7 @@ def no_such_command(word: str, commands: Iterable[str]) -> str:
 
 
 def _is_a_method(word: str) -> bool:
-    """Returns whether a word is a file, looks like one, or is a name of the catalogue."""
+    """Whether a word is a file, looks like one, or is a name of the catalogue."""
     if word.endswith((".yaml", ".yml")) or os.path.exists(word):
         return True
     from garkcli.methodfile.naming import look_up
@@ -105,7 +104,7 @@ def _no_such_option(name: str, options: list[str], context: click.Context | None
 
 
 _SHOWN = 4
-"""The number of commands that are listed for an option they have."""
+"""Commands that are listed for an option they have."""
 
 
 def _commands_with(option: str, context: click.Context | None) -> Iterator[str]:
