@@ -1,10 +1,9 @@
-"""Compositions: the substeps of methods, one after the other, as one tableau; splittings; adjoints;
-extrapolation.
+"""Compositions of substeps as one tableau; splittings; adjoints; extrapolation.
 
 A stage of a substep begins where the substeps before it end, so its row has their weights and then
 its own row, all times the fraction of the step: E. Hairer, C. Lubich, G. Wanner, *Geometric
-Numerical Integration*, section II.4. The methods have the same vector fields; a colour that a
-method does not use has no stages there.
+Numerical Integration*, II.4. The methods have the same vector fields; a colour that a method does
+not use has no stages there.
 
 In a splitting method the parts of a problem flow in turn. For q̇ = v(p), ṗ = f(q) the flows are
 exact Euler steps: drifts of q and kicks of p. For ẏ = Σ f^{l}(y) each flow is one step of a method.
@@ -32,36 +31,30 @@ MAX_STAGES = 400
 
 
 def refuse_large(stages: int, cure: str) -> None:
-    """Refuses a method that is too large, before it is made. Raises MethodError if it has more
-    stages than ``MAX_STAGES``.
-    """
+    """Raises MethodError, before a method is made, for more than ``MAX_STAGES`` stages."""
     if stages > MAX_STAGES:
         message = f"a method of {stages} stages (limit {MAX_STAGES})"
         raise MethodError(message, cure, code="too-many")
 
 
 class Substep(Frozen):
-    """A substep of a composition, on point stages; the fraction of the step may be negative."""
+    """On point stages; the fraction of the step may be negative."""
 
     tableau: Tableau
     fraction: Number
 
 
 def composed(substeps: Sequence[Substep]) -> Tableau:
-    """The method that takes the substeps one after the other, with equal stages merged.
+    """Takes the substeps one after the other, with equal stages merged.
 
-    Substeps share a stage if one ends with the value at which the next begins.
-
-    Raises:
-        MethodError: the methods are for different vector fields, or there are too many stages.
+    Substeps share a stage if one ends with the value at which the next begins. Raises MethodError
+    if the methods are for different vector fields, or there are too many stages.
     """
     return merged(in_turn(substeps))
 
 
 def in_turn(substeps: Sequence[Substep]) -> Tableau:
-    """The composition with every stage of every substep. Raises MethodError if the methods are for
-    different vector fields, or there are too many stages.
-    """
+    """Every stage of every substep; MethodError for different vector fields, or too many stages."""
     tableaus = [substep.tableau for substep in substeps]
     for tableau in tableaus:
         tableau.demand_fields("a composition")
@@ -107,7 +100,7 @@ def _fields(tableau: Tableau) -> tuple[object, ...]:
 
 
 class _Composition:
-    """The tableau of one composition; colours share a stage space if they do in every method."""
+    """Colours share a stage space if they do in every method."""
 
     def __init__(self, substeps: Sequence[Substep]) -> None:
         self.substeps = substeps
@@ -158,10 +151,8 @@ Flow = tuple[int, Number]
 
 
 def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
-    """Returns a splitting method of a separable Hamiltonian: part 0 moves q, part 1 moves p.
-
-    ``flows`` of length 0 are left out; ``is_nystrom`` says that velocities are linear in the
-    momenta.
+    """A splitting of a separable Hamiltonian: part 0 moves q, part 1 moves p; ``is_nystrom``:
+    velocities are linear in the momenta.
     """
     nothing: matrix.Vector = ()
     drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
@@ -172,9 +163,7 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
 
 
 def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
-    """Returns a splitting method for ẏ = Σ f^{l}(y), with one colour for each part. ``methods`` has
-    the method of each part on point stages; ``flows`` of length 0 are left out.
-    """
+    """A splitting for ẏ = Σ f^{l}(y), with one colour and method on point stages for each part."""
     parts = [alone(methods, l) for l in range(len(methods))]
     return composed([Substep(parts[l], g) for l, g in flows if g])
 
@@ -199,8 +188,8 @@ def adjoint(tableau: Tableau) -> Tableau:
     """The adjoint method, the inverse of the step with −h.
 
     It has the same weights and the blocks 𝟙 b_mᵀ − A^{l,m}, its nodes are 1 − c: E. Hairer,
-    C. Lubich, G. Wanner, *Geometric Numerical Integration*, section V.2. Point stages are reversed,
-    which keeps the order of a composition; a stage algebra is reflected, x → 1 − x.
+    C. Lubich, G. Wanner, *Geometric Numerical Integration*, V.2. Point stages are reversed, which
+    keeps the order of a composition; a stage algebra is reflected, x → 1 − x.
     """
     tableau.demand_fields("the adjoint method")
     turns = [_turn(space) for space in tableau.spaces]
@@ -244,15 +233,12 @@ def _turn(space: StageSpace) -> matrix.Matrix:
 
 
 def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: bool) -> Tableau:
-    """Returns the extrapolated method with equal stages merged: a combination of numbers of
-    substeps that cancels powers of h.
+    """The combination of numbers of substeps that cancels powers of h, with equal stages merged.
 
-    E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, section II.9:
-    the error of a method of order p with n equal substeps has an expansion in h^p, h^(p+1), …, that
-    of a symmetric method in h^p, h^(p+2), …
-
-    ``base`` is on point stages; ``parts`` has the number of equal substeps in each row of the
-    extrapolation table, ``order`` is that of the base. Raises MethodError if there are too many
+    E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.9: the
+    error of a method of order p with n equal substeps has an expansion in h^p, h^(p+1), …, that of
+    a symmetric method in h^p, h^(p+2), … ``base``, of order ``order``, is on point stages;
+    ``parts`` has the number of equal substeps in each row. MethodError if there are too many
     stages.
     """
     refuse_large(count_stages(base) * sum(parts), "extrapolate fewer times, or a smaller method")
@@ -264,7 +250,7 @@ def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: 
 
 
 def side_by_side(tableaus: Sequence[Tableau], weights: matrix.Vector) -> Tableau:
-    """The method Σ w_j Φ_j: every method takes the step from the same value."""
+    """Σ w_j Φ_j: every method takes the step from the same value."""
     first = tableaus[0]
     colours = [_side_by_side(tableaus, weights, l) for l in range(first.size)]
     nodes = (next(x.c for x in colours if x.space == k) for k in range(len(first.spaces)))

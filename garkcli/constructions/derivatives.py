@@ -3,12 +3,11 @@
     Y_i = y + Σ_k h^k Σ_j a^k_ij f_k(Y_j),        y_1 = y + Σ_k h^k Σ_j b^k_j f_k(Y_j),
 
 with f_1 = f and f_{k+1} = f_k' f. So h^k f_k(Y_j) is a derivative of h f along the exact solution
-through Y_j. Replacing it by collocation with n nodes changes no condition up to order n:
+through Y_j. Collocation with n nodes in its place changes no condition up to order n:
 docs/exact-order.md, section 13.
 
-Sources: K. H. Kastlunger, G. Wanner, "Runge Kutta processes with multiple nodes", Computing 9
-(1972) 9; R. P. K. Chan, A. Y. J. Tsai, "On explicit two-derivative Runge–Kutta methods", Numer.
-Algorithms 53 (2010) 171.
+K. H. Kastlunger, G. Wanner, Computing 9 (1972) 9; R. P. K. Chan, A. Y. J. Tsai, Numer. Algorithms
+53 (2010) 171.
 """
 
 from __future__ import annotations
@@ -29,10 +28,8 @@ from garkcli.tableau.tableau import Colour, Method, Tableau
 
 
 class Derivatives(AlongFlow):
-    """A method that uses derivatives along the solution."""
-
     def tableau(self, order: int) -> Tableau:
-        """A tableau with the conditions of the method up to an order."""
+        """With the conditions of the method up to an order."""
         flow = _flow(order)
         rows: list[Vector] = []
         for i in range(len(self.b[0])):
@@ -57,7 +54,7 @@ class Derivatives(AlongFlow):
         )
 
     def arrays(self, count: int) -> tuple[Tableau, ...]:
-        """The arrays of ``count`` derivatives f_k, with zeros for unused ones."""
+        """For ``count`` derivatives f_k, with zeros for unused ones."""
         s = len(self.b[0])
         zeros = (ZERO,) * s
         unused = [((zeros,) * s, zeros)] * (count - len(self.A))
@@ -70,8 +67,8 @@ class Derivatives(AlongFlow):
 
     def apparent_order(self, weights: Weights) -> int:
         """The order up to which the weights of the unbranched trees and of quadrature fit, up to
-        residuals that rounding may explain. It is finite because R(z) is rational with numerator
-        and denominator of degree at most s times the number of derivatives.
+        residuals that rounding may explain; finite, as R(z) has degrees of at most s times the
+        derivatives.
         """
         return fitting(self._sums(weights))
 
@@ -96,10 +93,8 @@ def _dot(u: Sequence[float], v: Sequence[float]) -> float:
 
 
 def plan(method: Derivatives, embedded: Weights | None = None) -> int:
-    """The order for which the tableau of a method is made: one more than its apparent order, or
-    less if it would have too many stages.
-
-    Raises ``MethodError`` if it has too many stages for its derivatives.
+    """One more than the apparent order, or less if there are too many stages; MethodError if there
+    are too many for the derivatives.
     """
     stages, least = len(method.b[0]), len(method.A)
     refuse_large(stages * least, "take fewer stages")
@@ -129,6 +124,6 @@ def _flow(order: int) -> Method:
 
 @lru_cache(maxsize=32)
 def _derivatives(order: int) -> tuple[Vector, ...]:
-    """The functionals that map values at these nodes to the derivatives at 0, from order 0 on."""
+    """From values at these nodes to the derivatives at 0, from order 0 on."""
     basis = list(_flow(order).space.basis_polynomials())
     return tuple(tuple(factorial(k) * polynomial[k] for polynomial in basis) for k in range(order))

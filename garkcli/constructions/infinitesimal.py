@@ -5,15 +5,15 @@ small steps of a method.
     dv/dτ = h d_i f(v) + Σ_j γ_ij (Y_j − y_n) + h Σ_m Σ_j Σ_k ω^m,k_ij τ^k g_m(Y_j).
 
 The first colour is f, the fast part, the others are the g_m. Collocation with n nodes in place of
-the exact solution of a fast problem changes no condition of an order p where n is large enough:
-docs/exact-order.md, section 10.
+the exact solution changes no condition of an order p if n is large enough: docs/exact-order.md,
+section 10.
 
-Sources: O. Knoth, R. Wolke, Appl. Numer. Math. 28 (1998) 327; J. Wensch, O. Knoth, A. Galant, BIT
-49 (2009) 449, with α and γ; A. Sandu, SIAM J. Numer. Anal. 57 (2019) 2300, with polynomials; R.
-Chinomona, D. Reynolds, SIAM J. Sci. Comput. 43 (2021) A3082, with two slow parts; V. T. Luan, R.
-Chinomona, D. Reynolds, SIAM J. Sci. Comput. 42 (2020) A1245, and A. Fish, D. Reynolds, S. Roberts,
-J. Comput. Appl. Math. 438 (2024) 115534, where every fast problem begins at y_n; S. Roberts, A.
-Sarshar, A. Sandu, SIAM J. Sci. Comput. 42 (2020) A1609, with step-predictors.
+O. Knoth, R. Wolke, Appl. Numer. Math. 28 (1998) 327; J. Wensch, O. Knoth, A. Galant, BIT 49 (2009)
+449, with α and γ; A. Sandu, SIAM J. Numer. Anal. 57 (2019) 2300, with polynomials; R. Chinomona, D.
+Reynolds, SIAM J. Sci. Comput. 43 (2021) A3082, with two slow parts; V. T. Luan, R. Chinomona, D.
+Reynolds, SIAM J. Sci. Comput. 42 (2020) A1245, and A. Fish, D. Reynolds, S. Roberts, J. Comput.
+Appl. Math. 438 (2024) 115534, with every fast problem from y_n; S. Roberts, A. Sarshar, A. Sandu,
+SIAM J. Sci. Comput. 42 (2020) A1609, with step-predictors.
 """
 
 from __future__ import annotations
@@ -74,11 +74,11 @@ class Coupling(Frozen):
     """The slow stages, and the fast problems between them.
 
     Attributes:
-        nodes: the nodes of the slow stages, from 0 to 1; the last one is the end of the step.
-        intervals: the intervals that lead to each stage after the first.
+        nodes: of the slow stages, from 0 to 1; the last one is the end of the step.
+        intervals: those that lead to each stage after the first.
         embedded: the interval that leads to the embedded value, or None.
-        matrices: for each slow part the matrices of τ⁰, τ¹, …, as in the file; row i leads to the
-            stage after stage i. None for methods with α, β and γ.
+        matrices: for each slow part those of τ⁰, τ¹, …, as in the file; row i leads to the stage
+            after stage i. None for methods with α, β and γ.
         restart: their convention if fast problems begin at y_n; else empty.
         has_own_nodes: whether its coefficients determine the nodes.
     """
@@ -111,12 +111,11 @@ def following(
     matrices: tuple[tuple[Matrix, ...], ...],
     embedded: tuple[Powers, ...] | None = None,
 ) -> Coupling:
-    """Returns a coupling in which every fast problem begins where the one before ends; MIS,
-    MRI-GARK, IMEX-MRI-GARK.
+    """Every fast problem begins at the end of the one before: MIS, MRI-GARK, IMEX-MRI-GARK.
 
-    ``nodes`` go from 0 to 1, the last one for the end of the step. ``matrices`` are for each slow
-    part those of τ⁰, τ¹, …; row i leads from stage i to the next, with a column for each node.
-    ``embedded`` has for each slow part the rows from the last stage but one to the embedded value.
+    ``nodes`` go from 0 to 1, the end of the step; ``matrices`` are for each slow part those of τ⁰,
+    τ¹, …; row i leads from stage i to the next. ``embedded`` has for each slow part the rows from
+    the last stage but one to the embedded value.
     """
     columns = len(nodes)
     intervals = [
@@ -142,12 +141,12 @@ def restarted(
     after: Matrix | None = None,
     embedded_after: Vector | None = None,
 ) -> Coupling:
-    """Returns a coupling in which every fast problem begins at y_n and goes on to c_i; IMEX-MRI-SR.
+    """Every fast problem begins at y_n and goes on to c_i: IMEX-MRI-SR.
 
     ``nodes`` begin with 0 and end with 1, in any order between. ``forcing`` has for each slow part
     the matrices of τ⁰, τ¹, …, τ = 1 at c_i; row i leads to the stage after stage i. ``embedded``
     has for each slow part the rows to the embedded value at 1. ``after`` is the correction by the
-    last slow part after each fast problem, ``embedded_after`` that of the embedded value.
+    last slow part after each fast problem.
     """
     zeros = _zeros(len(nodes))
     before = ((),) * (len(forcing) - 1)
@@ -165,7 +164,7 @@ def restarted(
 
 
 def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, ...]:
-    """Forcing polynomials in the time of the step, θ = c_i τ (MERK methods), rewritten in τ."""
+    """Polynomials in the time of the step, θ = c_i τ (MERK methods), rewritten in τ."""
     return tuple(
         tuple(tuple(c ** (k + 1) * x for x in row) for c, row in zip(nodes, matrix, strict=True))
         for k, matrix in enumerate(matrices)
@@ -173,8 +172,8 @@ def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, .
 
 
 def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
-    """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i, the last one
-    to the end of the step. Raises ``MethodError`` if α or γ uses a later stage.
+    """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i; MethodError
+    if α or γ uses a later stage.
     """
     nodes: list[Number] = [ZERO]
     intervals = []
@@ -227,7 +226,7 @@ class CollocationPlan(Frozen):
         fast: for each interval the nodes of the collocation for the exact solution, or 1 for a
             method; 0 without a fast part.
         stages: the slow stages with slopes in use, from 0.
-        order: the order of trees up to which collocation changes no condition; None for a method.
+        order: the order up to which collocation changes no condition; None for a method.
     """
 
     fast: tuple[int, ...]
@@ -236,7 +235,6 @@ class CollocationPlan(Frozen):
 
 
 def plan_for_method(coupling: Coupling) -> CollocationPlan:
-    """The plan with small steps of a method between the slow stages."""
     last = len(coupling.nodes) - 1
     is_seen = any(row[-1] for interval in coupling.every for _, row in interval.rows)
     stages = range(last + 1 if is_seen else last)
@@ -337,9 +335,7 @@ def _sums(A: Sequence[Sequence[float]], b: Sequence[float]) -> Iterator[tuple[fl
 
 
 def fitting(values: Iterable[tuple[float, float]]) -> int:
-    """The order up to which the weights of the unbranched trees, and of the bushy ones, are about
-    right; ``values`` has both for each order.
-    """
+    """The order up to which the weights of the unbranched and the bushy trees are about right."""
     order = 0
     for order, pair in enumerate(values, start=1):
         for value, due in zip(pair, (1 / factorial(order), 1 / order), strict=True):
@@ -365,11 +361,8 @@ def collocation_at(nodes: Vector) -> Method:
 def infinitesimal(
     coupling: Coupling, plan: CollocationPlan, fast: Method | None = None, steps: int = 1
 ) -> tuple[Tableau, Further]:
-    """Returns the method with its embedded weights.
-
-    ``fast`` is the method of the small steps, on point stages; None for the exact solution.
-    ``steps`` is their number between two slow stages that are apart in time. Raises MethodError if
-    there are too many stages.
+    """With embedded weights; ``fast`` takes ``steps`` small steps between slow stages apart in
+    time, None is the exact solution. MethodError for too many stages.
     """
     if fast is not None:
         refuse_large(len(coupling.every) * (steps * fast.stages + 2), multirate.SMALLER)
@@ -377,7 +370,7 @@ def infinitesimal(
 
 
 def _finished(program: _Infinitesimal, plan: CollocationPlan) -> tuple[Tableau, Further]:
-    """The method with equal stages merged, or with its stages on a flow."""
+    """With equal stages merged, or with stages on a flow."""
     made, further = program.made()
     if plan.order is None:
         return from_colours(merged(as_colours(made, further)), further)
@@ -386,9 +379,7 @@ def _finished(program: _Infinitesimal, plan: CollocationPlan) -> tuple[Tableau, 
 
 
 def interpolation(slow: Method) -> Powers:
-    """The forcing that interpolates the slopes at the nodes of a method. Raises CoincidingNodes if
-    two nodes are equal.
-    """
+    """Interpolates the slopes at the nodes; CoincidingNodes if two of them are equal."""
     polynomials = tuple(slow.space.basis_polynomials())
     return tuple(tuple(p[k] for p in polynomials) for k in range(slow.stages))
 
@@ -396,11 +387,8 @@ def interpolation(slow: Method) -> Powers:
 def plan_for_predictor(
     slow: Method, forcing: Iterable[Powers], fast: Method | None
 ) -> CollocationPlan:
-    """Returns the plan for a slow method that takes the step for both parts before the fast
-    problem.
-
-    ``forcing`` is that of the fast problem, and for the embedded value; ``fast`` is the method of
-    the small steps, None for the exact solution.
+    """The slow method takes the step for both parts first; ``forcing`` is that of the fast problem,
+    and for the embedded value.
     """
     s = slow.stages
     stages = tuple(range(s))
@@ -424,9 +412,7 @@ def predicted(
 ) -> tuple[Tableau, Further]:
     """A step-predictor: the slow method takes the step for both parts; then the fast problem is
     solved from y_n to the end of the step, with polynomials of the slow slopes as forcing.
-
-    Arguments as in ``plan_for_predictor`` and ``infinitesimal``. Raises ``MethodError`` if there
-    are too many stages.
+    MethodError for too many stages.
     """
     of_fast = sum(plan.fast) if fast is None else len(forcing) * steps * fast.stages
     refuse_large(2 * slow.stages + of_fast, multirate.SMALLER)
@@ -454,8 +440,6 @@ def _slow_part(tableau: Tableau) -> Tableau:
 
 
 class _Infinitesimal:
-    """One infinitesimal method, made stage by stage."""
-
     def __init__(
         self, coupling: Coupling, plan: CollocationPlan, fast: Method | None, steps: int
     ) -> None:
@@ -468,7 +452,7 @@ class _Infinitesimal:
         self.places = {j: n for n, j in enumerate(plan.stages)}
 
     def made(self) -> tuple[Tableau, Further]:
-        """The method; unused slow slopes are left out."""
+        """Unused slow slopes are left out."""
         result = self._result()
         further = NOTHING
         if self.coupling.embedded is not None:
@@ -576,7 +560,7 @@ class _Infinitesimal:
 
 
 class _Predicted(_Infinitesimal):
-    """A step-predictor: its slow stages are those of a method for both parts."""
+    """The slow stages are those of a method for both parts."""
 
     def __init__(
         self,

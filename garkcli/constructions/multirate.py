@@ -42,7 +42,7 @@ def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> 
 
 
 class SmallSteps:
-    """The stages of a method, space by space; ``spaces`` has the stage space of each colour."""
+    """``spaces`` has the stage space of each colour."""
 
     def __init__(self, spaces: Sequence[int]) -> None:
         self.spaces = tuple(spaces)
@@ -58,7 +58,7 @@ class SmallSteps:
         self._nodes[space].append(node)
 
     def tableau(self, result: Value) -> Tableau:
-        """The method whose step ends at ``result``; every colour sees every other."""
+        """The step ends at ``result``; every colour sees every other."""
         colours = []
         blocks: dict[Edge, Matrix] = {}
         for m, space in enumerate(self.spaces):
@@ -80,9 +80,7 @@ SMALLER = "take fewer steps, or methods of fewer stages"
 
 
 def small_steps(fast: Method, steps: int) -> Method:
-    """``steps`` equal steps of a method as one. Raises ``MethodError`` if there are too many
-    stages.
-    """
+    """``steps`` equal steps as one method; MethodError for too many stages."""
     refuse_large(steps * fast.stages, SMALLER)
     one = Substep(gark([fast], {}), fmpq(1, steps))
     return _alone(composed([one] * steps))
@@ -93,15 +91,15 @@ def _alone(tableau: Tableau) -> Method:
 
 
 def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
-    """Small steps and a slow step, coupled both ways by a transfer rule. Raises MethodError if the
-    rule needs distinct nodes, or there are too many stages.
+    """Coupled both ways by a transfer rule; MethodError if it needs distinct nodes, or for too many
+    stages.
     """
     whole = small_steps(fast, steps)
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
 
 def add_slow_stages(program: SmallSteps, slow: Method) -> None:
-    """Adds the stages of a slow method that takes the step for both parts."""
+    """The slow method takes the step for both parts."""
     every = range(slow.stages)
     for row, node in zip(slow.A, slow.c, strict=True):
         coarse = summed(of_slopes(FAST, every, row), of_slopes(SLOW, every, row))
@@ -111,10 +109,8 @@ def add_slow_stages(program: SmallSteps, slow: Method) -> None:
 
 def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     """The slow method takes the whole step for both parts; then the fast part is repeated in small
-    steps, with the slow slopes interpolated.
-
-    Raises ``CoincidingNodes`` if two nodes of the slow method are equal, ``MethodError`` for too
-    many stages.
+    steps, with the slow slopes interpolated. CoincidingNodes for equal slow nodes, MethodError for
+    too many stages.
     """
     refuse_large(2 * slow.stages + steps * fast.stages, SMALLER)
     program = SmallSteps([FAST, SLOW])
@@ -135,10 +131,10 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
 
 
 class Blocks(Frozen):
-    """Coupling matrices, one of each kind for every small step λ.
+    """Coupling matrices for every small step λ, with entries in small steps.
 
     ``fast_slow`` are A^{f,s,λ}, with a row for each fast stage, ``slow_fast`` A^{s,f,λ}, with a row
-    for each slow stage; their entries are in small steps.
+    for each slow stage.
     """
 
     fast_slow: tuple[Matrix, ...]
@@ -146,9 +142,7 @@ class Blocks(Frozen):
 
 
 def by_blocks(slow: Method, fast: Method, blocks: Blocks) -> Tableau:
-    """Small steps and a slow step with coupling matrices for each small step. Raises MethodError if
-    there are too many stages.
-    """
+    """With coupling matrices for each small step; MethodError for too many stages."""
     steps = len(blocks.fast_slow)
     refuse_large(slow.stages + steps * fast.stages, SMALLER)
     length = fmpq(1, steps)

@@ -4,12 +4,10 @@
 
 The stages of the tableau are the pairs (j, k) at which F is evaluated. The colour of a branch tells
 whether it is in the first or second argument of F: it is seen through the rows of a for Y_j, or
-those for Y_k. The conditions are those of ``garkcli.order``, proved in docs/exact-order.md, section
-12.
+those for Y_k. Proof of the conditions: docs/exact-order.md, section 12.
 
-Sources: T. Buvoli, B. S. Southworth, "A new class of Runge–Kutta methods for nonlinearly
-partitioned systems", arXiv 2401.04859; B. K. Tran, B. S. Southworth, T. Buvoli, "Order conditions
-for nonlinearly partitioned Runge–Kutta methods", arXiv 2401.12427.
+T. Buvoli, B. S. Southworth, arXiv 2401.04859; B. K. Tran, B. S. Southworth, T. Buvoli, arXiv
+2401.12427.
 """
 
 from __future__ import annotations
@@ -27,16 +25,14 @@ Tensor = Sequence[Matrix]
 
 
 class Pairs(PointSpace):
-    """Stages that are pairs (j, k) of stages of the method, from 0."""
+    """Pairs (j, k) of stages of the method, from 0."""
 
     pairs: tuple[tuple[int, int], ...]
 
 
 def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau, Vector | None]:
-    """Returns the tableau of a method, with the pairs in use as stages, and the embedded weights at
-    its stages.
-
-    ``a`` has a matrix for each stage, ``b`` and ``embedded`` a row for each first argument.
+    """The tableau, with the pairs in use as stages, and the embedded weights there. ``a`` has a
+    matrix for each stage, ``b`` and ``embedded`` a row for each first argument.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -70,7 +66,7 @@ def is_nprk(tableau: Tableau) -> bool:
 
 
 def arrays_of(tableau: Tableau) -> tuple[tuple[Matrix, ...], Vector]:
-    """The numbers a_ijk of a method and its nodes; rows of stages in no pair are zero."""
+    """The numbers a_ijk and the nodes; rows of stages in no pair are zero."""
     (space,) = tableau.spaces
     assert isinstance(space, Pairs)
     s = 1 + max(map(max, space.pairs))
@@ -92,9 +88,7 @@ def matrix_of(row: Vector, tableau: Tableau) -> Matrix:
 
 
 def additive(tableau: Tableau) -> Tableau:
-    """The additive method for y′ = f₁(y) + f₂(y), that is, F(u, v) = f₁(u) + f₂(v). The stages of
-    f₁ are the first arguments of the pairs, those of f₂ the second ones.
-    """
+    """For F(u, v) = f₁(u) + f₂(v): the stages of f₁ are the first arguments of the pairs."""
     (space,) = tableau.spaces
     colours = tuple(
         Colour(colour.name, l, colour.b, colour.c, term=l)

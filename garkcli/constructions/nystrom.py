@@ -5,10 +5,10 @@
 
 A vertex of g has branches of three kinds: on q it sees q′, a leaf with the column c, and g through
 Ā, which counts two orders; on q′ it sees g through A, which counts one. The first two colours share
-stages, with the weights b̄ of the step in q and b of that in q′. The conditions are those of
-``garkcli.order``, proved in docs/exact-order.md, section 11.
+stages, with the weights b̄ of the step in q and b of that in q′. Proof of the conditions:
+docs/exact-order.md, section 11.
 
-Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.14.
+E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.14.
 """
 
 from __future__ import annotations
@@ -33,19 +33,17 @@ TWICE = VertexKind(weight=2, is_field=False)
 """A force that is integrated twice."""
 KINDS = (TWICE, ARGUMENT, LEAF)
 NAMES = ("q", "q'", "q'0")
-"""The colours: g in positions, g in velocities, the velocity at the beginning of the step."""
+"""g in positions, g in velocities, the velocity at the beginning of the step."""
 POSITIONS, VELOCITIES, START = range(3)
 
 
 class Nystrom(Frozen):
-    """A Nyström method.
-
-    Attributes:
-        Abar: ā_ij, through which positions see g; shape (s, s).
-        A: a_ij, through which velocities see g; None if g depends on q only.
-        c: the nodes: the coefficients of h q′ in the positions, and of time.
-        bbar: b̄_i, the weights of the step in q.
-        b: the weights of the step in q′.
+    """Attributes:
+    Abar: ā_ij, through which positions see g; shape (s, s).
+    A: a_ij, through which velocities see g; None if g depends on q only.
+    c: the coefficients of h q′ in the positions, and of time.
+    bbar: b̄_i, the weights of the step in q.
+    b: the weights of the step in q′.
     """
 
     Abar: Matrix
@@ -56,7 +54,7 @@ class Nystrom(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Nystrom:
-        """The method of such a tableau: ``of(method.tableau) == method``."""
+        """``of(method.tableau) == method``."""
         blocks = tableau.blocks
         c = tuple(row[0] for row in blocks[0, START])
         bbar, b = (tableau.colours[l].b for l in (POSITIONS, VELOCITIES))
@@ -64,7 +62,7 @@ class Nystrom(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """The tableau with the colours g in q, g in q′, and q′ at the beginning of the step."""
+        """The colours are g in q, g in q′, and q′ at the beginning of the step."""
         spaces = (PointSpace(self.c), PointSpace((ZERO,)))
         rows = ((0, self.bbar, self.c), (0, self.b, self.c), (1, (ONE,), (ZERO,)))
         colours = tuple(
@@ -107,7 +105,7 @@ class Nystrom(Frozen):
 
     @property
     def split(self) -> Tableau:
-        """The method for (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
+        """For (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
         made = self.partitioned
         nothing = tuple((ZERO,) * len(self.b) for _ in self.b)
         width = len(self.b) + 2
@@ -124,7 +122,7 @@ class Nystrom(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """The printed arrays: Ā with c and b̄, and A with b; A is zero if there is none."""
+        """Ā with c and b̄, and A with b; A is zero if there is none."""
 
         def array(name: str, A: Matrix, b: Vector) -> Tableau:
             colour = Colour(name, 0, b, self.c)
@@ -169,15 +167,14 @@ def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
 
 
 def weights_of(bbar: Vector, b: Vector) -> Weights:
-    """The weights of each colour from those of the steps in q and q′, such as embedded ones."""
+    """From those of the steps in q and q′, such as embedded ones."""
     return bbar, b, (ONE,)
 
 
 def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
-    """Returns dense output q + θhq′ + h² Σ b̄_i(θ) g_i, q′ + h Σ b_i(θ) g_i.
+    """Dense output q + θhq′ + h² Σ b̄_i(θ) g_i, q′ + h Σ b_i(θ) g_i, by coefficients of θ, θ², …
 
-    ``bbar`` has for each stage the coefficients of θ, θ², … in b̄_i, ``b`` those in b_i, None if q′
-    is the slope of q. Raises MethodError if the slope of q does not begin with q′.
+    ``b`` is None if q′ is the slope of q; MethodError if that does not begin with q′.
     """
     if b is None:
         if any(row[0] for row in bbar):
@@ -190,10 +187,8 @@ def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
 
 
 def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) -> Nystrom:
-    """Returns a Nyström method.
-
-    ``Abar`` and ``A`` have the shape (s, s), ``A`` is None if g depends on q only. Raises
-    ShapeMismatch if the shapes do not fit.
+    """Shapes (s, s) and length s; ``A`` is None if g depends on q only. ShapeMismatch if they do
+    not fit.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order

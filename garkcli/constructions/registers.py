@@ -1,9 +1,7 @@
-"""Low-storage schemes as tableaus: 2N, 3S*, van der Houwen, Shu–Osher; and Nyström methods as
-pairs.
+"""Low-storage schemes as tableaus: 2N, 3S*, van der Houwen, Shu–Osher; Nyström methods as pairs.
 
-Every scheme is executed step by step, with its registers as combinations of the value at the
-beginning of the step and the slopes so far. The numbers may be exact, or balls around the printed
-ones.
+Every scheme is executed with its registers as combinations of the value at the beginning of the
+step and the slopes so far. The numbers may be exact, or balls around the printed ones.
 """
 
 from __future__ import annotations
@@ -27,9 +25,7 @@ Numbers: TypeAlias = Sequence[Any]
 
 
 class Steps(Frozen):
-    """An executed explicit method. ``starts`` has the coefficient of the initial value in each
-    stage and in the final value: all 1.
-    """
+    """``starts`` has the coefficients of the initial value in stages and final value: all 1."""
 
     A: Sequence[Numbers]
     b: Numbers
@@ -37,7 +33,7 @@ class Steps(Frozen):
 
 
 class _Registers:
-    """The registers of a scheme: the coefficient of the initial value, then those of the slopes."""
+    """The coefficient of the initial value, then those of the slopes."""
 
     def __init__(self, stages: int) -> None:
         self._size = stages + 1
@@ -63,9 +59,7 @@ def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
 
 
 def _whole(row: Numbers, stages: int, first: int) -> Numbers:
-    """A row of ``stages`` numbers, with ``first`` added if it is left out. Raises MethodError if
-    its length does not fit.
-    """
+    """``first`` is added if it is left out; MethodError for other lengths."""
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
         message = f"a row of {len(row)} for {counted(stages, 'stage')}"
@@ -130,7 +124,7 @@ def in_two_registers(
 
 
 def minus_two_registers(A: Numbers, B: Numbers) -> Steps:
-    """Williamson's 2N with dy ← h f(y) − A_i dy."""
+    """2N with dy ← h f(y) − A_i dy."""
     return two_registers([-x for x in A], B)
 
 
@@ -152,9 +146,8 @@ def three_registers(
 
 
 def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
-    """Van der Houwen's form, 2R with one diagonal below the main one: every entry outside of the
-    diagonals is the weight of its column. Each diagonal has one entry per row, from the second row
-    on.
+    """2R with one diagonal below the main one: every entry outside of the diagonals is the weight
+    of its column. Each diagonal has one entry per row, from the second row on.
     """
     stages = len(b)
     rows = [_whole(x, stages, 0) for x in diagonals]
@@ -175,11 +168,10 @@ def ahead(b: Numbers, A: Numbers) -> Steps:
 
 
 def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
-    """Returns Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit
-    method.
+    """Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit method.
 
-    ``alpha`` and ``beta`` have a row for each stage after the first, and one for the final value; a
-    row of zeros may precede them. Raises MethodError if a value needs a later one.
+    Rows are for each stage after the first, and the final value, perhaps behind a row of zeros.
+    MethodError if a value needs a later one.
     """
     if alpha and beta and all(x == 0 for x in (*alpha[0], *beta[0])):
         alpha, beta = alpha[1:], beta[1:]
@@ -215,7 +207,7 @@ def diagonals(A: Sequence[Any], b: Numbers) -> Steps:
 
 
 def two_s(gamma1: Numbers, gamma2: Numbers, delta: Numbers, beta: Numbers) -> Steps:
-    """2S: 3S* without the initial value."""
+    """3S* without the initial value."""
     return three_registers(gamma1, gamma2, [0] * len(beta), delta, beta)
 
 
@@ -232,10 +224,8 @@ OF_FILES: Mapping[str, Callable[..., Steps]] = {
 def as_butcher(
     scheme: str, numbers: Sequence[Any], c: Vector | None = None, grain: Any = 0
 ) -> Method:
-    """Returns the Runge–Kutta method of a scheme in ``OF_FILES``.
-
-    ``c`` is None for the row sums; ``grain`` is the rounding of the nodes. Raises MethodError if
-    the numbers are not a method, or a stage does not begin at the initial value.
+    """``c`` is None for the row sums; ``grain`` is the rounding of the nodes; MethodError if the
+    numbers are no method, or a stage does not begin at the initial value.
     """
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
@@ -264,10 +254,8 @@ FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {
 
 
 def nystrom(A: Sequence[Numbers], b: Numbers, c: Numbers) -> tuple[list[Numbers], Numbers]:
-    """Returns the weights of velocities in the positions of a Nyström method, as a pair (q, p).
-
-    ``A`` is Ā, the forces in the positions, ``b`` b̄, those in the final position. There is, for
-    each position and for the final one, a weight more than there are forces.
+    """The weights of velocities in the positions, and the final position, of a pair (q, p); ``A``
+    is Ā, ``b`` is b̄. There is one weight more than forces.
     """
     first = [node - sum(row) for node, row in zip(c, A, strict=True)]
     return [[x, *row] for x, row in zip(first, A, strict=True)], [1 - sum(b), *b]

@@ -5,13 +5,12 @@
 With J = f'(y) the second term adds to the trees in which one branch is on a vertex of f, and to no
 other: f is two colours, with no branch or several, through α, and with exactly one, through β = α +
 γ. An arbitrary matrix J is a vector field of its own, with exactly one branch, that the exact
-solution does not have; so is the error h E of J = f'(y) + h E, whose vertices count two orders. The
-conditions are those of ``garkcli.order``; docs/exact-order.md proves it, section 9.
+solution does not have; so is the error h E of J = f'(y) + h E, whose vertices count two orders.
+Proof: docs/exact-order.md, section 9.
 
-Sources: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, IV.7; T. Steihaug, A.
-Wolfbrandt, "An attempt to avoid exact Jacobian and nonlinear equations in the numerical solution of
-stiff differential equations", Math. Comp. 33 (1979) 521; A. Sandu, M. Günther, S. Roberts,
-"Linearly implicit GARK schemes", Appl. Numer. Math. 161 (2021) 286, for several colours.
+E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, IV.7; T. Steihaug, A.
+Wolfbrandt, Math. Comp. 33 (1979) 521; A. Sandu, M. Günther, S. Roberts, "Linearly implicit GARK
+schemes", Appl. Numer. Math. 161 (2021) 286, for several colours.
 """
 
 from __future__ import annotations
@@ -47,7 +46,6 @@ class Rosenbrock(Frozen):
     Attributes:
         alpha: α^{l,m}, of the arguments of f^{l}; shape (stages of l, stages of m).
         gamma: γ^{l,m}, beside the Jacobian of f^{l}; shaped like alpha.
-        b: its weights, one row per colour.
         c: the nodes of f, one row per colour; None for the row sums of α^{l,l}.
         d: the weights of ∂f/∂t; None for the row sums of γ^{l,l}.
     """
@@ -60,7 +58,7 @@ class Rosenbrock(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Rosenbrock:
-        """The method of a tableau: ``of(method.tableau) == method``, with its nodes."""
+        """``of(method.tableau) == method``, with its nodes."""
         N = tableau.size // 2
 
         def blocks(first: int) -> Blocks:
@@ -84,19 +82,19 @@ class Rosenbrock(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """The tableau with the Jacobians of all f^{l} at the beginning of the step."""
+        """With the Jacobians of all f^{l} at the beginning of the step."""
         return self._tableau(
             ("f", nature.NOT_ONE, self.alpha), ("f'", nature.ONE_BRANCH, self._beta)
         )
 
     @property
     def with_any_matrix(self) -> Tableau:
-        """The tableau of the W-method, with an arbitrary matrix for each Jacobian."""
+        """The W-method, with an arbitrary matrix for each Jacobian."""
         return self._tableau(("f", nature.PLAIN, self.alpha), ("W", nature.MATRIX, self.gamma))
 
     @property
     def with_old_jacobian(self) -> Tableau:
-        """The tableau for matrices that differ from the Jacobians by O(h)."""
+        """For matrices that differ from the Jacobians by O(h)."""
         return self._tableau(
             ("f", nature.NOT_ONE, self.alpha),
             ("f'", nature.ONE_BRANCH, self._beta),
@@ -105,7 +103,7 @@ class Rosenbrock(Frozen):
 
     @property
     def with_time(self) -> Tableau:
-        """The tableau for f(t, y), with h d_i f_t added to the stages, and time as a colour."""
+        """For f(t, y), with h d_i f_t added to the stages, and time as a colour."""
         return beside_clock(self.tableau, len(self.b))
 
     @property
@@ -113,18 +111,18 @@ class Rosenbrock(Frozen):
         """The tableau on ẏ = f(y, z), 0 = g(y, z) of index 1: order p has the conditions of y up to
         p, and those of z up to p − 1. A vertex of g has several branches and counts no order.
 
-        Raises ``SingularMatrixError`` if β = α + γ has no inverse, so z is not determined.
+        SingularMatrixError if β = α + γ has no inverse, so z is not determined.
         """
         return self._on_dae(late=1)
 
     @property
     def on_dae_in_y(self) -> Tableau:
-        """The tableau on DAEs with the conditions of y only."""
+        """On DAEs with the conditions of y only."""
         return self._on_dae(late=None)
 
     @property
     def on_dae_in_z(self) -> Tableau:
-        """The tableau on DAEs with the conditions of z, which include those of y."""
+        """On DAEs with the conditions of z, which include those of y."""
         return self._on_dae(late=0)
 
     def _on_dae(self, late: int | None) -> Tableau:
@@ -155,7 +153,7 @@ class Rosenbrock(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """The printed arrays: α with c and b, and γ with d."""
+        """α with c and b, and γ with d."""
         made = []
         for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self.nodes, strict=True):
             spaces = tuple(map(PointSpace, nodes))
@@ -196,14 +194,13 @@ class Rosenbrock(Frozen):
 
     @property
     def _beta(self) -> Blocks:
-        """β = α + γ."""
         return tuple(
             tuple(map(matrices.add, *rows)) for rows in zip(self.alpha, self.gamma, strict=True)
         )
 
     def _tableau(self, *kinds: tuple[str, nature.VertexKind, Blocks]) -> Tableau:
-        """Returns the tableau whose colours of each kind see all others through blocks of their
-        own. ``kinds`` are a letter, the kind of vertices, and the blocks.
+        """Colours of each kind see all others through their own blocks; ``kinds`` are a letter, the
+        kind of vertices, and the blocks.
         """
         N = len(self.b)
         c, d = self.nodes
@@ -245,22 +242,20 @@ VIEWS: dict[str, Which] = {
     "old-jacobian-order": "with_old_jacobian",
     "nonautonomous-order": "with_time",
 }
-"""The views for orders other than that with the Jacobian, by claim."""
+"""Orders other than that with the Jacobian, by claim."""
 DAE_VIEWS: dict[str, Which] = {
     "index-1-order": "on_dae",
     "index-1-y-order": "on_dae_in_y",
     "index-1-z-order": "on_dae_in_z",
 }
-"""The views for orders on differential-algebraic equations, which need an inverse of α + γ."""
+"""Orders on differential-algebraic equations, which need an inverse of α + γ."""
 OF_BETA = OF_TEST_EQUATION | {"gamma"}
 """Properties of the Runge–Kutta method with A = β."""
 NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
-    """Another view of the method with a tableau, exact or rounded. Raises SingularMatrixError if
-    the DAE does not determine z.
-    """
+    """Another view of the method; SingularMatrixError if the DAE does not determine z."""
     if isinstance(method, Tableau):
         return _seen(which, method)
     return method.derive(which.replace("_", " "), partial(_seen, which))
@@ -272,7 +267,7 @@ def _seen(which: Which, tableau: Tableau) -> Tableau:
 
 
 def transformed_weights(further: Further, gamma: matrices.Matrix) -> Further:
-    """Embedded weights and dense output from the stored form m = b Γ⁻¹."""
+    """From the stored form m = b Γ⁻¹."""
     return _times(further, gamma)
 
 
@@ -290,10 +285,7 @@ def _times(further: Further, matrix: matrices.Matrix) -> Further:
 
 
 def rosenbrock(alpha: matrices.Matrix, gamma: matrices.Matrix, b: matrices.Vector) -> Rosenbrock:
-    """Returns a Rosenbrock method of one colour.
-
-    ``alpha`` and ``gamma`` have the shape (s, s), ``b`` has length s. Raises ShapeMismatch if the
-    shapes do not fit.
+    """Shapes (s, s) and length s; ShapeMismatch if they do not fit.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -313,21 +305,16 @@ def rosenbrock(alpha: matrices.Matrix, gamma: matrices.Matrix, b: matrices.Vecto
 def transformed(
     A: matrices.Matrix, C: matrices.Matrix, gamma: matrices.Vector, m: matrices.Vector
 ) -> Rosenbrock:
-    """Returns a method from the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
+    """From the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹, ``gamma`` the γ_ii.
 
-    ``gamma`` has γ_ii of each stage. Raises MethodError if a γ_ii is zero, or C has a nonzero entry
-    on or above the diagonal.
+    MethodError if a γ_ii is zero, or C has a nonzero entry on or above the diagonal.
     """
     full = _full(C, gamma)
     return rosenbrock(matrices.multiply(A, full), full, matrices.apply_left(m, full))
 
 
 class Stored(Frozen):
-    """A method of one colour in the stored form; see ``transformed``.
-
-    ``A`` is α Γ⁻¹, ``C`` diag(1/γ_ii) − Γ⁻¹, ``gamma`` the γ_ii, ``m`` b Γ⁻¹; ``further`` are the
-    embedded weights and the dense output at the stages of this form.
-    """
+    """The stored form of ``transformed``; ``further`` weights are at its stages."""
 
     A: matrices.Matrix
     C: matrices.Matrix
@@ -337,10 +324,7 @@ class Stored(Frozen):
 
 
 def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
-    """Returns the stored form of a method of one colour with γ lower triangular, and its further
-    weights.
-
-    Raises MethodError if γ is not lower triangular, or a γ_ii is zero.
+    """The stored form; MethodError if γ is not lower triangular, or a γ_ii is zero.
 
     >>> from flint import fmpq
     >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)

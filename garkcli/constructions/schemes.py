@@ -1,5 +1,4 @@
-"""Compositions and splittings by name: substeps of a method, or flows of the parts of a problem
-with their lengths.
+"""Compositions and splittings by name: substeps of a method, or flows of the parts of a problem.
 
 Some numbers are exact. Those of Yoshida, Suzuki and Umeno were computed from their order conditions
 to 40 digits, by Newton's method from the published ones; the others are as published, with free
@@ -41,14 +40,14 @@ class Scheme(Frozen):
 
 
 def palindrome(half: Sequence[str]) -> Callable[[int, int], Parts]:
-    """The substeps γ_1, …, γ_k, 1 − 2 Σ γ, γ_k, …, γ_1."""
+    """γ_1, …, γ_k, 1 − 2 Σ γ, γ_k, …, γ_1."""
     total = " + ".join(f"({x})" for x in half)
     parts = tuple((text, False) for text in (*half, f"1 - 2*({total})", *reversed(half)))
     return lambda _, __: parts
 
 
 def repeated(fractions: Callable[[int], Sequence[str]]) -> Callable[[int, int], Parts]:
-    """A scheme that gains two orders, repeated; ``fractions`` gives its substeps for an order."""
+    """Repeats a scheme that gains two orders, with substeps ``fractions(order)``."""
 
     def parts(base: int, wanted: int) -> Parts:
         texts = ["1"]
@@ -225,7 +224,7 @@ OTHER_NAMES: Mapping[str, str] = {
     "suzuki-fractal": "suzuki",
     "verlet": "strang",
 }
-"""Other names of some schemes, and the names used here."""
+"""The keys are names of other sources."""
 
 
 FlowText: TypeAlias = tuple[int, str]

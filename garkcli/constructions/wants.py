@@ -80,7 +80,6 @@ _STEPS: dict[str, nystrom.Which] = {
 
 
 def _of_steps() -> Iterator[Want]:
-    """Each order, of the method and with its embedded weights."""
     for key, letter in zip(_STEPS, ("q", "q′"), strict=True):
         yield Want(key, "count", f"the order of the step in {letter}", partial(_order_of_step, key))
     for key, letter in zip(_STEPS, ("q", "q′"), strict=True):
@@ -136,12 +135,12 @@ Meant = Callable[[Tableau], Tableau]
 
 
 class OfKind(Frozen):
-    """Requirements on methods of one kind.
+    """Requirements on methods of one kind, by key.
 
     Attributes:
-        own: requirements for these methods only, by key.
-        meant: the tableaus that other requirements are about, by key.
-        instead: meanings that replace the usual ones, by key.
+        own: requirements for these methods only.
+        meant: the tableaus that other requirements are about.
+        instead: meanings that replace the usual ones.
     """
 
     name: str
@@ -191,14 +190,11 @@ KINDS = (
         {},
     ),
 )
-"""The kinds of methods, besides GARK methods, that have requirements."""
 EVERY = {**WANTS, **{key: want for kind in KINDS for key, want in kind.own.items()}}
 
 
 def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
-    """A requirement and the tableau that it is about. Raises MethodError if it is not defined for
-    methods of this kind.
-    """
+    """The tableau that a requirement is about; MethodError if this kind of methods has none."""
     own = next((kind for kind in KINDS if kind.has(tableau)), None)
     owner = next((kind for kind in KINDS if want.key in kind.own), None)
     if owner is not None and owner is not own:

@@ -1,4 +1,4 @@
-"""Converts a method to another form, as a method file that keeps the claims that still hold."""
+"""Converts a method to another form, as a method file with the claims that still hold."""
 
 from __future__ import annotations
 
@@ -31,10 +31,7 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
 
     A new stage has node 0 and zero row and weights: its value is the old value. Being first, it
     keeps explicit methods explicit, diagonally implicit ones diagonally implicit, and last stages
-    last.
-
-    Raises:
-        CannotConvert: a colour has more stages.
+    last. CannotConvert if a colour has more stages.
     """
     spaces: list[list[Place]] = []
     for k, space in enumerate(sheet.tableau.spaces):
@@ -50,7 +47,7 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
 
 
 KEPT = ("description", "reference")
-"""Keys of a file that describe its method in any form."""
+"""Keys that describe the method in any form."""
 UNNAMED = "a method"
 WIDER = (1, 10, 100, 1000)
 """Factors by which numbers of a form may be rounded more than the entries."""
@@ -91,10 +88,8 @@ def convert(
     ``stages`` is the least number of stages of each colour, filled up by unused ones in front. For
     ``recovered`` there are ``digits`` digits after the point, by default 50, or as many as the
     tolerance has, and with ``is_recognising`` exact numbers replace decimals if all digits agree
-    and no order falls.
-
-    Raises UsageProblem if there is no such form, or ``digits`` does not apply to it; CannotConvert,
-    with the reason, if the method has no such form; ZeroWeight if a pair would divide by zero.
+    and no order falls. UsageProblem if there is no such form, or ``digits`` does not apply to it;
+    CannotConvert if the method has no such form; ZeroWeight if a pair would divide by zero.
 
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
     >>> convert(heun, stages=3).method.A
@@ -136,7 +131,7 @@ def convert(
 
 
 def _converted(text: str, method: GarkMethod, goal: Target) -> Converted:
-    """The file with the description of the old one, and the claims that still hold."""
+    """With the description of the old file, and the claims that still hold."""
     text = _with_head(text, method)
     if not isinstance(method, MethodFile):
         return Converted(loads(text))
@@ -152,8 +147,8 @@ def _refuse_forms(to: str, stages: int | None) -> None:
 
 
 def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name: str) -> str:
-    """The file in a low-storage form. For a rounded method the numbers of the form may be rounded
-    as far as no order falls and no entry of A and b is farther off.
+    """Numbers of a form may be rounded as far as no order falls and no entry of A and b is farther
+    off.
     """
     own = method.tolerance
     key, keys = form(sheet.tableau, own)
@@ -175,7 +170,7 @@ def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name:
 
 
 def _written(found: RecoveredMethod, name: str) -> str:
-    """The file of a recovered method, with as many exact numbers as keep all orders."""
+    """With as many exact numbers as keep all orders."""
     proposals = {**found.proposals}
     while True:
         text = writer.write_tableau_file(
@@ -205,7 +200,7 @@ def _with_head(text: str, method: GarkMethod) -> str:
 
 
 def _claimed(text: str, method: MethodFile, goal: Target) -> Converted:
-    """The file with the claims that hold; one on a companion may become one on the method."""
+    """A claim on a companion may become one on the method."""
     names = {claim.key: claim.key for claim in method.claims}
     if goal.claims:
         names = {old: goal.claims[old] for old in names if old in goal.claims}

@@ -20,12 +20,12 @@ from garkcli.tableau.tableau import Tableau
 Printed: TypeAlias = "tuple[str, Mapping[str, Any]]"
 """The key of the form with its keys: words, rows and matrices."""
 InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
-"""Makes the form of a tableau, given the rounding of its numbers, None for exact ones."""
+"""From a tableau and the rounding of its numbers, None for exact ones."""
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
-    """A and b of an explicit method of one colour. Raises CannotConvert if the method is not
-    explicit, or has several colours, or a vector field that does not depend on the solution.
+    """CannotConvert if the method is not explicit, or has several colours, or a vector field that
+    does not depend on the solution.
     """
     if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
         raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
@@ -41,9 +41,7 @@ def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
 
 
 def in_2n(tableau: Tableau, tolerance: fmpq | None = None) -> Printed:
-    """Williamson's 2N. Raises CannotConvert if the method has no such form, exactly or within the
-    tolerance.
-    """
+    """CannotConvert if the method has no such form, exactly or within the tolerance."""
     A, b = explicit(tableau, "2N")
     found = in_two_registers(A, b)
     if isinstance(found, int) and tolerance:
@@ -114,7 +112,7 @@ def in_shu_osher(tableau: Tableau, _: fmpq | None = None) -> Printed:
 
 
 def _rounded(numbers: Sequence[Any], tolerance: fmpq) -> list[Number]:
-    """Numbers with one digit more than the tolerance."""
+    """With one digit more than the tolerance."""
     digits = len(str((1 / tolerance).floor()))
     unit = fmpq(10) ** -digits
     near = (midpoint(to_ball(_number(x), 2 * digits)) for x in numbers)

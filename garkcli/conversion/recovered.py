@@ -1,4 +1,4 @@
-"""Recovers the method that the authors of a rounded file meant, to any number of digits."""
+"""Recovers the method that a rounded file means, to any number of digits."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 DIGITS = 50
-"""Default number of digits after the point, unless the file has more."""
+"""Digits after the point, unless the file has more."""
 DIGITS_OF_A_ROOT = 20
 """Digits that distinguish a root of a polynomial from the others."""
 FEWEST_TO_RECOGNISE = 40
@@ -40,13 +40,12 @@ class RecoveredMethod(Frozen, eq=False):
     """The method that a rounded one is taken to mean.
 
     Attributes:
-        sheet: its entries: exact ones unchanged, others with the requested digits.
+        sheet: exact entries unchanged, others with the requested digits.
         tolerance: a unit of the last digit; with half a unit the method would be at an end of many
             radii, where no search finds it again.
         exact: texts of numbers that are not decimals, by value.
         proposals: texts of exact numbers suggested by the digits, by value; the shortest first.
-        orders: the orders of the method, its conjugate, its pair, its embedded weights and dense
-            output.
+        orders: of the method, its conjugate, its pair, its embedded weights and dense output.
         is_exact: whether only further weights are rounded.
     """
 
@@ -81,11 +80,8 @@ class RecoveredMethod(Frozen, eq=False):
 def recovered(
     method: GarkMethod, digits: int | None = None, is_recognising: bool = False
 ) -> RecoveredMethod:
-    """Returns the method that a rounded one is taken to mean, with ``digits`` digits after the
-    point, by default 50 or those of the tolerance if more.
-
-    ``is_recognising`` looks for exact numbers. Raises CannotConvert for an exact method,
-    MethodError if no more digits are known.
+    """With ``digits`` digits after the point; CannotConvert for an exact method, MethodError if no
+    more digits are known.
     """
     meant = with_further(as_meant(method))
     if meant is None:
@@ -127,7 +123,6 @@ def recovered(
 
 
 def nearest(x: fmpq, unit: fmpq) -> fmpq:
-    """The multiple of ``unit`` nearest to a number."""
     return unit * (x / unit + fmpq(1, 2)).floor()
 
 
@@ -146,7 +141,7 @@ def _recognised(x: fmpq, digits: int) -> str | None:
 def _entry_by_entry(
     values: Tableau, forms: Tableau, entry: Callable[[Any, Any], Number]
 ) -> Tableau:
-    """The tableau with each entry made of its value and its form."""
+    """Each entry is made of its value and its form."""
 
     def row(some: Sequence[Any], others: Sequence[Any]) -> tuple[Number, ...]:
         return tuple(map(entry, some, others))
@@ -177,7 +172,6 @@ def is_as_good(made: GarkMethod, found: RecoveredMethod) -> bool:
 
 
 def orders_of(method: GarkMethod) -> list[int]:
-    """The orders of a method, its conjugate, its pair, its embedded weights and dense output."""
     return _orders(analyse(method.tableau, tolerance=method.tolerance, further=method.further))
 
 

@@ -30,26 +30,25 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 PRINTED = "printed"
-"""The form with α, γ and b."""
+"""With α, γ and b."""
 TRANSFORMED = "transformed"
-"""The form with A, C, γ_ii and m."""
+"""With A, C, γ_ii and m."""
 FORMS = ("spelled-out", PRINTED, TRANSFORMED)
 _Parts: TypeAlias = "dict[str, tuple[Vector, ...]]"
-"""The rows of each key in the file; a vector has one row."""
+"""The rows of each key; a vector has one row."""
 _Texts: TypeAlias = "Mapping[str, Sequence[Sequence[str]]]"
 _MATRICES = {"alpha", "gamma", "A", "C", "dense"}
 _NOISE = 2.0**-40
 """Smaller parts of a radius come from the arithmetic with forms only."""
 _SPARE = 100
-"""The number of units of the last place in a tolerance."""
+"""Units of the last place in a tolerance."""
 
 
 def text_in_form(method: GarkMethod, to: str, name: str) -> str:
-    """Returns the file of a Rosenbrock method of one colour in one of ``FORMS``.
+    """The file of a Rosenbrock method of one colour in one of ``FORMS``; CannotConvert without it.
 
     Exact numbers stay exact. New decimals get two digits more than the tolerance, which is enlarged
-    to cover all methods that the old file admits. Raises CannotConvert if the method has no such
-    form.
+    to cover all methods that the old file admits.
     """
     if method.tableau.size > 2 and to == TRANSFORMED:
         message = "programs store Rosenbrock methods of one colour, and this one has more"
@@ -72,7 +71,7 @@ def text_in_form(method: GarkMethod, to: str, name: str) -> str:
 
 
 def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
-    """The keys of a file in a form; c and d unless they are row sums."""
+    """With c and d unless they are row sums."""
     method = Rosenbrock.of(tableau).without_row_sums
     if len(method.b) > 1:
         return _blocks(method, further)
@@ -108,8 +107,8 @@ def _blocks(method: Rosenbrock, further: Further) -> _Parts:
 
 
 class _Places:
-    """The numbers of a form as affine forms in the rounded numbers of a method and its further
-    weights. ``is_other`` says that the form differs from that of the file.
+    """Affine forms in the rounded numbers of a method; ``is_other``: the form is not that of the
+    file.
     """
 
     def __init__(
@@ -232,7 +231,7 @@ def _lines_of_blocks(texts: _Texts) -> Iterator[str]:
 
 
 def _lower(rows: Sequence[Sequence[str]]) -> Iterator[Sequence[str]]:
-    """The rows of a triangular matrix without its zeros; other matrices unchanged."""
+    """A triangular matrix without its zeros; other matrices unchanged."""
     for behind in (0, 1):
         if all(x == "0" for i, row in enumerate(rows) for x in row[i + behind :]):
             return (row[: i + behind] for i, row in enumerate(rows))

@@ -23,13 +23,7 @@ class OneField:
     """The smallest field that contains some numbers, and the map into it.
 
     Only numbers from one ``NumberField`` object can be added; those of two files are not, even if
-    both are in ℚ(√3).
-
-    Args:
-        numbers: from any fields.
-
-    Raises:
-        LimitExceeded: together they generate too large a field.
+    both are in ℚ(√3). LimitExceeded if they generate too large a field.
 
     >>> from garkcli.exact.expression import parse
     >>> c = [parse(text) for text in ("sqrt(12)", "2*sqrt(3)", "sqrt(5)")]
@@ -56,7 +50,6 @@ class OneField:
             self._images[id(field)] = [domain.evaluate(x) for x, _ in field.radicals]
 
     def number(self, number: Number) -> Number:
-        """The number in the common field."""
         if not isinstance(number, Algebraic) or not self._images:
             return number
         image: Number = with_radicals(number, self._images[id(number.field)])
@@ -68,22 +61,20 @@ Place: TypeAlias = tuple[int, int] | None
 
 
 class CannotConvert(MethodError):
-    """A method has no such form; the message says why."""
+    """The method has no such form; the message says why."""
 
     code = "cannot-convert"
 
 
 class Sheet(Frozen):
-    """A method with its further weights on point stages, all numbers from one field."""
+    """On point stages, with further weights and all numbers from one field."""
 
     tableau: Tableau
     further: Further = NOTHING
 
 
 def sheet_of(method: GarkMethod) -> Sheet:
-    """The entries of a method, with its embedded weights and dense output. Raises CannotConvert if
-    its nodes have no simple radicals.
-    """
+    """CannotConvert if the nodes have no simple radicals."""
     exact = in_points(method.tableau)
     if exact is None:
         message = "the nodes have no simple radicals, so the method cannot be spelled out exactly"
@@ -93,9 +84,7 @@ def sheet_of(method: GarkMethod) -> Sheet:
 
 
 def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
-    """The sheets with numbers in one field, so that they can be compared. Raises CannotConvert if
-    the numbers generate too large a field.
-    """
+    """Comparable sheets; CannotConvert if the numbers generate too large a field."""
     rows = chain.from_iterable(map(all_rows, sheets))
     try:
         field = OneField(chain.from_iterable(rows))
@@ -122,10 +111,8 @@ def _mapped(sheet: Sheet, field: OneField) -> Sheet:
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
-    """Returns the method with its stages rearranged.
-
-    ``spaces`` has the stages of each new space, ``homes`` for each colour the new space with all
-    its stages. Raises CannotConvert if some stages of a new space see a colour and others do not.
+    """``spaces`` has the stages of each new space, ``homes`` for each colour the new space with all
+    its stages. CannotConvert if some stages of a new space see a colour and others do not.
     """
     homes = [*homes] * (1 + len(sheet.further.rows))
 
@@ -169,7 +156,7 @@ def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:
 def _block(
     tableau: Tableau, m: int, rows: Sequence[Place], columns: Sequence[Place]
 ) -> Matrix | None:
-    """The block of new stages and a colour; None if they do not see it."""
+    """None if the new stages do not see the colour."""
     space = tableau.colours[m].space
     seeing = {place[0] for place in rows if place is not None}
     blind = [k for k in seeing if (k, m) not in tableau.blocks]
@@ -192,7 +179,7 @@ def _block(
 
 
 def each_its_own(sheet: Sheet) -> Sheet:
-    """The method with separate stages for every colour."""
+    """Separate stages for every colour."""
     old = sheet.tableau
     spaces = [[(x.space, i) for i in range(len(x.b))] for x in old.colours]
     return regrouped(sheet, spaces, range(old.size))
@@ -202,9 +189,7 @@ def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> She
     """The method with its further weights after a change of the tableau.
 
     Each further row of weights is changed like that of one more colour, which no stage sees.
-
-    Raises:
-        CannotConvert: the change returns None.
+    CannotConvert if the change returns None.
     """
     changed = change(as_colours(sheet.tableau, sheet.further))
     if changed is None:

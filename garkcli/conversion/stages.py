@@ -22,16 +22,14 @@ from garkcli.tableau.tableau import Tableau
 Stage: TypeAlias = tuple[int, int]
 Classes: TypeAlias = dict[Stage, int]
 _Signature: TypeAlias = tuple[Any, ...]
-"""A key of a stage; those of one round can be sorted."""
+"""Signatures of one round can be sorted."""
 _Glances: TypeAlias = dict[Stage, list[tuple[int, int, int]]]
 """For each stage the colours that it sees, with the entry and the class of the other stage."""
 _Ranks: TypeAlias = Mapping[Number, int]
 
 
 def stage_classes(sheet: Sheet) -> Classes:
-    """The classes of the stages of a method.
-
-    >>> from garkcli.conversion.sheet import sheet_of
+    """>>> from garkcli.conversion.sheet import sheet_of
     >>> from garkcli.methodfile.load import loads
     >>> stage_classes(sheet_of(loads("{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}")))
     {(0, 0): 1, (0, 1): 0}
@@ -57,7 +55,7 @@ def _numbered(signatures: Mapping[Stage, _Signature]) -> Classes:
 
 
 def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
-    """The first signature of each stage: its space, its nodes and its weights of every colour."""
+    """By the space, the nodes and the weights of every colour."""
     signatures: dict[Stage, _Signature] = {}
     for k, space in enumerate(sheet.tableau.spaces):
         rows = _own_rows(sheet, k)
@@ -110,7 +108,7 @@ def in_order(sheet: Sheet) -> Sheet:
 
 
 def in_solving_order(sheet: Sheet) -> Sheet:
-    """The method with each stage after those that it needs, otherwise in its own order."""
+    """Each stage after those that it needs, otherwise in its own order."""
     own: Classes = {stage: number for number, stage in enumerate(_stages(sheet.tableau))}
     return _arranged(sheet, own)
 

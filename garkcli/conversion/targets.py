@@ -20,7 +20,7 @@ class Target(Frozen):
     """A form that ``--to`` names.
 
     Attributes:
-        convert: makes the entries in this form; raises ``CannotConvert`` with the reason.
+        convert: makes the entries in this form, or raises ``CannotConvert``.
         claims: the new keys of claims; without it each claim that holds for the result stays.
         makes_another: whether the result is another method.
         printed: makes the coefficients of a low-storage form; None for a tableau.
@@ -35,14 +35,12 @@ class Target(Frozen):
 
 
 def as_gark(method: GarkMethod) -> sheets.Sheet:
-    """The method as a GARK method. The parts q and p become colours whose vector fields are zero in
-    the other part.
-    """
+    """The parts q and p become colours whose vector fields are zero in the other part."""
     return without_parts(sheets.each_its_own(sheets.sheet_of(method)))
 
 
 def without_parts(sheet: sheets.Sheet) -> sheets.Sheet:
-    """The method for vector fields that drive all unknowns, with its colours numbered."""
+    """For vector fields that drive all unknowns, with numbered colours."""
     colours = []
     for l, colour in enumerate(sheet.tableau.colours):
         colours.append(replace(colour, name=str(l + 1), term=l, part="y"))
@@ -50,13 +48,11 @@ def without_parts(sheet: sheets.Sheet) -> sheets.Sheet:
 
 
 def as_ark(method: GarkMethod) -> sheets.Sheet:
-    """The method as an additive one.
+    """The method as an additive one; CannotConvert if a colour is linear, or some stages do not see
+    every colour.
 
     If the colours have the same stages, they share them. Otherwise the stages of all colours follow
     each other, each with zeros in the columns of the others, and equal ones are merged.
-
-    Raises:
-        CannotConvert: a colour is linear, or some stages do not see every colour.
     """
     sheet = without_parts(sheets.sheet_of(method))
     linear = [x.name for x in sheet.tableau.colours if x.is_linear]
@@ -83,7 +79,7 @@ def as_ark(method: GarkMethod) -> sheets.Sheet:
 
 
 def shared(sheet: sheets.Sheet) -> sheets.Sheet | None:
-    """The method with one stage space, if stage i of every colour is the same; else None."""
+    """With one stage space, if stage i of every colour is the same; else None."""
     tableau = sheet.tableau
     first, *others = range(len(tableau.spaces))
     colours = range(tableau.size)
@@ -101,9 +97,8 @@ def shared(sheet: sheets.Sheet) -> sheets.Sheet | None:
 
 
 def as_prk(method: GarkMethod) -> sheets.Sheet:
-    """The method as a partitioned one: colour 1 drives q, colour 2 drives p. Raises CannotConvert
-    if it does not have two colours, or these neither share their stages nor leave themselves
-    unseen.
+    """Colour 1 drives q, colour 2 drives p; CannotConvert for other numbers of colours, or if these
+    neither share their stages nor leave themselves unseen.
     """
     sheet = sheets.sheet_of(method)
     tableau = sheet.tableau
@@ -131,8 +126,8 @@ def as_prk(method: GarkMethod) -> sheets.Sheet:
 def as_pair(method: GarkMethod) -> sheets.Sheet:
     """The pair (Q, P) of a method and its conjugate, as a GARK method: colours V¹…Vᴺ, then F¹…Fᴺ.
 
-    Embedded weights and dense output, which are not those of the pair, are left out. Raises
-    ``ZeroWeight`` if a conjugate would divide by zero.
+    Further weights are not those of the pair, and left out. ZeroWeight if a conjugate would divide
+    by zero.
     """
     both = GarkMethod(tableau=pair(method.tableau))
     return without_parts(sheets.each_its_own(sheets.sheet_of(both)))
@@ -161,7 +156,7 @@ def as_rosenbrock(_: GarkMethod) -> sheets.Sheet:
 
 
 RECOVERED = "recovered"
-"""The form that other numbers are written in than the file has."""
+"""The form with other numbers than the file has."""
 TARGETS: Mapping[str, Target] = {
     target.name: target
     for target in (

@@ -55,7 +55,6 @@ def conjugate_method(name: str, method: Method) -> Method:
 
 
 def average(name: str, one: Method, other: Method) -> Method:
-    """The method with the mean of both matrices, and the space and weights of ``one``."""
     A = scale(fmpq(1, 2), add(one.A, other.A))
     return Method(name, one.space, A, one.b)
 
@@ -68,8 +67,8 @@ def lagrange_at(space: PolynomialSpace, node: int) -> Vector:
 
 
 def with_first_column(name: str, base: Method) -> Method:
-    """The method with a_{i1} = b_1 and C(s − 1), for a ``base`` with first node 0 and C(s − 1). It
-    differs from ``base`` by a multiple of the functional that takes the coefficient of x^(s−1).
+    """a_{i1} = b_1 and C(s − 1), for a ``base`` with first node 0 and C(s − 1): they differ by a
+    multiple of the functional that takes the coefficient of x^(s−1).
     """
     space = base.space
     assert isinstance(space, PolynomialSpace)
@@ -85,61 +84,58 @@ def with_first_column(name: str, base: Method) -> Method:
 
 
 def gauss(s: int) -> Method:
-    """The s-stage Gauss method; Hairer, Lubich & Wanner, *Geometric Numerical Integration*,
-    II.1.3.
-    """
     return collocation_method(f"Gauss {s}", legendre(s))
 
 
 def radau_ia(s: int) -> Method:
-    """Radau IA: the first node is 0 and D(s) holds."""
+    """The first node is 0 and D(s) holds."""
     return conjugate_method(f"Radau IA {s}", collocation_method("", legendre(s) + legendre(s - 1)))
 
 
 def radau_iia(s: int) -> Method:
-    """Radau IIA: collocation, the last node is 1."""
+    """Collocation, the last node is 1."""
     return collocation_method(f"Radau IIA {s}", legendre(s) - legendre(s - 1))
 
 
 def radau_ib(s: int) -> Method:
-    """Radau IB: the mean of IA and its symplectic conjugate, symplectic."""
+    """The mean of IA and its symplectic conjugate, symplectic."""
     base = radau_ia(s)
     return average(f"Radau IB {s}", base, conjugate_method("", base))
 
 
 def radau_iib(s: int) -> Method:
-    """Radau IIB: the mean of IIA and its symplectic conjugate, symplectic."""
+    """The mean of IIA and its symplectic conjugate, symplectic."""
     base = radau_iia(s)
     return average(f"Radau IIB {s}", base, conjugate_method("", base))
 
 
 def lobatto_iiia(s: int) -> Method:
-    """Lobatto IIIA: collocation, C(s)."""
+    """Collocation, C(s)."""
     return collocation_method(f"Lobatto IIIA {s}", X * (X - 1) * legendre(s - 1).derivative())
 
 
 def lobatto_iiib(s: int) -> Method:
-    """Lobatto IIIB: the symplectic conjugate of IIIA, D(s)."""
+    """The symplectic conjugate of IIIA, D(s)."""
     return conjugate_method(f"Lobatto IIIB {s}", lobatto_iiia(s))
 
 
 def lobatto_iiic(s: int) -> Method:
-    """Lobatto IIIC: a_{i1} = b_1 and C(s − 1)."""
+    """a_{i1} = b_1 and C(s − 1)."""
     return with_first_column(f"Lobatto IIIC {s}", lobatto_iiia(s))
 
 
 def lobatto_iiic_star(s: int) -> Method:
-    """Lobatto IIIC*, also called Lobatto III: the symplectic conjugate of IIIC."""
+    """Also called Lobatto III: the symplectic conjugate of IIIC."""
     return conjugate_method(f"Lobatto IIIC* {s}", lobatto_iiic(s))
 
 
 def lobatto_iiid(s: int) -> Method:
-    """Lobatto IIID: the mean of IIIC and IIIC*, symplectic."""
+    """The mean of IIIC and IIIC*, symplectic."""
     return average(f"Lobatto IIID {s}", lobatto_iiic(s), lobatto_iiic_star(s))
 
 
 def lobatto_iiie(s: int) -> Method:
-    """Lobatto IIIE: the mean of IIIA and IIIB, symplectic."""
+    """The mean of IIIA and IIIB, symplectic."""
     return average(f"Lobatto IIIE {s}", lobatto_iiia(s), lobatto_iiib(s))
 
 
@@ -149,7 +145,7 @@ SIGMA = Option(
 
 
 def lobatto_iiis(s: int, options: Options) -> Recipe:
-    """Lobatto IIIS: symplectic and symmetric for every σ; IIIE for σ = 1/2, IIID for σ = 1.
+    """Symplectic and symmetric for every σ; IIIE for σ = 1/2, IIID for σ = 1.
 
     R. P. K. Chan, *On symmetric Runge–Kutta methods of high order*, Computing 45 (1990).
     """
@@ -172,13 +168,12 @@ DEGREE = Option(
 
 def hbvm(stages: int, options: Options) -> Recipe:
     """Hamiltonian boundary value methods: the solution of a step is a polynomial whose derivative
-    is f along it, projected to the Legendre polynomials of lower degree; Gauss quadrature takes the
-    integrals.
+    is f along it, projected to lower Legendre polynomials; Gauss quadrature takes the integrals.
 
     With exact integrals it is the average vector field method for degree 1, and otherwise the
     energy-preserving collocation of E. Hairer, *JNAIAM* 5 (2010) 73. Up to order p the integrands
     of its conditions have degrees below p times that degree, which half as many stages integrate
-    exactly. Raises ``UnknownFamily`` for fewer stages than the degree.
+    exactly. UnknownFamily for fewer stages than the degree.
     """
     degree = cast("int", options["degree"])
     if degree > stages:
@@ -200,7 +195,7 @@ def hbvm(stages: int, options: Options) -> Recipe:
 
 
 MOST_OF_GAUSS = 500
-"""Most stages of Gauss methods, whose entries are found fast (``tableau.gauss_points``)."""
+"""Entries of Gauss methods are found fast (``tableau.gauss_points``)."""
 _ORDER = "2s - 2"
 STIFF = Reference(
     authors=("E. Hairer", "G. Wanner"),

@@ -60,9 +60,7 @@ _Slopes: TypeAlias = list[int]
 
 
 def corrections(points: int, options: Options) -> Recipe:
-    """Sweeps over nodes, as ``options`` choose them. Raises UnknownFamily if there are no such
-    nodes, or they have no simple radicals.
-    """
+    """UnknownFamily if there are no such nodes, or they have no simple radicals."""
     word = str(options["nodes"])
     sweeps = int(str(options["sweeps"]))
     is_implicit = options["sweep"] == "implicit"

@@ -1,9 +1,9 @@
 """Explicit methods known by name, and optimal strong-stability-preserving methods.
 
 Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.1; Gottlieb, Ketcheson &
-Shu, *Strong Stability Preserving Runge–Kutta and Multistep Time Discretizations*, section 6.1, of
-order 2; of order 3, with n² stages: D. Ketcheson, *Highly efficient strong stability-preserving
-Runge–Kutta methods with low-storage implementations*, SIAM J. Sci. Comput. 30 (2008), section 4.2.
+Shu, *Strong Stability Preserving Runge–Kutta and Multistep Time Discretizations*, 6.1, of order 2;
+of order 3, with n² stages: D. Ketcheson, *Highly efficient strong stability-preserving Runge–Kutta
+methods with low-storage implementations*, SIAM J. Sci. Comput. 30 (2008), 4.2.
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ _ROWS: dict[str, tuple[str, str]] = {
 }
 """The rows of A below its diagonal, from the second on, separated by semicolons; and b."""
 STAGES = {name: len(b.split()) for name, (_, b) in _ROWS.items()}
-"""The number of stages of each named method."""
 
 
 def _row(text: str) -> Vector:
@@ -52,7 +51,7 @@ def ssp2(s: int) -> Method:
 
 
 def _lower(rows: Sequence[Vector]) -> Matrix:
-    """The strictly lower triangular matrix with these rows after a zero row."""
+    """These rows follow a zero row."""
     s = len(rows) + 1
     matrix: list[Vector] = [(ZERO,) * s]
     matrix.extend(row + (ZERO,) * (s - len(row)) for row in rows)
@@ -68,7 +67,7 @@ def _single(name: str, order: str, summary: str) -> family.MethodFamily:
 
 
 def ssp3(s: int, _: family.Options) -> family.Recipe:
-    """SSPRK(n², 3). Raises UnknownFamily if s is not a square."""
+    """SSPRK(n², 3); UnknownFamily if s is not a square."""
     n = isqrt(s)
     if n * n != s:
         message = f"ssp3 with {s} stages does not exist"

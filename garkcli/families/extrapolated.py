@@ -20,7 +20,7 @@ from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.tableau import Method
 
 SEQUENCES = ("harmonic", "romberg", "bulirsch")
-"""Numbers of parts: 1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""
+"""1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""
 SEQUENCE = Option(
     "sequence",
     "The numbers of parts of the step that an extrapolated family combines.",
@@ -50,9 +50,7 @@ def sequence(name: str, length: int) -> tuple[int, ...]:
 
 
 def extrapolation_weights(parts: Sequence[int], powers: Sequence[int]) -> tuple[fmpq, ...]:
-    """Returns the w_j with Σ w_j = 1 and Σ w_j n_j^(−k) = 0 for the given powers k of h.
-
-    ``parts`` are the n_j, all different; there is one power fewer.
+    """w_j with Σ w_j = 1 and Σ w_j n_j^(−k) = 0 for the powers k of h, one fewer than the n_j.
 
     >>> extrapolation_weights([1, 2], [1])
     (-1, 2)
@@ -101,18 +99,17 @@ def _extrapolated(name: str, steps: Steps, parts: Sequence[int], powers: Sequenc
 
 
 def _explicit(name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]) -> Recipe:
-    """The recipe for an explicit basic method; all sequences share their first stage."""
+    """All sequences share their first stage."""
     return Recipe(1 + sum(parts) - len(parts), lambda _: _extrapolated(name, steps, parts, powers))
 
 
 def euler(order: int, options: Options) -> Recipe:
-    """The explicit Euler method, extrapolated to an order."""
     parts = sequence(str(options["sequence"]), order)
     return _explicit(f"extrapolated Euler {order}", _euler, parts, range(1, order))
 
 
 def implicit_euler(order: int, options: Options) -> Recipe:
-    """The implicit Euler method, extrapolated to an order; diagonally implicit."""
+    """Diagonally implicit."""
     parts = sequence(str(options["sequence"]), order)
     name = f"extrapolated implicit Euler {order}"
     powers = range(1, order)
@@ -120,9 +117,7 @@ def implicit_euler(order: int, options: Options) -> Recipe:
 
 
 def midpoint(order: int, options: Options) -> Recipe:
-    """Gragg's explicit midpoint rule without smoothing, extrapolated to an even order. Raises
-    UnknownFamily if the order is odd.
-    """
+    """Gragg's explicit midpoint rule without smoothing; UnknownFamily if the order is odd."""
     if order % 2:
         message = f"extrapolated-midpoint with order {order} does not exist"
         raise UnknownFamily(message, "it has even orders", code="cannot-construct")

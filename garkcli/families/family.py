@@ -1,4 +1,4 @@
-"""Families of diagonal methods, and how their members are chosen and made."""
+"""Families of diagonal methods, the choice of their members, and recipes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from garkcli.reference import Reference
 from garkcli.tableau.tableau import Method
 
 Given: TypeAlias = "str | int | Expression"
-"""The value of an option: a word, an integer or a coefficient."""
+"""A word, an integer or a coefficient."""
 Options: TypeAlias = Mapping[str, Given]
 
 
@@ -46,8 +46,8 @@ STAGES = Option("stages", "How many stages the member of the family has.", small
 
 
 class Recipe(Frozen):
-    """A member of a family that is not made yet. ``numbers`` are the irrational numbers that it
-    needs: given coefficients and nodes; ``make`` takes their values in one exact domain.
+    """``numbers`` are the irrational numbers of a member, whose values ``make`` takes in one
+    domain.
     """
 
     stages: int
@@ -56,13 +56,7 @@ class Recipe(Frozen):
 
 
 class MethodFamily(Frozen):
-    """A family of diagonal methods.
-
-    Attributes:
-        recipe: makes the recipe of a member from its size and all options.
-        order: its order in terms of the size, for people.
-        counted: the option that is its size.
-    """
+    """``order`` is in terms of the size ``counted``, for people."""
 
     name: str
     recipe: Callable[[int, Options], Recipe]
@@ -89,12 +83,12 @@ class MethodFamily(Frozen):
 
     @property
     def stands_alone(self) -> bool:
-        """Whether its name alone is a method."""
+        """Whether the name alone is a method."""
         return not self.needed
 
     @property
     def example(self) -> str:
-        """A member as an argument: ``gauss-2``."""
+        """``gauss-2``."""
         size = max(2, self.smallest)
         if self.needed == (self.counted,):
             return f"{self.name}-{size}"
@@ -103,7 +97,7 @@ class MethodFamily(Frozen):
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """The keys that choose a member, besides ``family``."""
+        """Besides ``family``."""
         return tuple(option.name for option in self.chosen)
 
     @property
@@ -122,7 +116,7 @@ MAX_STAGES = 200
 
 
 def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:
-    """The recipe of a family whose members have a number of stages and no options."""
+    """Members have a number of stages and no options."""
 
     def recipe(stages: int, _: Options) -> Recipe:
         return Recipe(stages, lambda _: make(stages))
@@ -139,7 +133,7 @@ def of_stages(
     reference: Reference = Reference(),  # noqa: B008 -- a value that does not change
     largest: int = MAX_STAGES,
 ) -> MethodFamily:
-    """A family whose members have any number of stages and no options."""
+    """Members have any number of stages and no options."""
     return MethodFamily(
         name, by_stages(make), smallest, largest, order, summary, reference=reference
     )

@@ -63,18 +63,14 @@ OTHER_NAMES: Mapping[str, str] = {
     "average-vector-field": "hbvm with degree 1 and more stages",
     "energy-preserving-collocation": "hbvm with more stages than the degree",
 }
-"""Other names of members, and the names used here."""
 
 
 _MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,6})")
-"""A member of a family in one word."""
 
 
 def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | None:
-    """Returns the family and the size that a word names: ``gauss-2``, ``gauss:2``, or a single
-    method.
-
-    With ``is_known`` the family has to exist.
+    """The family and the size, ``gauss-2`` or ``gauss:2``, or a single method; ``is_known`` ones
+    exist.
 
     >>> member_named("gauss-2"), member_named("lobatto-iiia:3"), member_named("rk4")
     (('gauss', 2), ('lobatto-iiia', 3), ('rk4', None))
@@ -89,11 +85,7 @@ def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | N
 
 
 def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS) -> Recipe:
-    """Returns the recipe of the member of a family.
-
-    ``size`` is optional for a family of one method, ``options`` with a default too. Raises
-    UnknownFamily if there is no such family or member.
-    """
+    """A family of one method needs no size; UnknownFamily if there is no such member."""
     family = FAMILIES.get(name)
     if family is None:
         other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
@@ -151,15 +143,12 @@ def _complete(family: MethodFamily, options: Options) -> Options:
 
 
 MAX_NAME = 60
-"""Most characters of an unknown name that are shown."""
 
 
 def diagonal_method(name: str, stages: int | None = None, **options: object) -> Method:
-    """Returns the member of a family.
+    """The member of a family, or a name such as ``gauss-2``; coefficients may be text or numbers.
 
-    ``name`` is a key of ``FAMILIES``, or a member such as ``gauss-2``; ``stages``, or the size the
-    family has instead, is optional for a family of one method; coefficients among the options may
-    be text or numbers. Raises UnknownFamily if there is no such family or member.
+    Raises UnknownFamily if there is no such family or member.
 
     >>> diagonal_method("gauss", 2).space.modulus
     x^2 + (-1)*x + 1/6
@@ -182,9 +171,7 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
 
 
 def _given(option: Option | None, value: object, key: str) -> Given:
-    """The value of an option in the form of recipes. Raises UnknownFamily if the word or number is
-    not allowed.
-    """
+    """In the form of recipes; UnknownFamily if the word or number is not allowed."""
     if option is None:
         return str(value)
     if option.smallest is not None:

@@ -1,7 +1,7 @@
 """Runge–Kutta methods written down as they are computed: one stage value after the other.
 
-A value is a combination of the stages that there are, y_0 + h Σ w_i f(Y_i), as a mapping of stages
-to their weights. Equal values share a stage, and unused stages are left out.
+A value y_0 + h Σ w_i f(Y_i) is a mapping of stages to weights. Equal values share a stage, and
+unused stages are left out.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from garkcli.exact.matrix import Vector
 from garkcli.tableau.tableau import Method, butcher
 
 Weights: TypeAlias = Mapping[int, Number]
-"""The weights of stages in a value, without zeros."""
 START: Weights = {}
 """The value at the beginning of the step."""
 
@@ -32,7 +31,7 @@ def combined(terms: Iterable[tuple[Number | int, Weights]]) -> Weights:
 
 
 class StageList:
-    """The stages of a method, in the order of their computation."""
+    """In the order of computation."""
 
     def __init__(self) -> None:
         self._rows: list[Weights] = []
@@ -52,7 +51,7 @@ class StageList:
         return i
 
     def method(self, name: str, result: Weights) -> Method:
-        """The method whose step ends at ``result``; its nodes are the row sums."""
+        """The step ends at ``result``; nodes are row sums."""
         seen: set[int] = set()
         pending = list(result)
         while pending:

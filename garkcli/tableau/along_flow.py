@@ -15,15 +15,12 @@ from garkcli.tableau.stages import Jets, PointSpace
 from garkcli.tableau.tableau import Colour, Tableau, butcher
 
 Weights = tuple[Vector, ...]
-"""Weights of f, f' f, …, each over the stages."""
 T = TypeVar("T", bound="AlongFlow")
 
 
 class AlongFlow(Frozen):
-    """The coefficients of a method with derivatives along the solution.
-
-    ``A`` has the matrices a^1, a^2, … of f, f' f, …, each of shape (s, s), ``b`` their weights;
-    ``c`` is None for the row sums of a^1.
+    """``A`` has matrices a^1, a^2, … of f, f' f, …, shape (s, s); ``c`` is None for row sums of
+    a^1.
     """
 
     A: tuple[Matrix, ...]
@@ -32,7 +29,7 @@ class AlongFlow(Frozen):
 
     @classmethod
     def of(cls: type[T], tableau: Tableau) -> T:
-        """The method of a tableau: ``of(method.tableau(n)) == method``, with its nodes."""
+        """``of(method.tableau(n)) == method``, with its nodes."""
         space = jets_of(tableau)
         firsts = range(0, space.stages, space.order)
         rows = [weights_of(tableau.blocks[0, 0][i], space) for i in firsts]
@@ -56,8 +53,9 @@ class AlongFlow(Frozen):
 
     @property
     def on_test_equation(self) -> Tableau:
-        """The Runge–Kutta method with the same R(z), with f_k = λ^k y. Its stages are 1, then Y_i,
-        and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
+        """The Runge–Kutta method with the same R(z), with f_k = λ^k y.
+
+        Its stages are 1, then Y_i, and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
         """
         s, n = len(self.b[0]), len(self.A)
 
@@ -83,7 +81,7 @@ def jets_of(tableau: Tableau) -> Jets:
 
 
 def flow_nodes(order: int) -> tuple[fmpq, ...]:
-    """The nodes of stages on the exact solution, relative to its beginning: 0, 1, −1, 2, …"""
+    """Nodes on the exact solution, relative to its beginning: 0, 1, −1, 2, …"""
     return tuple(fmpq((n + 1) // 2 * (1 if n % 2 else -1)) for n in range(order))
 
 

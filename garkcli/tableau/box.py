@@ -18,7 +18,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 Make: TypeAlias = Callable[[Sequence[Any]], Tableau]
-"""Makes a tableau from numbers in place of the printed ones: exact ones or affine forms."""
+"""From numbers in place of the printed ones: exact ones or affine forms."""
 
 
 FAMILY_BITS = 1000
@@ -26,12 +26,9 @@ FAMILY_BITS = 1000
 
 
 class Box(Frozen, eq=False):
-    """All methods whose printed numbers are off by at most their radii.
+    """All methods whose printed numbers are off by at most their ``radii`` t_k > 0.
 
-    Attributes:
-        radii: their radii t_k > 0.
-        make: makes the method of such numbers; further weights are colours that no stage sees, as
-            in ``embedded.as_colours``.
+    ``make`` makes the method of such numbers; further weights are colours that no stage sees.
     """
 
     numbers: tuple[Number, ...]
@@ -65,7 +62,7 @@ class FormTableau:
 
     @property
     def in_balls(self) -> Tableau:
-        """The tableau with each entry as a ball around all its values."""
+        """Each entry as a ball around all its values."""
         return self.made.changed(lambda x: x.ball if isinstance(x, Affine) else constant(x))
 
     def block(self, l: int, m: int) -> FormMatrix:
@@ -80,7 +77,7 @@ def rational_or_ball(number: Any) -> Any:
 
 
 def to_points(tableau: Tableau) -> Tableau:
-    """The tableau on point stages, in balls if nodes are irrational."""
+    """On point stages, in balls if nodes are irrational."""
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
     into, back = [], []
@@ -121,12 +118,11 @@ def _rows(matrix: arb_mat) -> Any:
 
 
 def plain_box(tableau: Tableau, radius_of: Callable[[Number], fmpq], colours: int) -> Box:
-    """Returns the box of a method whose coefficients are the printed numbers.
+    """The box of a method whose coefficients are the printed numbers.
 
     Nodes that are the row sums of a block depend on it; others are printed. Equal nodes of colours
-    that share stages count once. Families are exact. ``radius_of`` returns the radius of a nonzero
-    coefficient, 0 if it is exact; ``colours`` is the number of colours without those for further
-    weights.
+    that share stages count once. Families are exact. ``radius_of`` is 0 for an exact coefficient;
+    ``colours`` counts no further weights.
     """
     sums = [_block_of_nodes(tableau, l) for l in range(colours)]
     nodes = [(x.space, tuple(x.c)) for x in tableau.colours[:colours]]
@@ -167,12 +163,9 @@ def _maker(
     sums: Sequence[int | None],
     first: Sequence[int],
 ) -> Make:
-    """Returns the function that makes the method of other numbers.
-
-    ``rows`` are the weights of the printed tableau, the rows of its blocks, and nodes that are
+    """``rows`` are the weights of the printed tableau, the rows of its blocks, and nodes that are
     printed; ``radii`` are 0 for exact numbers. ``sums`` has for each colour l the m with A^{l,m} 𝟙
-    as its nodes, None if they are printed; ``first`` for each colour the first one with the same
-    nodes on the same stages.
+    as its nodes, None if they are printed; ``first`` the first colour with these nodes and stages.
     """
     colours = len(sums)
 

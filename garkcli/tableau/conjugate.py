@@ -24,8 +24,8 @@ def conjugate_block(
     other: StageSpace,
     b_other: matrix.Vector,
 ) -> matrix.Matrix:
-    """Returns Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}. ``here`` is the
-    stage space of l and ``other`` that of m. Raises ZeroWeight if b^{l} has a zero weight.
+    """Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}, ``here`` the space of l;
+    ZeroWeight if b^{l} has a zero weight.
     """
     try:
         adjoint = other.adjoint(block, b_other, here, b)
@@ -40,12 +40,9 @@ def conjugate_block(
 def conjugate(tableau: Tableau) -> Tableau:
     """The symplectic conjugate (Â^{l,m}, b, c); conjugated again it is ``tableau``.
 
-    For a partitioned tableau (A, Â) it is the partitioned tableau of the conjugates: momentum
-    blocks come from position blocks and vice versa.
-
-    Raises:
-        ZeroWeight: a conjugate would divide by zero.
-        MethodError: the tableau is no GARK method.
+    For a partitioned tableau (A, Â) momentum blocks come from position blocks and vice versa.
+    Raises ZeroWeight if a conjugate would divide by zero, MethodError if the tableau is no GARK
+    method.
     """
     tableau.demand_fields("the symplectic conjugate")
     if tableau.is_partitioned:
@@ -90,7 +87,7 @@ def are_opposite(one: Colour, other: Colour) -> bool:
 
 
 def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
-    """Numbers that are all zero if a tableau is symplectic; 1 for a block without an opposite."""
+    """All zero if the tableau is symplectic; 1 for a block without an opposite."""
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
             if one.space == other.space and {one.part, other.part} == {"q", "p"}:

@@ -1,8 +1,7 @@
-"""Further weights at the stages of a method: embedded ones, polynomials of dense output, and those
-that predict stages.
+"""Embedded weights, polynomials of dense output, and weights that predict stages.
 
-They belong to the same stages and so share stage vectors; with them as b the method is a tableau of
-its own, with the same blocks.
+They belong to the stages of the method and share stage vectors; with them as b the method is a
+tableau of its own, with the same blocks.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Weights: TypeAlias = tuple[Vector, ...]
-"""For each colour its weights, one number per stage."""
+"""For each colour, one number per stage."""
 
 
 class DenseOutput(Frozen):
@@ -54,10 +53,9 @@ class DenseOutput(Frozen):
 
 
 class Predictor(Frozen):
-    """Weights that predict the stages of a step:
-    Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j, with the slopes k_j of the last step, those K_j
-    of the stages of this step that are solved before, and the ratio r of this step size h to the
-    last one.
+    """Weights that predict the stages of a step: Y_i ≈ y + h Σ_j p_ij(r) k_j + h Σ_j q_ij(r) K_j,
+    with the slopes k_j of the last step, those K_j of the stages of this step that are solved
+    before, and the ratio r of this step size h to the last.
 
     Attributes:
         old: the matrices of 1, r, r², … in p, each of shape (s, s).
@@ -69,7 +67,6 @@ class Predictor(Frozen):
 
     @property
     def degree(self) -> int:
-        """The largest power of r that has a matrix."""
         return len(self.old) - 1
 
     @property
@@ -88,11 +85,7 @@ class Predictor(Frozen):
 
 
 class Further(Frozen):
-    """Further weights of a method, each None if there are none.
-
-    Attributes:
-        predictor: the weights that predict the stages of a method of one colour.
-    """
+    """Each is None without such weights; ``predictor`` is for methods of one colour."""
 
     embedded: Weights | None = None
     dense: DenseOutput | None = None
@@ -118,7 +111,7 @@ class Further(Frozen):
 
     @property
     def rows(self) -> tuple[Weights, ...]:
-        """All rows of weights: the embedded ones, then the powers of θ."""
+        """The embedded weights, then the powers of θ."""
         return self.powers if self.embedded is None else (self.embedded, *self.powers)
 
     def changed(self, change: Callable[[Number], Number]) -> Further:
@@ -163,7 +156,6 @@ def _matrix_at(powers: Sequence[Matrix], ratio: Number) -> Matrix:
 
 
 def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
-    """Polynomials of dense output padded with zeros to a degree."""
     longer = []
     for row in rows:
         zeros = [ZERO] * (degree - len(row))
@@ -174,9 +166,8 @@ def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
 def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     """The tableau with other weights at the same stages.
 
-    Raises:
-        ShapeMismatch: not one row per colour, or not one weight per stage; or the stages are those
-            of a family in its algebra.
+    Raises ShapeMismatch without one weight per stage and one row per colour, or if the stages are
+    those of a family in its algebra.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -197,9 +188,7 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
 
 
 def as_colours(tableau: Tableau, further: Further) -> Tableau:
-    """The tableau with one more colour for each row of further weights, which no stage sees. So
-    operations on stages, such as merging equal ones, also apply to these rows.
-    """
+    """One more colour for each row, which no stage sees: operations on stages also apply to it."""
     if not further.rows:
         return tableau
     colours = list(tableau.colours)
@@ -210,10 +199,8 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """Returns the tableau and its further weights, the inverse of ``as_colours``.
-
-    ``further`` are the original weights, which tell the kinds. A predictor is left out: it belongs
-    to the original stages.
+    """The inverse of ``as_colours``; ``further`` tells the kinds. A predictor is left out, as it
+    belongs to the original stages.
     """
     if not further.rows:
         return tableau, replace(further, predictor=None)

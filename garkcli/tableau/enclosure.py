@@ -18,7 +18,7 @@ from garkcli.tableau.tableau import Edge, Tableau
 Row: TypeAlias = list[arb]
 Rows: TypeAlias = list[Row]
 MAX_DIGITS = 300
-"""Most digits of enclosed entries; the exponents of floats end at 308."""
+"""The exponents of floats end at 308."""
 GUARD_OF_ENTRIES = 32
 """Guard bits of entries, relative to the arithmetic that uses them."""
 
@@ -29,8 +29,7 @@ class Enclosure(Frozen):
     Attributes:
         bits: the precision of the arithmetic with them.
         stages: s of each stage space.
-        A: the block of each pair (space, colour) as in ``Tableau.blocks``, shape (s_space,
-            s_colour).
+        A: blocks as in ``Tableau.blocks``, shape (s_space, s_colour).
         b: the weights of each colour as a column, shape (s_colour, 1).
     """
 
@@ -41,9 +40,7 @@ class Enclosure(Frozen):
 
 
 def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
-    """The entries to ``bits`` bits. Spelled-out coefficients reach any precision; the nodes of
-    families at most ``MAX_DIGITS`` digits.
-    """
+    """Spelled-out numbers have any precision, nodes of families at most ``MAX_DIGITS`` digits."""
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
     with ctx.workprec(bits + GUARD_OF_ENTRIES):
         if all(isinstance(space, PointSpace) for space in tableau.spaces):
@@ -75,7 +72,7 @@ def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:
 
 
 def in_balls(tableau: Tableau, grain: fmpq, bits: int) -> Tableau:
-    """A tableau on point stages with balls of radius ``grain`` around its nonzero numbers."""
+    """On point stages, with balls of radius ``grain`` around nonzero numbers."""
     radius = arb(0, arb(grain).abs_upper())
 
     digits = int(bits * DIGITS_OF_A_BIT)

@@ -23,13 +23,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Radical(Frozen):
-    """A root among the coefficients of a family: an unknown of its own.
+    """A root among the coefficients of a family: an unknown, a zero of ``relation``.
 
-    Attributes:
-        relation: a polynomial with this zero.
-        is_even: whether it is an even root, which means the nonnegative zero.
-        meant: which zero it is, if there are several real ones.
-        text, latex: the notation of the root.
+    ``is_even`` roots are nonnegative; ``meant`` is the zero, if there are several real ones.
     """
 
     name: str
@@ -64,16 +60,13 @@ def reducing(names: Sequence[str], radicals: Iterable[Radical]) -> Parameters:
 
 
 OSCILLATING = ("p-stable", "i-stable")
-"""Kinds of stability for the harmonic oscillator."""
 
 
 class RequiredStability(Frozen):
-    """A required kind of stability.
-
-    Attributes:
-        kind: ``a-stable``, ``l-stable``, ``p-stable`` or ``i-stable``.
-        colour: of a diagonal method, counted from 0; None for the whole method.
-        is_embedded: whether the embedded weights take the place of b.
+    """Attributes:
+    kind: ``a-stable``, ``l-stable``, ``p-stable`` or ``i-stable``.
+    colour: of a diagonal method, counted from 0; None for the whole method.
+    is_embedded: whether the embedded weights take the place of b.
     """
 
     kind: str
@@ -81,13 +74,13 @@ class RequiredStability(Frozen):
     is_embedded: bool = False
 
     def __str__(self) -> str:
-        """The usual spelling, such as A-stable."""
+        """A-stable, for instance."""
         name = self.kind[0].upper() + self.kind[1:]
         name += " with the embedded weights" * self.is_embedded
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
     def in_words(self, tableau: Tableau) -> str:
-        """The text, with the vector fields that it is about if there are several colours."""
+        """With the vector fields that it is about if there are several colours."""
         if on_linear_problems(tableau).size == 1 or self.kind in OSCILLATING:
             return str(self)
         fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
@@ -166,9 +159,7 @@ def ring_of(tableau: Tableau) -> Parameters:
 
 
 def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
-    """Returns the family on point stages; None if the nodes have no simple radicals. ``ring`` is
-    that of its parameters, without roots.
-    """
+    """On point stages; None if the nodes have no simple radicals. ``ring`` has no roots."""
     nodes = nodes_in_radicals(tableau)
     if not nodes:
         return None if nodes is None else tableau

@@ -21,7 +21,7 @@ _NewBlocks: TypeAlias = dict[Edge, Matrix]
 
 
 def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
-    """The tableau of diagonal ``methods`` and blocks ``transfer[l, m]``, eq. (GARK)."""
+    """Diagonal ``methods`` and blocks ``transfer[l, m]``, eq. (GARK)."""
     spaces = []
     colours = []
     blocks: _NewBlocks = {}
@@ -35,9 +35,7 @@ def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
 
 
 def one_field(tableau: Tableau, message: str, name: str = "") -> Method:
-    """The single colour of a method, in its own stage space. Raises MethodError if the method has
-    several colours.
-    """
+    """The single colour of a method, in its own stage space; MethodError for several colours."""
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
         raise MethodError(message, "give a method of one colour", code="wrong-size")
@@ -50,7 +48,7 @@ def spelled_out(
     c: Sequence[Vector | None],
     linear: Iterable[int] = (),
 ) -> Tableau:
-    """A GARK tableau block by block; missing nodes are row sums."""
+    """Missing nodes are row sums."""
     linear = frozenset(linear)
     spaces = []
     colours = []
@@ -80,7 +78,7 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
 
 
 def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
-    """An additive method: one set of stages, with a matrix and weights for each colour."""
+    """One set of stages, with a matrix and weights for each colour."""
     nodes = c
     if nodes is None:
         nodes = _row_sums(0, A, len(A[0]))
@@ -90,15 +88,14 @@ def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tabl
 
 
 def partitioned(q: Method, p: Method) -> Tableau:
-    """A partitioned method for q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
+    """For q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
     velocity = Colour("q", 0, q.b, q.c, 0, "q")
     force = Colour("p", 0, p.b, p.c, 1, "p")
     return Tableau((q.space,), (velocity, force), {(0, 0): q.A, (0, 1): p.A})
 
 
 def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
-    """A partitioned method for q̇ = V(p), ṗ = F(q), each part given as (A, b, c); blocks may be
-    rectangular.
+    """A partitioned method for q̇ = V(p), ṗ = F(q); blocks may be rectangular.
 
     The rows of q.A are the positions at which forces are evaluated, so q.c are the nodes of the
     force colour; likewise p.A and p.c belong to the velocity colour.
@@ -118,7 +115,6 @@ def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
 
 
 def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
-    """The tableau with linear vector fields for the colours called ``names``."""
     names = frozenset(names)
     colours = []
     for colour in tableau.colours:
@@ -129,8 +125,8 @@ def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
 
 
 def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequence[int]) -> Tableau:
-    """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields that the
-    problem has.
+    """The pair (Q, P) of a GARK tableau Q and its conjugate P, for the vector fields of the
+    problem.
 
     Colours V^l for l in ``velocities`` and F^l for l in ``forces``; V^l and F^l have the same
     stages. An l in only one of the two is a Hamiltonian of p or of q alone, whose stages need only
@@ -144,9 +140,8 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
     {1}, {2}                  separable              A^{2,1}, Â^{1,2}
     ========================  =====================  ======================================
 
-    Raises:
-        ZeroWeight: a conjugate that is needed would divide by zero.
-        MethodError: the tableau is already partitioned, or no GARK method.
+    Raises ZeroWeight if a conjugate would divide by zero; MethodError if the tableau is already
+    partitioned, or no GARK method.
     """
     tableau.demand_fields("the symplectic pair")
     if tableau.is_partitioned:
@@ -180,10 +175,7 @@ def pair(tableau: Tableau) -> Tableau:
     """The symplectic pair (Q, P), eq. (varGARK): 2N colours V¹…Vᴺ, F¹…Fᴺ.
 
     A partitioned tableau keeps its position blocks, and its momentum blocks become their
-    conjugates.
-
-    Raises:
-        ZeroWeight: a conjugate would divide by zero.
+    conjugates. Raises ZeroWeight if a conjugate would divide by zero.
     """
     if not tableau.is_partitioned:
         everything = range(tableau.size)
@@ -198,8 +190,8 @@ def pair(tableau: Tableau) -> Tableau:
 
 
 def on_linear_problems(tableau: Tableau) -> Tableau:
-    """The GARK method with the same step on linear problems: the tableau itself, or for a
-    Rosenbrock method A = β = α + γ, as these problems only have vertices with one branch.
+    """The GARK method with the same step on linear problems; A = β = α + γ for a Rosenbrock method,
+    as vertices there have one branch.
     """
     kinds = {colour.kind for colour in tableau.colours}
     if kinds != {NOT_ONE, ONE_BRANCH}:
@@ -218,17 +210,14 @@ TIME = "t"
 
 
 def with_time(tableau: Tableau) -> Tableau | None:
-    """The tableau with time as its last colour: for problems ẏ = f(t, y), with its printed nodes.
+    """The tableau with time as its last colour, for ẏ = f(t, y) with its printed nodes.
 
     With ṫ = 1 the problem is autonomous. A method evaluates f at t + c_i h, so the block of time is
     c; its vector field is constant, so its vertices have no branches. If A^{l,m} 𝟙 = c^{l} for
     every block, a vertex of time has the same weight as any other leaf, and nothing changes.
 
-    Returns:
-        None if it is not defined: a vector field is linear, or colours share stages but not nodes.
-
-    Raises:
-        MethodError: the tableau is no GARK method.
+    None if a vector field is linear, or colours share stages but not nodes; MethodError if the
+    tableau is no GARK method.
 
     >>> from flint import fmpq
     >>> from garkcli.tableau.forms import gark
@@ -248,9 +237,7 @@ def with_time(tableau: Tableau) -> Tableau | None:
 
 
 def beside_clock(tableau: Tableau, term: int) -> Tableau:
-    """Returns the tableau with time as its last colour, which stages see with their nodes. Colours
-    that share stages share nodes; ``term`` is that of ṫ = 1.
-    """
+    """Time is the last colour, with term ``term``; colours that share stages share nodes."""
     time = tableau.size
     columns = {(x.space, time): tuple((c_i,) for c_i in x.c) for x in tableau.colours}
     clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=term, kind=LEAF)

@@ -44,11 +44,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
         self._parts: dict[K, Any] = dict(parts)
 
     def __getitem__(self, key: K) -> Any:
-        """The part of a colour, or of a pair (l, m) of colours.
-
-        Raises:
-            NoSuchColour: there is no such part.
-        """
+        """NoSuchColour if there is no part of a colour, or of a pair (l, m)."""
         try:
             return self._parts[key]
         except (KeyError, TypeError):
@@ -72,11 +68,11 @@ class ByColour(Mapping[K, Any], Generic[K]):
 
 
 Derivation: TypeAlias = Literal["", "conjugate", "pair"]
-"""The derivation of a method from another one; empty for a given method."""
+"""Empty for a given method."""
 
 
 def derived_name(derivation: str, name: str) -> str:
-    """The name of the conjugate or pair of the method called ``name``.
+    """The name of the conjugate or pair.
 
     >>> derived_name("pair", "Heun 2(1)")
     'symplectic pair of Heun 2(1)'
@@ -85,7 +81,7 @@ def derived_name(derivation: str, name: str) -> str:
 
 
 def derivation_of(method: GarkMethod | None) -> Derivation:
-    """The derivation of a method; empty if only its tableau is known."""
+    """Empty if only the tableau is known."""
     return "" if method is None else method.derivation
 
 

@@ -21,7 +21,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def is_gauss(tableau: Tableau) -> bool:
-    """Whether a tableau is that of a Gauss method: a collocation method with Gauss nodes."""
+    """A collocation method with Gauss nodes."""
     if tableau.size > 1 or not has_gauss_nodes(tableau.spaces[0]):
         return False
     space, colour, block = tableau.spaces[0], tableau.colours[0], tableau.block(0, 0)
@@ -40,7 +40,7 @@ def is_gauss(tableau: Tableau) -> bool:
 
 
 def has_gauss_nodes(space: StageSpace) -> bool:
-    """Whether the stages of a space are at the zeros of a Legendre polynomial."""
+    """Whether the stages are at the zeros of a Legendre polynomial."""
     if not isinstance(space, PolynomialSpace):
         return False
     legendre = fmpq_poly.legendre_p(space.stages)(fmpq_poly([-1, 2]))
@@ -48,7 +48,7 @@ def has_gauss_nodes(space: StageSpace) -> bool:
 
 
 def nodes_and_weights(stages: int) -> tuple[list[arb], list[arb]]:
-    """The nodes in ascending order, and the weights, at the current precision."""
+    """Ascending, at the current precision."""
     pairs = [arb.legendre_p_root(stages, k, weight=True) for k in reversed(range(stages))]
     return [(1 + x) / 2 for x, _ in pairs], [w / 2 for _, w in pairs]
 

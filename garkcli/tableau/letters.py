@@ -20,11 +20,8 @@ Defined: TypeAlias = Mapping[AlgebraicRoot, str]
 def with_letters(
     tableau: Tableau | None, written: Mapping[str, str] = NOTHING, taken: str = ""
 ) -> Iterator[Defined]:
-    """Gives the roots of degree 3 or more in the numbers of a method letters in the texts that are
-    made inside.
-
-    Yields those that have occurred so far, for their definitions. ``written`` and ``taken`` are as
-    in ``Letters``.
+    """Roots of degree 3 or more get letters in texts that are made inside; yields those so far.
+    ``written`` and ``taken`` are as in ``Letters``.
     """
     letters = Letters(_diagonal(tableau), written, taken) if _has_roots(tableau) else None
     with lettered(letters):
@@ -32,7 +29,7 @@ def with_letters(
 
 
 def _has_roots(tableau: Tableau | None) -> TypeGuard[Tableau]:
-    """Whether a root of degree 3 or more is in the numbers of a method."""
+    """Whether numbers have a root of degree 3 or more."""
     if tableau is None or tableau.field is None:
         return False
     roots = chain.from_iterable(roots_in(radical) for radical, _ in tableau.field.radicals)

@@ -1,5 +1,4 @@
-"""A tableau entry by entry, as printed: in radicals if the nodes have simple ones, else in
-decimals.
+"""A tableau entry by entry, as printed: in radicals if nodes have simple ones, else in decimals.
 
 A block of a polynomial space has the entries A_{ij} = (A L_j)(c_i), L_j the Lagrange polynomials of
 the nodes; with the Vandermonde matrices V of the nodes that is V_l A V_m⁻¹.
@@ -30,23 +29,18 @@ Cell: TypeAlias = Number | arb
 """An exact number, or an enclosure of an irrational one."""
 Row: TypeAlias = tuple[Cell, ...]
 Block: TypeAlias = tuple[Row, ...] | None
-"""The entries of a block; None if it does not exist."""
 
 
 class Entries(Frozen):
-    """The entries of a tableau, colour by colour.
+    """The entries of a tableau: one row of nodes and weights per colour.
 
     Attributes:
-        c: the nodes, one row per colour.
         A: ``A[l][m]`` is a matrix, or None if the block does not exist.
-        b: the weights, one row per colour.
         is_exact: whether the entries are exact numbers, not enclosures.
         digits: the correct decimal digits of enclosures.
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
-        embedded: the embedded weights, one row per colour; or None.
         dense: the coefficients of dense output, for each colour a row per stage; or None.
-        predictor: the matrices of 1, r, r², … for old and for new slopes; empty without a
-            predictor.
+        predictor: the matrices of 1, r, r², … for old and for new slopes; or empty.
     """
 
     c: tuple[Row, ...]
@@ -99,7 +93,7 @@ class Entries(Frozen):
 
 @doing("entries")
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """All entries: exact if all nodes are rational or quadratic, else enclosures."""
+    """Exact if all nodes are rational or quadratic, else enclosures."""
     exact = in_points(tableau)
     if exact is None:
         return numeric_entries(tableau, digits)
@@ -123,8 +117,8 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
-    """The tableau on point stages; None if the nodes have no simple radicals. Also None if nodes
-    and coefficients together generate too large a field.
+    """None if the nodes have no simple radicals, or generate too large a field with the
+    coefficients.
     """
     radical_nodes = nodes_in_radicals(tableau)
     if not radical_nodes:
@@ -173,8 +167,7 @@ def at_points(
     coefficient: Callable[[Any], Any],
     number: Callable[[Number], Any],
 ) -> Tableau:
-    """Returns the blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of
-    the nodes.
+    """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes.
 
     ``nodes`` are those of the polynomial stage spaces, from ``domain``; ``coefficient`` maps
     coefficients and ``number`` numbers of the domain.
@@ -210,7 +203,7 @@ def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
 
 @doing("entries")
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """All entries as enclosures of width below 10^(−digits)."""
+    """Enclosures of width below 10^(−digits)."""
     goal = int(digits * BITS_OF_A_DIGIT) + 8
     if is_gauss(tableau):
         with ctx.workprec(goal + 64):
@@ -230,7 +223,7 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
 
 
 def _numeric(tableau: Tableau, digits: int) -> Entries | None:
-    """All entries at the current precision; None if it is too low for a Vandermonde matrix."""
+    """At the current precision; None if it is too low for a Vandermonde matrix."""
     try:
         frames = [_numeric_frame(space) for space in tableau.spaces]
     except ZeroDivisionError:

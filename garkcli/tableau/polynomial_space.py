@@ -1,4 +1,4 @@
-"""The stage space ℚ[x]/(M) of a family whose node polynomial M is rational, and integrals there.
+"""The stage space ℚ[x]/(M) of a family whose node polynomial M is rational.
 
 Nodes with simple radicals are written out; otherwise Vandermonde matrices in balls map coordinates
 to values at the nodes, and back.
@@ -27,7 +27,7 @@ MAX_MOMENTS = 8
 
 
 class PolynomialSpace(StageSpace):
-    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with distinct real roots."""
+    """The basis is 1, x, …, x^(s−1); M is monic with distinct real roots."""
 
     modulus: fmpq_poly
 
@@ -186,7 +186,7 @@ def antiderivative(coefficients: Sequence[Number]) -> matrix.Vector:
 
 
 def integration(degree: int) -> matrix.Matrix:
-    """The map f ↦ ∫_0^x f on polynomials of degree < ``degree``, shape (degree + 1, degree)."""
+    """Integration ∫_0^x of polynomials of degree < ``degree``, shape (degree + 1, degree)."""
     columns = [
         antiderivative((ZERO,) * j + (ONE,)) + (ZERO,) * (degree - 1 - j) for j in range(degree)
     ]
@@ -194,8 +194,7 @@ def integration(degree: int) -> matrix.Matrix:
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
-    """The nodes in ascending order, as expressions with at most one square root each; None if they
-    need more.
+    """Ascending nodes as expressions with at most one square root each; None if they need more.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.exact.rewriting import format_expression
@@ -212,7 +211,7 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
 
 
 def _roots(factor: fmpq_poly) -> list[Expression]:
-    """The roots of a linear factor, or m ± r√d with rational m, r, d of a quadratic one."""
+    """A linear factor has one root, a quadratic one m ± r√d with rational m, r, d."""
     if factor.degree() == 1:
         return [Literal(-factor[0] / factor[1])]
     constant, linear, leading = factor.coeffs()
@@ -233,9 +232,7 @@ def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
 
 
 def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
-    """The inverse of the Vandermonde matrix, from values at the nodes to coordinates. Raises
-    ZeroDivisionError if the precision is too low.
-    """
+    """From values at the nodes to coordinates; ZeroDivisionError if the precision is too low."""
     inverse = _coordinates_at_nodes(space, ctx.prec)
     if inverse is None:
         raise ZeroDivisionError

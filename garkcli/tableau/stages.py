@@ -59,29 +59,20 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def of_polynomial(self, coefficients: Sequence[Number]) -> matrix.Vector:
-        """The class of a polynomial with coefficients from the lowest to the highest. At points
-        these are its values at the nodes.
-        """
+        """A polynomial, lowest coefficient first; at points its values at the nodes."""
 
     @abstractmethod
     def basis_polynomials(self) -> Iterator[matrix.Vector]:
-        """The polynomial of degree < s of each basis vector, lowest coefficient first.
+        """The polynomial of degree < s of each basis vector, lowest coefficient first: at points
+        the Lagrange polynomials of the nodes. CoincidingNodes if two nodes are equal.
 
-        At points these are the Lagrange polynomials of the nodes. They are made one at a time:
-        together they can be far larger than the results.
-
-        Raises:
-            CoincidingNodes: two nodes are equal.
+        They are made one at a time: together they can be far larger than the results.
         """
 
     @abstractmethod
     def lifts(self) -> matrix.Matrix:
-        """Maps coordinates to the polynomial of degree < s, shape (s, s).
-
-        The columns are the ``basis_polynomials``.
-
-        Raises:
-            CoincidingNodes: two nodes are equal.
+        """The ``basis_polynomials`` as columns, shape (s, s); CoincidingNodes if two nodes are
+        equal.
         """
 
     def power(self, v: matrix.Vector, exponent: int) -> matrix.Vector:
@@ -96,7 +87,7 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def zero_weights(self, weights: matrix.Vector) -> Reason:
-        """Says which of the weights are zero; at least one must be."""
+        """At least one weight must be zero."""
 
     def form(self, weights: matrix.Vector, block: matrix.Matrix) -> matrix.Matrix:
         """The bilinear form (f, g) ↦ weights(f ⊙ A g), one row for each f."""
@@ -109,24 +100,18 @@ class StageSpace(Frozen):
         source: StageSpace,
         source_weights: matrix.Vector,
     ) -> matrix.Matrix:
-        """The map A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from
-        ``source`` to here.
+        """A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from ``source`` to
+        here.
 
-        At points this is B_source⁻¹ Aᵀ B_here.
-
-        Raises:
-            SingularMatrixError: a weight of ``source`` is zero.
+        At points this is B_source⁻¹ Aᵀ B_here. SingularMatrixError if a weight of ``source`` is
+        zero.
         """
         return source.divide_by_weights(source_weights, matrix.transpose(self.form(weights, block)))
 
     @abstractmethod
     def divide_by_weights(self, weights: matrix.Vector, right: matrix.Matrix) -> matrix.Matrix:
-        """The matrix X with G X = ``right``, where G is the ``gram`` of the weights.
-
-        At points this is B⁻¹ ``right``.
-
-        Raises:
-            SingularMatrixError: one of the weights is zero.
+        """X with G X = ``right``, G the ``gram``: at points B⁻¹ ``right``; SingularMatrixError if a
+        weight is zero.
         """
 
 
@@ -171,11 +156,8 @@ class PointSpace(StageSpace):
         return tuple(_value(coefficients, c) for c in self.points)
 
     def interpolation_bits(self, enough: int) -> int:
-        """Estimates the length of the common denominator of the Lagrange polynomials in bits,
-        summed over the coordinates of irrational nodes.
-
-        A simple bound is returned if it is at most ``enough``; otherwise the common denominator is
-        computed.
+        """The length of the common denominator of the Lagrange polynomials in bits, summed over the
+        coordinates of irrational nodes; a simple bound if that is at most ``enough``.
         """
         bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
         if bound <= enough or bound > MAX_BITS_COMPARED:
@@ -226,14 +208,13 @@ OF_OTHERS = (
     "gark check, show, tableau, conditions, converge, diff, report and export know such methods; "
     "gark stability and plot know them but for nonlinearly partitioned ones"
 )
-"""The cure if a command is not defined for a method that is no GARK method."""
+"""The cure if a command is not defined for other methods than GARK methods."""
 
 
 class Flow(PointSpace):
     """Collocation stages that represent the exact solution of problems between other stages.
 
-    Up to ``order`` conditions agree with those of the exact solution. ``why`` says why such a
-    method is no GARK method, ``cure`` how to do without such stages.
+    Up to ``order`` conditions agree with those of the exact solution.
     """
 
     order: int
@@ -244,7 +225,7 @@ class Flow(PointSpace):
 
 class Jets(Flow):
     """Stages on the exact solution through each stage of the method, ``order`` of them, the first
-    at its beginning. ``derivatives``: the number of f_k that the method uses.
+    at its beginning; ``derivatives`` is the number of f_k.
     """
 
     derivatives: int
@@ -285,8 +266,8 @@ def _value(coefficients: Sequence[Number], x: Number) -> Number:
 
 
 def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[matrix.Vector]:
-    """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator.
-    Elimination in the Vandermonde matrix would carry the common denominator of all of them.
+    """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator:
+    elimination in the Vandermonde matrix would carry that of all.
     """
     x = fmpq_poly([0, 1])
     w = fmpq_poly([1])

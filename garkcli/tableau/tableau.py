@@ -31,8 +31,6 @@ class Colour(Frozen):
         b: its weights, a functional on that space.
         c: its nodes, an element of that space. They enter B, C, D and consistency only.
         term: the index of the term H^{l} or f^{l} of the split, from 0.
-        part: the part that the vector field drives.
-        kind: the kind of its vertices.
         late: the number of orders that a tree with such a root counts more than its own; None if
             the step has no such weights, so no conditions.
     """
@@ -48,7 +46,7 @@ class Colour(Frozen):
 
     @property
     def is_linear(self) -> bool:
-        """Whether the vector field is linear, so a vertex has at most one branch."""
+        """A vertex of a linear vector field has at most one branch."""
         return self.kind == LINEAR
 
 
@@ -247,10 +245,8 @@ class Tableau(Frozen):
 
 
 class Method(Frozen):
-    """A Runge–Kutta method over a stage space with s stages.
-
-    ``space`` has the nodes at which transfer rules interpolate; ``A`` is a map of the space into
-    itself, shape (s, s), ``b`` the weights functional, length s.
+    """``space`` has the nodes for transfer rules; ``A``, shape (s, s), maps it into itself, ``b``
+    is a functional.
     """
 
     name: str
@@ -268,7 +264,7 @@ class Method(Frozen):
 
 
 def butcher(A: Matrix, b: Vector, c: Vector | None = None, name: str = "") -> Method:
-    """The method with a spelled-out Butcher tableau; ``c`` defaults to the row sums of ``A``."""
+    """``c`` defaults to the row sums of ``A``."""
     nodes = c
     if nodes is None:
         nodes = apply(A, PointSpace(b).one)

@@ -29,9 +29,7 @@ class Transformation(Frozen):
     Attributes:
         real: the real eigenvalues γ, ascending.
         pairs: α and β > 0 of each pair α ± iβ, by ascending α.
-        T: T, row by row; the columns of real eigenvalues come first.
-        inverse: T⁻¹, row by row.
-        digits: the decimal digits that are correct.
+        T: row by row; the columns of real eigenvalues come first.
     """
 
     real: tuple[arb, ...]
@@ -42,9 +40,8 @@ class Transformation(Frozen):
 
 
 def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
-    """The transformation of a method of one colour, in balls of width below 10^(−digits). Raises
-    MethodError if A has no inverse or a multiple eigenvalue, or the method has several colours or
-    too many stages.
+    """In balls of width below 10^(−digits); MethodError if A has no inverse or a multiple
+    eigenvalue, or the method has several colours or too many stages.
     """
     stages = tableau.spaces[0].stages
     if tableau.size > 1 or tableau.block(0, 0) is None:
@@ -65,7 +62,7 @@ def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
 
 
 def _of_matrix(A: arb_mat) -> Transformation | None:
-    """The transformation at the current precision; None if it does not exist, or was not found."""
+    """At the current precision; None if it does not exist, or was not found."""
     try:
         values, vectors = acb_mat(A.inv()).eig(right=True)
     except (ZeroDivisionError, ValueError):
