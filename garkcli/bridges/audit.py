@@ -45,7 +45,6 @@ SURE = 60
 FEWEST_ROWS = 3
 """Most rows of several entries that do not show one wrong node among the others."""
 MAX_BLAMED = 12
-"""Most stages of a table in which a wrong entry is sought."""
 
 
 class Audited(Frozen, eq=False):
@@ -91,9 +90,7 @@ class Audited(Frozen, eq=False):
 def audited(
     paths: Iterable[str], jobs: int = 1, told: Callable[[str], None] = no_one
 ) -> Iterator[Audited]:
-    """Every table of some sources, in order; ``told`` receives why arrays are left out. Raises
-    UsageProblem if a source cannot be read, or its grammar is not installed.
-    """
+    """``told`` receives why arrays are left out; UsageProblem without source or grammar."""
     sources = list(paths)
     demand_grammars(sources)
     work = partial(_tables, orders=declared_orders(sources), others=sources)
@@ -118,9 +115,7 @@ def _late(table: FoundTable, seconds: str) -> Audited:
 
 
 def audit(table: FoundTable) -> Audited | None:
-    """The verdict on a table; None if it is no method. No finding is an error if another reading is
-    a method.
-    """
+    """None if it is no method; if another reading is a method, no finding is an error."""
     verdict = _audit(table)
     order = 0 if verdict is None or verdict.order is None else verdict.order.order
     is_low = order < 2 and not table.order
@@ -146,7 +141,6 @@ def audit(table: FoundTable) -> Audited | None:
 
 
 def _is_turned(found: Audited, other: Audited) -> bool:
-    """Whether another reading has the transposed matrix, with the same weights and nodes."""
     if found.method is None or other.method is None:
         return False
     before, after = found.method.tableau, other.method.tableau
@@ -173,7 +167,6 @@ def settled(table: FoundTable) -> FoundTable:
 
 
 def fits(found: Audited, told: FoundTable) -> bool:
-    """Whether a reading has the declared order, or order 2: fractions for decimals fail it."""
     if found.order is None or found.has_errors:
         return False
     if not told.order and found.table.linked >= SURE:
@@ -264,9 +257,7 @@ def findings_of(subject: TableSubject) -> tuple[Remark, ...]:
 
 
 def is_unrecognised(subject: TableSubject) -> bool:
-    """Whether an assembled table has too low an order, or several rows that do not sum to their
-    nodes.
-    """
+    """Whether an assembled table has too low an order, or several rows that miss their nodes."""
     is_far_off = subject.order.order < 2 and not subject.is_slightly_off
     return subject.table.is_assembled and (is_far_off or len(subject.wrong_rows) > 1)
 
@@ -278,9 +269,7 @@ def _noted(
 
 
 def _weighed(finding: Remark, subject: TableSubject) -> Remark:
-    """The finding; a doubt if the table was assembled or recognised and no single repair mends it,
-    a note if careless rounding explains it.
-    """
+    """A doubt if no repair mends an assembled table, a note if careless rounding explains it."""
     if finding.level != "error":
         return finding
     if _is_explained(finding.code, subject):
@@ -306,8 +295,8 @@ def _is_mended(finding: Remark, subject: TableSubject) -> bool:
 
 
 def is_one_row(subject: TableSubject) -> bool:
-    """Whether order 2 holds, and all rows but one sum to their nodes; no first stage is at a later
-    time, as in methods of Oliver.
+    """Whether all rows but one sum to their nodes, and no first stage is late, as in methods of
+    Oliver.
     """
     colour = subject.tableau.colours[0]
     several = sum(sum(map(bool, row)) > 1 for row in subject.block)
@@ -404,9 +393,7 @@ def repairs_of(
     declared: int | None,
     is_embedded: bool = False,
 ) -> tuple[Sequence[Repair], int, bool]:
-    """The entries that restore the declared order, or without one several orders; that order;
-    whether it holds exactly.
-    """
+    """The entries that restore the declared order, else several orders; that order; is it exact."""
     stages = sum(space.stages for space in tableau.spaces)
     if found is None or found.witness is None or stages > MAX_BLAMED:
         return (), 0, False
@@ -451,7 +438,6 @@ def _sign(subject: TableSubject) -> Iterator[Remark]:
 
 
 def _weights(subject: TableSubject) -> Iterator[Remark]:
-    """Weights that do not sum to 1, if no order is declared."""
     found = subject.order
     if not (found.order or found.is_open) and subject.table.order is None:
         sums = (sum(colour.b, ZERO) for colour in subject.tableau.colours)

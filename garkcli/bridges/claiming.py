@@ -19,7 +19,7 @@ _OF_TABLE = {"order", "nonautonomous-order", "stage-order"}
 
 
 def imported(table: FoundTable, name: str, is_as_found: bool = False) -> TableSubject:
-    """The method of a table with its file and findings; MethodFileError if it is none."""
+    """MethodFileError if the numbers give no method."""
     subject = with_orders(table, read(table, name))
     subject = replace(subject, findings=findings_of(subject))
     tolerances = [fmpq_of(table.tolerance)] if table.tolerance else []
@@ -61,7 +61,6 @@ def _is_fsal(found: TableSubject) -> bool:
 
 
 def _orders(found: TableSubject) -> list[tuple[str, Judged, int | None]]:
-    """The orders with the keys of their claims and the declared values."""
     table, embedded = found.table, found.embedded_order
     orders = [("order", found.order, table.order)]
     if embedded is not None:

@@ -31,13 +31,7 @@ _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 class TableResult(Frozen, eq=False):
-    """The result for one table.
-
-    Attributes:
-        stem: the unique stem of the name of its method file.
-        recognised: the exact forms of its decimals, if requested.
-        trouble: the reason why there is no method; empty if there is one.
-    """
+    """``stem`` names its file, and is unique; ``trouble`` says why there is no method."""
 
     table: FoundTable
     stem: str = ""
@@ -81,10 +75,7 @@ def collected(
     is_as_found: bool = False,
     left_out: Callable[[FoundTable], None] = no_one,
 ) -> Iterator[TableResult]:
-    """The tables of all sources, in order; ``left_out`` receives tables that may be no methods.
-    Raises UsageProblem if a source cannot be read, its grammar is not installed, or there is no
-    such format.
-    """
+    """``left_out`` receives tables that may be no methods; UsageProblem for unreadable sources."""
     if format is not None:
         reader_named(format)
     used: set[str] = set()

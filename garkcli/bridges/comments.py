@@ -18,12 +18,7 @@ _DANGEROUS = ("*/", "/*", "*)", "(*", "??", "]]", "%}", "%{", "=#", "#=")
 
 
 class Comment(Frozen):
-    """The marks of comments in a language.
-
-    Attributes:
-        begin: a line before all; empty for none.
-        end: a line after all.
-    """
+    """``begin`` and ``end`` are lines before and after all, or empty."""
 
     mark: str
     begin: str = ""
@@ -70,10 +65,7 @@ def harmless(text: str, forbidden: tuple[str, ...] = ()) -> str:
 
 
 def head(payload: Payload, *notes: str) -> list[str]:
-    """The writer, the method, its orders, its reference.
-
-    No text from the method is in the first two lines, where Python looks for an encoding.
-    """
+    """No text from the method is in the first two lines, where Python looks for an encoding."""
     colours = counted(payload.size, "vector field")
     stages = ", ".join(map(str, payload.stages[payload.kind == "mri" :]))
     fields = f"stages {stages}" if payload.own else f"{colours}, stages {stages}"

@@ -22,7 +22,6 @@ _DECLARED = (
     r"\b(?P<name>{names})\b(?::[ \t]*\w+)?[ \t]*[= \t][ \t]*"
     r"(?P<value>[-+*/().\w \t]{{1,80}}?)[ \t]*(?:$|[;,!#]|//|/\*)"
 )
-"""A name with its value on one line."""
 _CONSTANT = re.compile(r"\b(?:parameter|const|constexpr|define|final)\b|^$", re.IGNORECASE)
 _NO_CONSTANT = re.compile(r"=|//|/\*|!|%|^[ \t]*\*|#(?![ \t]*define\b)")
 """Signs before a name that is in a comment, or in the value of another one."""
@@ -77,7 +76,6 @@ def _constants(names: Collection[str], source: str, others: Sequence[str]) -> Ma
 
 
 def _shared(path: str, source: str) -> int:
-    """The number of folders that two sources share."""
     pairs = zip(PurePath(path).parts, PurePath(source).parts, strict=False)
     return sum(1 for _ in takewhile(lambda x: x[0] == x[1], pairs))
 
@@ -92,7 +90,7 @@ def _declared_in(text: str, declared: re.Pattern[str]) -> Iterator[tuple[str, st
 
 
 def _with_values(line: str, constants: Mapping[str, str], fold: Callable[[str], str]) -> str:
-    """A line with the values of constants, unless it imports them."""
+    """Unless the line imports the constants."""
     if _TAKING.match(line):
         return line
 

@@ -29,7 +29,6 @@ def names_of(coupling: Coupling) -> Sequence[str]:
 
 
 def embedded_rows(coupling: Coupling) -> Mapping[str, Sequence[Vector]]:
-    """The rows of the embedded value by the names of the matrices; empty without it."""
     last = coupling.embedded
     if last is None:
         return {}

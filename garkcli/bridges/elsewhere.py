@@ -30,7 +30,6 @@ _MADE_FOR = re.compile(
 
 
 def declared_orders(paths: Iterable[str]) -> Mapping[str, int]:
-    """Orders by the names of algorithms and tables, without those of names with two orders."""
     by_name: dict[str, set[int]] = {}
     for path in paths:
         if not path.endswith((".jl", ".py")):
@@ -68,9 +67,7 @@ def orders_in(text: str) -> list[tuple[str, int]]:
 def with_bases(
     tables: Sequence[FoundTable], source: str, others: Sequence[str]
 ) -> Sequence[FoundTable]:
-    """The tables with coefficients of others that they name: here, or in a list of macros
-    elsewhere.
-    """
+    """Coefficients of tables that others name: here, or in a list of macros elsewhere."""
     missing = {x.base for x in tables if x.base}
     if not missing:
         return tables
@@ -104,7 +101,6 @@ def _with_base(table: FoundTable, base: FoundTable | None) -> FoundTable:
 def with_declared(
     tables: Iterable[FoundTable], text: str, orders: Mapping[str, int]
 ) -> Iterator[FoundTable]:
-    """The tables with the orders declared in their source tree and in comments."""
     lines = text.split("\n")
     for table in tables:
         if table.order or table.kind:

@@ -9,13 +9,12 @@ from garkcli.sources.found import FoundTable
 
 
 def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> TableSubject:
-    """A table and its method with their orders, up to ``limit``.
+    """Orders up to ``limit``; MethodFileError if numbers of the other sign give no method.
 
     For an estimate E the embedded weights are b − E or b + E: those with the declared order, else
     those with the higher order, else those of a published pair. Conditions are linear in the
     weights: if E fails one that b meets, both b − E and b + E fail it. So their orders differ only
-    if b̂ has the higher order, or if rounding spoils one of them. Raises MethodFileError if the
-    numbers of the other sign give no method.
+    if b̂ has the higher order, or if rounding spoils one of them.
     """
     minus = TableSubject(table, method, *orders_of(method, table, limit))
     if table.turned is None or minus.embedded_order is None:
@@ -48,7 +47,6 @@ def _turned(minus: TableSubject, limit: int | None) -> TableSubject:
 
 
 def _fit(found: TableSubject) -> tuple[bool, int]:
-    """Whether the estimate has the declared order, and its order."""
     order = _number(found)
     return order == found.table.embedded_order, order
 

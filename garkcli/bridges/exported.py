@@ -30,9 +30,7 @@ Arrays: TypeAlias = dict[str, Any]
 
 
 def exported_table(text: str, source: str, format: str) -> FoundTable | None:
-    """The method of a document of gark; None for other documents and for kinds with their own
-    readers.
-    """
+    """None for documents that gark did not write, and for kinds with their own readers."""
     if SCHEMA not in text:
         return None
     try:
@@ -82,7 +80,6 @@ def _by_kind(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 
 def _rosenbrock(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """The arrays as papers print them; several colours in blocks."""
     arrays = _arrays(kind, document)
     b = arrays.get("b") or [""]
     if isinstance(b[0], list):
@@ -143,7 +140,7 @@ def _tolerance(document: Mapping[str, Any]) -> Arrays:
 
 
 def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> TableSubject:
-    """The method of an exported document with findings; MethodFileError if there is none."""
+    """MethodFileError if the document has no method."""
     from garkcli.bridges.rosenbrock import RowSubject, row_findings  # few sources have them
 
     method = loads(written(table, name, None, {}), place_of(table))

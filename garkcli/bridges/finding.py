@@ -21,4 +21,3 @@ CODES = (
     "unjudged",
     "other-kind",
 )
-"""``glossary/data/findings.toml`` explains them."""

@@ -44,12 +44,8 @@ _NAMED = re.compile(r"(\w+)[\"']?(?:\[[^\]=]*\])*\s*[:=](?![:=])")
 
 
 class Mended(Frozen):
-    """A source with its repairs.
-
-    Attributes:
-        before: its text; empty if it is not UTF-8 or begins with a byte order mark.
-        wrong: the number of tables with errors.
-        mended: the number of tables that the repairs mend.
+    """``wrong`` tables have errors, ``mended`` ones were repaired; ``before`` is empty for texts
+    that are not UTF-8 or begin with a byte order mark.
     """
 
     source: str
@@ -60,12 +56,7 @@ class Mended(Frozen):
 
 
 class _Edit(Frozen):
-    """A line with a repair.
-
-    Attributes:
-        place: its number, and the column of the repair, from 0.
-        is_estimate: whether the number is of an error estimate.
-    """
+    """``place`` is the line, and the column of the repair, from 0."""
 
     text: str
     place: tuple[int, int]
@@ -78,7 +69,7 @@ class _Edit(Frozen):
 
 
 def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[Mended]:
-    """Every source with errors, with the certain repairs; no file changes."""
+    """Sources with errors, with the certain repairs; no file changes."""
     wrong = Counter(x.table.source for x in found if x.has_errors)
     orders = declared_orders(paths)
     for source, count in wrong.items():
@@ -127,7 +118,6 @@ def _better(
     found: Audited,
     tables_in: Callable[[str], list[FoundTable]],
 ) -> str:
-    """The text with the repair of table k; empty if none is certain."""
     is_other = found.table.is_multirate or found.table.form
     if found.method is None or found.order is None or is_other:
         return ""
@@ -177,14 +167,12 @@ def _fitting(
 
 
 def _differs_alone(tables: Sequence[FoundTable], others: Sequence[FoundTable], k: int) -> bool:
-    """Whether table k is the only one that differs."""
     if len(tables) != len(others):
         return False
     return [i for i, (x, y) in enumerate(zip(tables, others, strict=True)) if x != y] == [k]
 
 
 def _has_estimate(table: FoundTable) -> bool:
-    """Whether the embedded weights are read as b and an estimate."""
     rows = zip(table.b, table.embedded or (), strict=False)
     pairs = [pair for row in rows for pair in zip(*row, strict=True)]
     return all(y == x or y.startswith((f"{x} - (", f"{x} + (")) for x, y in pairs)

@@ -39,13 +39,12 @@ def place_of(table: FoundTable) -> str:
 
 
 def fmpq_of(text: str) -> fmpq:
-    """A rational number; 0 for any other text."""
+    """0 for texts that are no rational numbers."""
     value = parsed(text)
     return value if isinstance(value, fmpq) else fmpq(0)
 
 
 def parsed(text: str) -> Number | None:
-    """The number in a text; None if it is no number."""
     try:
         expression = parse(text)
         if isinstance(expression, Literal):
@@ -56,7 +55,6 @@ def parsed(text: str) -> Number | None:
 
 
 def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mapping[str, str]) -> str:
-    """The method file of a table."""
     whence = plain_line(printable(place_of(table)))
     lines = [f"# from {whence}, read as {table.format}", "gark: 1"]
     if name:
@@ -127,7 +125,6 @@ def _rosenbrock(table: FoundTable) -> Mapping[str, Tree]:
 
 
 def _slow(table: FoundTable) -> Mapping[str, Tree]:
-    """The slow part of a multirate infinitesimal method: a coupling, or a method."""
     coupling = table.coupling
     if coupling is None:
         assert table.A[0][0] is not None
@@ -158,7 +155,7 @@ def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
 
 
 def _sums(table: FoundTable, l: int) -> Row:
-    """The row sums of the diagonal block, as nodes where the source has none."""
+    """Nodes for sources without them: the row sums of the diagonal block."""
     block = table.A[l][l]
     if block is None:
         return ("0",) * len(table.b[l])

@@ -20,7 +20,6 @@ class Judged(Frozen, eq=False):
 
     Attributes:
         is_open: whether the next order is undecided, since rounding may explain the violation.
-        witness: a tree whose condition fails; None if none is known.
         rounded: the tableau, and the largest distance of its numbers from a method with the order;
             None if the conditions hold exactly.
         is_limited: whether the search stopped at its limit.
@@ -51,11 +50,8 @@ def at_least(order: int) -> str:
 
 
 class Digits(Frozen):
-    """The precision of the coefficients of a source.
-
-    Attributes:
-        units: the units of the last place for numbers computed from printed ones.
-        short: the units of decimals of four or five places, if no coefficient has more.
+    """``units`` of the last place are for numbers computed from printed ones, ``short`` ones for
+    decimals of four or five places, if no coefficient has more.
     """
 
     printed: Printed

@@ -26,18 +26,12 @@ SMALL = 8_000
 FREE_SECONDS = 20
 """Seconds for every source: a hundred times those for 50 KB on an idle machine."""
 BYTES_PER_SECOND = 50_000
-"""One more second for each so many bytes."""
 JUDGING_SECONDS = 60.0
 """Seconds for every table: a pair of order 10 with its 17 stages takes a third of them."""
 
 
 class SourceToRead(Frozen):
-    """A source to read.
-
-    Attributes:
-        size: in bytes of a file, in characters of a text.
-        text: of a source that only this process can read, such as standard input.
-    """
+    """``size`` is in bytes or characters; only this process reads a ``text``, as standard input."""
 
     name: str
     size: int
@@ -47,9 +41,7 @@ class SourceToRead(Frozen):
 def read_within_limits(
     paths: Iterable[str], read: Callable[[str, str], list[FoundTable]], jobs: int = 1
 ) -> Iterator[FoundTable]:
-    """The tables of all sources, in order; a placeholder if a parser takes too long. ``read`` is
-    picklable; UsageProblem if a source cannot be read.
-    """
+    """A placeholder if a parser takes too long; ``read`` is picklable."""
     sources = [_source(path) for path in paths]
     with _crew(_Work(read), sources, jobs) as workers:
         for tables in _known(workers, sources, "files"):
@@ -63,9 +55,7 @@ def judged_within_limits(
     late: Callable[[FoundTable, str], T],
     jobs: int = 1,
 ) -> Iterator[T]:
-    """The verdict on each table of all sources, in order; ``late`` gives that on a table that takes
-    too long. ``read`` and ``judge`` are picklable; UsageProblem if a source cannot be read.
-    """
+    """``late`` judges tables that take too long; ``read`` and ``judge`` are picklable."""
     sources = [_source(path) for path in paths]
     with _crew(_Work(read, judge, late), sources, jobs) as workers:
         tables = list(chain.from_iterable(_known(workers, sources, "files")))

@@ -19,12 +19,7 @@ from garkcli.tableau.pointwise import Row
 
 
 class LinearStages(LinearlyImplicit, kw_only=True):
-    """A method with stages computed one after the other, and its further weights.
-
-    Attributes:
-        dense: the coefficients of θ, θ², … of each b_i(θ).
-        has_row_sums: whether c and d are the sums of the rows.
-    """
+    """``dense`` has the coefficients of θ, θ², … of each b_i(θ)."""
 
     embedded: Row | None
     dense: Rows | None
@@ -54,14 +49,10 @@ def printed_stages(payload: Payload) -> LinearStages:
 
 
 class StoredProgram(Frozen):
-    """A method in stored form, with one γ for all stages.
+    """A method in stored form, with one γ for all stages; ``d`` are the weights of ∂f/∂t.
 
-    Attributes:
-        d: the weights of ∂f/∂t.
-        error: m − m̂; None without embedded weights.
-        interpolant: rows H_1, H_2, … with b(θ) = θ m + θ (1 − θ) (H_1 + θ H_2 + …); None without
-            dense output, or if it does not end at m.
-        is_new: whether each stage evaluates f at another point than the stage before.
+    ``error`` is m − m̂; ``interpolant`` has rows H_1, H_2, … with b(θ) = θ m + θ (1 − θ) (H_1 + θ
+    H_2 + …), None if dense output does not end at m; ``is_new`` stages evaluate f at another point.
     """
 
     stored: Stored

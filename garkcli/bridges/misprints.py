@@ -21,13 +21,8 @@ _MINUS = re.compile(r"-(?=\s*(?:\w+\(\s*)?$)")
 
 
 class Wanted(Frozen):
-    """A repair of a number.
-
-    Attributes:
-        allowed: the tolerance of the new number.
-        is_sure: whether any other number is allowed; otherwise a sign or a digit must be wrong.
-        is_estimate: whether the number is of an error estimate, False if of embedded weights; None
-            for others.
+    """``new`` may be off by ``allowed``; unless ``is_sure`` a sign or a digit must be wrong;
+    ``is_estimate`` is None for numbers of neither error estimates nor embedded weights.
     """
 
     old: fmpq
@@ -106,7 +101,6 @@ def _slips(number: str) -> Iterator[str]:
 
 
 def written(line: str, place: NumberPlace, wanted: Wanted) -> Iterator[str]:
-    """The line with another number, in the format of the old one."""
     p, q = abs(int(wanted.new.p)), int(wanted.new.q)
     first, last = place.tokens[0], place.tokens[-1]
     point = re.sub(r"^\d*|[eEdD].*$", "", first[0])

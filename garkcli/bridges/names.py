@@ -116,4 +116,3 @@ RESERVED: Mapping[str, frozenset[str]] = {
     language: frozenset(words.split()).union(*[kwlist, softkwlist] if language == "python" else [])
     for language, words in _WORDS.items()
 }
-"""The words of each language, with the names that exported files use."""

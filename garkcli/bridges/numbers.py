@@ -24,12 +24,10 @@ class Style(Frozen):
     """The format of numbers in a language.
 
     Attributes:
-        longest: decimals that end within so many digits are written in full, for any ``digits``; 0
-            for none.
+        longest: decimals that end within so many digits are written in full; 0 for none.
         decimal: the text around a decimal ``{x}``.
         fraction: the text of a fraction, with ``{p}`` and ``{q}``; empty for decimals instead.
         largest: the largest numerator and denominator of fractions.
-        irrational: writes an irrational number; None for a decimal.
         exponent: the letter before the power of ten.
         point: whether integers have a point: ``1.0``.
     """
@@ -45,7 +43,7 @@ class Style(Frozen):
     point: bool = True
 
     def text(self, x: Cell, digits: int | None = None) -> str:
-        """A number in this style; with ``digits`` fractions become decimals."""
+        """With ``digits`` fractions become decimals."""
         if digits is not None:
             return self._decimal(x, digits, is_short=False)
         if isinstance(x, Algebraic) and self.irrational is not None:
@@ -123,7 +121,6 @@ EXACT = Style(
     irrational=str,
     point=False,
 )
-"""Exact, as in method files."""
 PYTHON = Style(longest=100, fraction="{p}/{q}", point=False)
 """Python and MATLAB round the quotient of two integers, and a decimal of any length, once."""
 DECIMALS = Style()
@@ -131,10 +128,7 @@ DECIMALS = Style()
 
 
 def c_style(macro: str) -> Style:
-    """Numbers inside a macro that gives them the suffix of their type.
-
-    A quotient of integers of the type is right in every precision; binary128 needs 36 digits.
-    """
+    """A quotient of integers of the type is right in every precision; binary128 needs 36 digits."""
     return Style(
         digits=36,
         longest=100,

@@ -16,13 +16,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Orders(Frozen):
-    """The proved orders of a method.
-
-    Attributes:
-        nonautonomous: the order for y' = f(t, y) with the given nodes, if these are not the row
-            sums; None if it equals the order, or is not applicable.
-        w_order: of a Rosenbrock method with any matrix for its Jacobian.
-        tolerance: within which the conditions hold; None if they hold exactly.
+    """``nonautonomous`` is the order for y' = f(t, y) if it differs, ``w_order`` that with any
+    matrix for the Jacobian of a Rosenbrock method; ``tolerance`` is None if conditions hold
+    exactly.
     """
 
     order: int

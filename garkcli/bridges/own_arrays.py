@@ -70,9 +70,7 @@ def _of_derivatives(tableau: Tableau, further: Further) -> _Named:
 
 
 def stepped_values(payload: Payload) -> Mapping[str, Any]:
-    """The values for a program that steps; CannotExport if a stage depends on a later one, or on
-    itself with derivatives of more than F.
-    """
+    """CannotExport if a stage needs a later one, or itself with derivatives of more than F."""
     kind, arrays, name = own_kind(payload.tableau), payload.own, payload.name
     assert kind is not None
     assert arrays is not None

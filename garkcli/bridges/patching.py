@@ -14,7 +14,6 @@ from garkcli.page.safety import inert
 
 AROUND = 3
 _BLANK = "\t\r\n\f"
-"""Signs of sources that do not print."""
 _NO_END = "\n\\ No newline at end of file\n"
 
 
@@ -24,9 +23,7 @@ def patches(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[tuple[Me
 
 
 def patch_of(source: str, before: str, after: str) -> str:
-    """The unified diff of one file; empty if nothing changes, if it would contain control sequences
-    or commands for the runner of a job, or if the path is not below the current folder.
-    """
+    """Empty if nothing changes, the path is not below the current folder, or signs are unsafe."""
     name = _name_of(source)
     if not name or before == after:
         return ""

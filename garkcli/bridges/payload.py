@@ -27,9 +27,7 @@ if TYPE_CHECKING:
 Kind: TypeAlias = Literal[
     "rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives", "mri"
 ]
-"""``rk``: one vector field; ``ark``: several on shared stages; ``prk``: the pair (q, p); ``row``:
-Rosenbrock; ``mri``: multirate with an exact fast part.
-"""
+"""``ark``: shared stages; ``prk``: (q, p); ``row``: Rosenbrock; ``mri``: exact fast part."""
 SCHEMA = "gark/export/1"
 
 OwnArrays: TypeAlias = Mapping[str, tuple[Any, ...]]
@@ -42,17 +40,14 @@ class Payload(Frozen, eq=False, kw_only=True):
     """A method for writers. Colours and stages count from 0.
 
     Attributes:
-        name: one line of any signs.
         tableau: on point stages if the nodes have simple radicals.
         A: ``A[l][m]`` is a matrix, or None if the stages of colour l do not depend on colour m;
             entries are exact numbers, or enclosures fine enough for rounding.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         tolerance: the rounding of A, b and c in the file; None if they are exact.
         structure: of the vector fields, such as ``general``, ``separable``.
-        reference: its publication, in one line.
-        digits: of every number, if requested.
         moved_within: a bound on the distance to the numbers of the file, if these have fewer
-            digits; None if they are the same.
+            digits.
         rosenbrock: a Rosenbrock method, with α, b and c in A, b and c.
         own: the arrays of kinds with their own arrays; then A, b and c are empty.
         coupling: between the slow stages of a multirate infinitesimal method.
@@ -96,9 +91,7 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @property
     def parts(self) -> Mapping[str, list[Part]]:
-        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by colour; a
-        predictor has ``predictor_old_r0`` and so on, a matrix for each power of r.
-        """
+        """Each power of r of a predictor has a matrix ``predictor_old_r0`` and so on."""
         blocks: list[Part] = [
             (l, m, block)
             for l, of_colour in enumerate(self.A, start=1)
@@ -117,9 +110,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         return arrays
 
     def arrays(self, before: str = "") -> list[tuple[str, Sequence[Row]]]:
-        """The arrays by ``A``, ``b``; for several vector fields ``A1_2``, ``b2``, with ``before``
-        between letter and numbers.
-        """
+        """``A``, ``b``; of several fields ``A1_2``, ``b2``, with ``before`` before the numbers."""
         parts = [(part, *x) for part, arrays in self.parts.items() for x in arrays]
         parts.sort(key=lambda x: (x[0] != "A", x[1]))
         if self.size == 1:
@@ -131,9 +122,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         return names.stem_of(self.name)
 
     def number(self, x: Cell, style: Style = EXACT) -> str:
-        """An entry with the requested digits; CannotExport if an enclosure is too wide for
-        rounding.
-        """
+        """CannotExport if an enclosure is too wide for rounding."""
         try:
             return style.text(x, self.digits)
         except TooWide:

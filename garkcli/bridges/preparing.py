@@ -36,9 +36,7 @@ USUAL = 40
 
 @doing("numbers and orders")
 def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
-    """The input of writers, with so many digits of every number if requested. Raises CannotExport
-    if no target writes the method, MethodError if it was not read from a file.
-    """
+    """CannotExport if no target writes the method, MethodError if it was not read from a file."""
     file = method if method.base is None else method.base
     if not isinstance(file, MethodFile):
         message = f"{method!r} is no method file"
@@ -157,7 +155,6 @@ def _entries(tableau: Tableau, digits: int | None) -> Entries:
 
 
 def _nodes(tableau: Tableau, l: int, row: Row) -> Row:
-    """The nodes of a colour, rational ones exact."""
     colour = tableau.colours[l]
     space = tableau.spaces[colour.space]
     exact: Sequence[object] = colour.c

@@ -11,8 +11,6 @@ from garkcli.exact.rewriting import PlainText
 
 
 class Radicals(PlainText, ABC):
-    """Writes sums of multiples of radicals in a language."""
-
     POWER = "^"
 
     @abstractmethod

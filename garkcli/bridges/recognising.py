@@ -18,12 +18,7 @@ MAX_NUMBERS = 400
 
 
 class Recognised(Frozen):
-    """A method with exact forms in place of decimals.
-
-    Attributes:
-        refused: proposals with which the order falls.
-        left: decimals without a proposal.
-    """
+    """With ``refused`` proposals the order falls; ``left`` decimals have none."""
 
     method: TableSubject
     taken: tuple[Proposal, ...]

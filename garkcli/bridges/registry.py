@@ -85,10 +85,7 @@ class Bridge(Frozen):
     linear: Callable[[Payload], Values] = lambda payload: {"linear": printed_stages(payload)}
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
-        """A program that runs a method, and its problem, by the ending after the stem of the
-        table's name: ``_test.c``; empty if the target is data. Raises CannotExport if the target
-        cannot hold the method, or ``file`` must have another name.
-        """
+        """By endings such as ``_test.c``; CannotExport, also if ``file`` must have another name."""
         if self.words is None:
             return {}
         if payload.kind == "row":
@@ -106,7 +103,7 @@ class Bridge(Frozen):
         return {f"_test{ending}": text, "_problem.yaml": trial_of(payload).file}
 
     def written(self, payload: Payload) -> str:
-        """The file of a method; CannotExport if the target cannot hold it."""
+        """CannotExport if the target cannot hold the method."""
         values = self._values_for(payload)
         if self.write is not None:
             return self.write(payload)
@@ -199,9 +196,7 @@ class Bridge(Frozen):
 
 EVERYTHING: tuple[Kind, ...] = ("rk", "ark", "prk", "gark")
 STEPPED: tuple[Kind, ...] = (*EVERYTHING, "row", *KINDS)
-"""The kinds for which templates write a function that steps."""
 _ENDINGS = {".hpp": ".cpp"}
-"""Endings of programs that differ from those of the tables."""
 _KINDS: Mapping[Kind, str] = {
     "rk": "methods for one vector field",
     "ark": "methods for several vector fields that share their stages",

@@ -34,7 +34,6 @@ _LITTLE = 1e-9
 MANY = 60
 """With more rounded numbers each condition is judged on its own."""
 MOST = -4
-"""The largest exponent of a power of ten for a tolerance."""
 TINY = 1e-300
 
 
@@ -53,12 +52,7 @@ class _Within(Digits):
 
 
 class RowSubject(TableSubject):
-    """A Rosenbrock or a multirate infinitesimal method with its orders.
-
-    Attributes:
-        timed: the order for f(t, y), with the c and d of the source.
-        careless: violations that only careless rounding explains.
-    """
+    """``timed`` is for f(t, y), with c and d; only careless rounding explains ``careless``."""
 
     timed: Judged | None = None
     careless: tuple[Remark, ...] = ()
@@ -79,9 +73,7 @@ def _radii(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
 
 
 def with_row_orders(table: FoundTable, name: str = "") -> RowSubject:
-    """A table and its method; an error estimate gets the sign with the higher order. Raises
-    MethodFileError if the numbers give no method.
-    """
+    """An estimate gets the sign with the higher order; MethodFileError for no method."""
     subject = _subject(table, read(table, name))
     embedded = subject.embedded_order
     # conditions are linear in the weights: both signs fail those that e alone fails
@@ -209,9 +201,7 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
 
 
 def _slip(subject: RowSubject) -> Iterator[Remark]:
-    """The number that costs a method without a declared order several orders, or weights that are
-    no method.
-    """
+    """One number costs a method without a declared order several orders, or it is no method."""
     order = subject.order
     found = misprints(subject.method, order) if not order.is_open else ()
     message = f"order {order.order}{_why(order)}"
@@ -244,7 +234,7 @@ def _why(found: Judged) -> str:
 
 
 def imported_row(table: FoundTable, name: str, is_as_found: bool) -> RowSubject:
-    """The method of a table with its file and findings; MethodFileError if it is none."""
+    """MethodFileError if the numbers give no method."""
     subject = with_row_orders(table, name)
     subject = replace(subject, findings=tuple(row_findings(subject)))
     claims = {"order": subject.order.claim}

@@ -22,7 +22,6 @@ MOST_DIGITS = 20_000
 """Most digits to decide the rounding of an irrational number, enough for 10 000 nines."""
 _GUARD = 20
 _BITS = 1000
-"""Precision of arithmetic with enclosures, far beyond the written digits."""
 _DIGITS = 300
 
 
@@ -56,9 +55,7 @@ def rounded(x: Cell, digits: int) -> Decimal:
 
 
 def nearest_float(x: Cell) -> float:
-    """The nearest binary64 number, ties to even; TooWide if the enclosure leaves it open,
-    OverflowError if it is too large.
-    """
+    """Ties to even; TooWide if the enclosure leaves it open, OverflowError if it is too large."""
     # the quotient of two integers of Python is rounded once
     return _agreed(x, 17, lambda end: int(end.p) / int(end.q))
 
@@ -97,5 +94,4 @@ def combined(*terms: tuple[fmpq | int, Cell]) -> Cell:
 
 
 def ball(x: Cell) -> arb:
-    """An enclosure far finer than the written digits."""
     return x if isinstance(x, arb) else to_ball(x, _DIGITS)

@@ -29,7 +29,6 @@ _OTHER_BEFORE = frozenset(
         *("at", "than", "effective", "q", "p"),
     }
 )
-"""Words that give an order of something else."""
 _OTHER_AFTER = re.compile(
     r"[0-9]|ode|odes|dae|daes|pde|pdes|ivp|equation|differential|ordinary|system|problem|derivative"
     r"|dense|interpol|error|estimat|embed|hermite|polynomial|term|optimi|backward|condition"
@@ -74,14 +73,11 @@ def order_said(text: str) -> int | None:
 
 
 def order_said_of(lines: Sequence[str], line: int) -> int | None:
-    """The order in the nearest comment or docstring about the table at ``line``, from 1."""
     return next((x for x in map(order_said, _passages(lines, line)) if x is not None), None)
 
 
 def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
-    """The texts about a table: on its line and above, then in and above the function or class
-    around.
-    """
+    """On the line of a table and above, then in and above the function or class around."""
     at = line - 1
     if not 0 <= at < len(lines):
         return
@@ -97,7 +93,6 @@ def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
 
 
 def _around(lines: Sequence[str], at: int) -> int:
-    """The first line of the function or class around a line; -1 if there is none."""
     width = _indent(lines[at])
     for i in range(at - 1, max(-1, at - MAX_SCOPE), -1):
         if lines[i].strip() and _indent(lines[i]) < width:
@@ -123,9 +118,7 @@ def _above(lines: Sequence[str], at: int) -> Sequence[str]:
 
 
 def _quoted(lines: Sequence[str], at: int, step: int) -> Sequence[str]:
-    """A docstring, or a comment of C, with one end on a line, the other below for step 1, above for
-    -1.
-    """
+    """One end is on a line, the other below for step 1, above for -1."""
     text = lines[at].strip().lstrip("rRuU") if at >= 0 else ""
     mark = text[:3] if step > 0 else text[-3:]
     if step < 0 and text.endswith("*/"):

@@ -38,7 +38,6 @@ def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> 
 
 
 def _why_not(path: str, folder: str) -> str:
-    """The reason why a file of a folder is not read; empty if it is."""
     try:
         size = os.stat(path).st_size
     except OSError as error:
@@ -64,9 +63,7 @@ def _below(folder: str) -> Iterator[str]:
 
 
 def source_text(path: str) -> tuple[str, str]:
-    """The text of a source and its name, bytes other than UTF-8 replaced; UsageProblem if it cannot
-    be read, or is too long.
-    """
+    """Bytes other than UTF-8 are replaced; UsageProblem if the source is unreadable or too long."""
     name = STDIN_NAME if path == STDIN else path
     try:
         data = read_bytes(path, MAX_CHARACTERS)

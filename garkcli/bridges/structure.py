@@ -23,11 +23,7 @@ def vanishes(x: Cell) -> bool:
 
 
 class Table(Frozen):
-    """The coefficients of one vector field, as a Butcher tableau.
-
-    Attributes:
-        dense: the coefficients of θ, θ², … of each b_i(θ).
-    """
+    """``dense`` has the coefficients of θ, θ², … of each b_i(θ)."""
 
     A: Rows
     b: Row
@@ -113,12 +109,8 @@ def _with_stage(found: Table, at: int, weights: Row, node: Cell) -> Table:
 
 
 class _Stage(Mutable):
-    """A shared stage of all colours under construction.
-
-    Attributes:
-        rows: the stage value as weights of all vector fields, colour by colour.
-        place_of: the stage number of each colour that evaluates its vector field here.
-        node: the node of all other vector fields.
+    """``rows`` are the stage value as weights of all vector fields; ``place_of`` has the stage
+    numbers of colours that evaluate their field here; ``node`` is that of the others.
     """
 
     rows: tuple[Row, ...]
@@ -138,7 +130,6 @@ def shared(payload: Payload) -> list[Table]:
 
 
 def _merged(payload: Payload) -> list[_Stage]:
-    """The distinct stage values of all colours."""
     distinct: list[_Stage] = []
     for l, blocks in enumerate(payload.A):
         for i, node in enumerate(payload.c[l]):
@@ -157,9 +148,7 @@ def _merged(payload: Payload) -> list[_Stage]:
 
 
 def _sorted(stages: Sequence[_Stage]) -> list[int]:
-    """An order, close to the given one, in which no stage depends on a later one; stages that
-    depend on each other come together.
-    """
+    """No stage depends on a later one, unless on each other; else in the given order."""
     at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
     needs = {
         k: [
@@ -174,7 +163,6 @@ def _sorted(stages: Sequence[_Stage]) -> list[int]:
 
 
 def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:
-    """The table of vector field m on shared stages."""
     places = [stage.place_of.get(m) for stage in stages]
 
     def spread(row: Row) -> Row:
@@ -193,9 +181,8 @@ def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:
 
 
 class Composition(Frozen):
-    """A separable method as a sequence of exact flows: kicks p += hk g(q), drifts q += hd f(p).
-
-    Flows alternate, a kick first: kick 1, drift 1, kick 2, …
+    """A separable method as exact flows, kicks p += hk g(q) and drifts q += hd f(p) in alternation:
+    kick 1, drift 1, kick 2, …
     """
 
     kicks: Row

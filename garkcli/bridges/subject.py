@@ -32,13 +32,8 @@ HIGH = 10
 
 
 class TableSubject(Frozen, eq=False):
-    """A table with its method.
-
-    Attributes:
-        text: of the method file, if there is one.
-        sign: the chosen sign of an error estimate, with the reason; empty if there is none, or the
-            source fixes it.
-        is_sign_open: whether nothing decides the sign.
+    """``sign`` is that of an error estimate with the reason, empty if the source fixes it;
+    ``is_sign_open`` if nothing decides it.
     """
 
     table: FoundTable
@@ -69,7 +64,6 @@ class TableSubject(Frozen, eq=False):
 
     @cached_property
     def rounded(self) -> RoundedTableau:
-        """The method with the freedom of its digits."""
         return self.digits.of(self.tableau)
 
     @cached_property
@@ -110,7 +104,6 @@ class TableSubject(Frozen, eq=False):
 
     @cached_property
     def nonautonomous(self) -> Judged | None:
-        """The order for f(t, y), with the given nodes."""
         timed = with_time(self.tableau)
         if timed is None:
             return None
@@ -133,14 +126,14 @@ class TableSubject(Frozen, eq=False):
 
 
 def read(table: FoundTable, name: str = "") -> MethodFile:
-    """The method of a table, without tolerance; MethodFileError if its numbers give none."""
+    """Without tolerance; MethodFileError if the numbers give no method."""
     return loads(written(table, name, None, {}), place_of(table))
 
 
 def orders_of(
     method: MethodFile, table: FoundTable, limit: int | None = None
 ) -> tuple[Judged, Judged | None]:
-    """The orders of a method and of its embedded weights, within their digits."""
+    """Within their digits."""
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
     digits, spans = digits_of(method, table), StageSpans(method.tableau)
     order = judged(digits, method.tableau, table.order, limit, admitted, spans)
@@ -159,9 +152,7 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
 
 
 def _short_units(table: FoundTable) -> Mapping[Number, fmpq]:
-    """One unit of the last place of each decimal of four or five places, if there are several and
-    no coefficient has more places.
-    """
+    """One unit of the last place of several decimals of four or five places, if none is longer."""
     values = [x for text in numbers_of(table) for x in [parsed(text)] if x]
     places = [_places(x) for x in values]
     short = range(SEVERAL_PLACES, FEW_PLACES.stop)

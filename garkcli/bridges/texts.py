@@ -91,7 +91,6 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
     texts = {"file": file, "stem": stem, "command": command_of(payload, f"{stem}_problem.yaml")}
 
     def comment(*notes: str) -> str:
-        """Notes with values for ``{file}``, ``{stem}`` and ``{command}``."""
         return "\n".join(mark.lines(note.format(**texts) for note in notes))
 
     return {

@@ -12,7 +12,6 @@ from garkcli.bridges.payload import Payload
 from garkcli.frozen import Frozen
 
 STEPS = (8, 16, 32, 64)
-"""Numbers of steps, one row of the output each."""
 
 
 class Trial(Frozen):
@@ -55,7 +54,6 @@ class Trial(Frozen):
 
 
 WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos", "zero": "0.0"}
-"""The words in C, Python and other languages with arrays from 0."""
 CPP_WORDS = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
 WHOLE = Trial(
     name="whole",

@@ -16,7 +16,6 @@ from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES
 
 MAX_DEPTH = 12
-"""Deepest nesting of objects in which tables are sought."""
 _KEYS = {
     **{key: key for key in ("tolerance", "structure")},
     **ROLES,
@@ -37,7 +36,6 @@ def _tables_in(text: str) -> Iterator[tuple[int, Values]]:
 
 
 def _lines(text: str) -> Iterator[int]:
-    """The first lines of objects."""
     place, line = 0, 1
     for match in _OBJECT.finditer(text):
         if match.group() == "{":

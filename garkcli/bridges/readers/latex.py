@@ -62,13 +62,11 @@ def _arrays(text: str) -> Iterator[tuple[int, str, str]]:
 
 
 def _letter(before: str) -> str:
-    """The Q or P before an array of a pair."""
     words = re.findall(r"\b([QP])\s*:", before)
     return words[-1] if words else ""
 
 
 def _groups(columns: str) -> list[int]:
-    """The number of columns between bars, without that of the nodes."""
     repeated = re.sub(
         r"\*\{([0-9]{1,3})\}\{([clr|]{1,9})\}", lambda x: x[2] * min(int(x[1]), MAX_STAGES), columns
     )
@@ -110,7 +108,7 @@ def _numbers(cells: list[str], count: int) -> list[str]:
 
 
 def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
-    """The arrays Q and P of a partitioned method; empty if they do not fit."""
+    """Empty if the arrays Q and P do not fit."""
     if len(of_q[1]) == len(of_p[0]) == 2 and len(of_p[1]) == 1:
         return _semi_separable(of_q, of_p)
     if len(of_q[1]) != 1 or len(of_p[1]) != 1:
@@ -128,10 +126,7 @@ def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
 
 
 def _semi_separable(of_q: _Grid, of_p: _Grid) -> printed.Values:
-    """A pair with a second Hamiltonian in q alone: vector fields V1, F1 and F2.
-
-    V1 and F1 have the stages of the first rows of Q and of P; those of F2 depend on V1 alone.
-    """
+    """The second Hamiltonian depends on q alone, so the stages of F2 depend on V1 alone."""
     groups, _, weights = of_p
     first, last = of_q[1]
     all_columns = [sum(of_q[0])]

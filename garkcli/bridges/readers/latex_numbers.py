@@ -13,7 +13,6 @@ _IGNORED = re.compile(
     r"|bigl?|bigr?|Bigl?|Bigr?|mathstrut)(?![A-Za-z])|\\[,;:!> ]"
 )
 _ROOT_OF = re.compile(r"\\operatorname\{root\}\(([-+0-9x^{}/]{1,4000}),x\\approx(-?[0-9.]{1,60})\)")
-"""The root of a polynomial nearest to a decimal, in the notation of gark."""
 _LETTER = r"\\(?:gamma|xi|eta|zeta)(?![A-Za-z])"
 _DEFINED = re.compile(rf"= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})")
 """After a polynomial in a letter: it is zero, and a decimal near the letter."""

@@ -18,8 +18,6 @@ _ORDER = ir.Name("order")
 
 
 class MathematicaLowering(Formulas):
-    """Assignments, associations and functions."""
-
     def __init__(self, text: str) -> None:
         super().__init__(text, call="[")
 
@@ -49,9 +47,7 @@ class MathematicaLowering(Formulas):
                     yield ir.Assign(entry, self.expression(*value), line)
 
     def _inside(self, start: int, end: int, depth: int) -> ir.Body:
-        """The statements in the brackets of a value, as in ``With[{x = 1}, …]``, or the table that
-        it is.
-        """
+        """The statements in brackets, as in ``With[{x = 1}, …]``, or the table that a value is."""
         value, line = self.expression(start, end), self.tokens[start].line
         listed = _of_ndsolve(value)
         if listed:

@@ -38,9 +38,7 @@ def listed(value: Nested) -> ir.Expr:
 
 
 def grid(groups: Sequence[int], stages: Sequence[Cells], weights: Cells) -> Values:
-    """The parts of a tableau in rows; empty if its sizes do not fit. ``groups`` are the numbers of
-    columns of each vector field, an empty cell is 0.
-    """
+    """``groups`` are columns of each vector field; empty if sizes do not fit; empty cells are 0."""
     if len(stages) == 1 and len(groups) > 1:
         # colours that share their stages, or a bar without meaning
         is_shared = len(set(groups)) == 1 and groups[0] == len(stages[0])

@@ -79,7 +79,6 @@ def _read(reader: Reader, text: str, source: str) -> list[FoundTable]:
 
 
 def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
-    """The tables of the reader that reads most in a text of an unknown format."""
     best: list[FoundTable] = []
     no_tables: list[FoundTable] = []
     for reader in chosen:

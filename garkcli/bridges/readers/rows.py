@@ -20,7 +20,6 @@ _HEAD = re.compile(r"#[ \t]*([0-9]{1,3})[ \t]+([0-9]{1,3})[ \t]+([A-Za-z]\S*)")
 _NUMBER = re.compile(r"[-+]?(?:[0-9]{1,400}\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]{1,4}|//[0-9]+)?")
 _PART = re.compile(r"[ \t]*([Acbd])[ \t]*=[ \t]*([-+0-9.eE \t,]*)")
 MAX_LINE = 20_000
-"""Longest line of ARKODE."""
 csv.field_size_limit(131_072)
 
 
@@ -69,7 +68,6 @@ def _entries(rows: Sequence[Sequence[str]]) -> Values:
 
 
 def _nested(entries: Mapping[tuple[int, ...], str], widths: Sequence[int] = ()) -> Nested:
-    """Entries in nested lists of at least the given lengths, with None for missing ones."""
     if () in entries:
         return entries[()]
     inner: dict[int, dict[tuple[int, ...], str]] = {}

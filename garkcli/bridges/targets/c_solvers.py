@@ -36,7 +36,7 @@ def _of_ts(_: Payload, tables: Sequence[Table]) -> Values:
 
 
 def _of_rosw(payload: Payload) -> Values:
-    """The stages; the solver sums the rows itself."""
+    """The solver sums the rows itself."""
     stages = printed_stages(payload)
     lost = [] if stages.has_row_sums else ["c and d, which are the row sums there"]
     return {"linear": stages, "left_out": lost}

@@ -32,7 +32,6 @@ from garkcli.page.schema import (
 from garkcli.tableau.tableau import Colour
 
 DIGITS = 40
-"""Digits of entries without simple radicals."""
 _EXACT = replace(EXACT, digits=DIGITS)
 _PRINTED = replace(_EXACT, is_fraction_first=False)
 """For rounded coefficients: decimals stay decimals."""
@@ -47,7 +46,6 @@ def export_schema() -> Schema:
 
 
 def style_of(payload: Payload) -> Style:
-    """The lossless style for the numbers of a method."""
     return _EXACT if payload.tolerance is None else _PRINTED
 
 

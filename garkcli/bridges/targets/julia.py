@@ -57,7 +57,6 @@ JULIA = _Exact(digits=_BIG, decimal='big"{x}"')
 
 
 def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
-    """A, B and c of the 2N form."""
     (only_table,) = tables
     message = (
         f"climatimesteppers has methods in Williamson's 2N form, which {payload.name} has"
@@ -77,7 +76,6 @@ def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
 
 
 _ROWS_OF_H = 4
-"""Most rows of the interpolant that its solvers add up."""
 
 
 def _rodas(payload: Payload) -> Values:

@@ -18,7 +18,6 @@ from garkcli.tableau.letters import with_letters
 from garkcli.tableau.pointwise import Cell, Entries
 
 DECIMALS = Style(longest=1000, point=False)
-"""For rounded coefficients, and for entries without radicals."""
 
 
 def write(payload: Payload) -> str:

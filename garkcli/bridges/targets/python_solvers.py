@@ -19,9 +19,7 @@ from garkcli.tableau.pointwise import Row
 
 _CLOSE = 1e-8  # of numpy.allclose, used by diffrax
 HERMITE = ((0, 3, -2), (1, -2, 1), (0, -1, 1))
-"""The cubic through values and slopes of both ends: the factors of b_i, of the first and the last
-slope, as coefficients of θ, θ² and θ³.
-"""
+"""The cubic Hermite polynomial: factors of b_i, first and last slope, by θ, θ², θ³."""
 
 
 def _of_scipy(_: Payload, tables: Sequence[Table]) -> Values:

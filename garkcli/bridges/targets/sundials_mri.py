@@ -140,9 +140,7 @@ def _with_first_rows(powers: Sequence[Rows], nothing: Row, least: int) -> list[R
 
 
 def _restarted(payload: Payload, coupling: Coupling) -> Slow:
-    """A coupling whose fast problems begin with the step; CannotExport if one has no length, or a
-    stage uses a later one, or itself in its forcing.
-    """
+    """CannotExport if a fast problem has no length, or a stage needs a later one."""
     assert coupling.matrices is not None
     nodes = coupling.nodes
     if any(ball(c) <= 0 for c in nodes[1:]):
@@ -165,9 +163,7 @@ def _restarted(payload: Payload, coupling: Coupling) -> Slow:
 
 
 def _refuse_stages(name: str, nodes: Row, parts: Sequence[Sequence[Rows]]) -> None:
-    """Raises CannotExport if nodes descend, or a stage uses a later one, or is implicit with a fast
-    problem: MRIStep refuses these at its start.
-    """
+    """MRIStep refuses descending nodes, later stages, and implicit stages with a fast problem."""
     widths = [ball(combined((1, end), (-1, begin))) for begin, end in pairwise(nodes)]
     if any(width < 0 for width in widths):
         cure = "choose a coupling with ascending nodes"
