@@ -109,7 +109,6 @@ _REFERENCE = mapping(
 
 
 def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
-    """A reference in one line, and its fields if it has any."""
     if not isinstance(node, MappingNode):
         return at.source.scalar(node, where) or "", None
     fields: ReadMapping = _REFERENCE.read(at, node, where)

@@ -130,7 +130,6 @@ class BlockBuilder:
 
     @cached_property
     def _alone(self) -> list[AnyTableau]:
-        """The diagonal methods on their own, rounded if the file is."""
         return self.values.once(
             ("alone", id(self.text)),
             lambda: [meant(self.values.alone(method), self.tolerance) for method in self.methods],

@@ -25,7 +25,6 @@ def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
 
 
 def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
-    """The lines of ``expect`` for the claims in ``names``, under their new names."""
     for key, claims in _entries(method):
         if key.value == "expect" and isinstance(claims, MappingNode):
             kept: list[tuple[Node, Node]] = [
@@ -60,7 +59,7 @@ _DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:
-    """The file of the method with ``conjugate: true`` added, or removed; exact for every method.
+    """``conjugate: true`` is added, or removed: exact for every method.
 
     Claims, the description, embedded and dense weights are about the other method, and dropped.
     """

@@ -58,7 +58,7 @@ def block_name(l: int, m: int) -> str:
 
 
 def of_colour(letter: str, l: int) -> str:
-    """Weights, nodes or a matrix for messages.
+    """A name for messages.
 
     >>> of_colour("b", 0)
     'b^{1}'
@@ -174,8 +174,6 @@ class Content(Frozen):
 
 
 class MethodsText(Content):
-    """The construction of the paper."""
-
     methods: tuple[FamilyText | ButcherText, ...]
     transfer: TransferText
 
@@ -217,8 +215,6 @@ class TableauText(Content):
 
 
 class ArkText(Content):
-    """A method with shared stages and one matrix for each colour."""
-
     A: tuple[Rows, ...]
     b: tuple[Row, ...]
     c: Row | None
@@ -252,9 +248,7 @@ class PrkText(Content):
 
 
 class Made(NamedTuple):
-    """``further`` returns the further weights of the form; None if ``finish`` changes the usual
-    ones.
-    """
+    """``further`` returns weights of the form; None if ``finish`` changes the usual ones."""
 
     tableau: Tableau
     further: Callable[[], Further] | None = None
@@ -295,9 +289,7 @@ Make: TypeAlias = (
 
 
 class ConstructionText(Content):
-    """``tolerance`` is the rounding of the parts; the embedded weights of those in ``kept`` are
-    used.
-    """
+    """``tolerance`` is that of the parts; those in ``kept`` give their embedded weights."""
 
     node: Node
     parts: tuple[PartText, ...]
@@ -329,9 +321,7 @@ def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
 
 
 def left_behind(content: Content) -> tuple[str, ...]:
-    """The further weights of its parts that a construction drops, as text: these belong to the
-    steps of the parts; embedded weights of an adjoint would be at other stages.
-    """
+    """Further weights of parts belong to their steps: those of an adjoint have other stages."""
     if not isinstance(content, ConstructionText):
         return ()
     kinds: list[str] = []

@@ -38,7 +38,6 @@ _CHOSEN = [
 
 
 def _member(family: MethodFamily) -> Schema:
-    """The schema of the keys that a member of a family needs and lacks."""
     needed = [] if family.is_single else [family.size]
     needed += [option.name for option in family.options if not option.default]
     barred = dict.fromkeys(sorted(OPTIONS.keys() - set(family.keys)), False)
@@ -211,7 +210,6 @@ def _chosen(
 
 
 def _entries(at: NumbersReader, recipe: Recipe, node: Node, name: str) -> Row:
-    """The numbers of a recipe as coefficients of the file, added unless they are there."""
     read = {id(entry.expression): entry for entry in at.numbers.entries}
     row: list[Coefficient] = []
     for i, expression in enumerate(recipe.numbers, start=1):

@@ -251,7 +251,6 @@ def _shape(reader: MethodReader) -> tuple[Extent, str] | None:
 
 
 def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str]]:
-    """The places where "?" stands for a whole block, and the text of the block."""
     if not isinstance(description.content, d.MethodsText):
         return
     by_method: dict[int, dict[tuple[int, int], d.MatrixText]] = {}
@@ -266,9 +265,7 @@ def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str
 
 
 def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
-    """The text with values, ``head`` as a comment, and ``claim``, such as ``order: 4``, if it has
-    none.
-    """
+    """``head`` becomes a comment; ``claim``, such as ``order: 4``, is added if there is none."""
     text = family.text
     given = {**family.settings, **values}
     blocks = dict(family.blocks)

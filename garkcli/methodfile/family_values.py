@@ -25,7 +25,6 @@ from garkcli.tableau.tableau import Method, Tableau
 MAX_DEGREE = 200
 MAX_TERMS = 2_000
 MAX_TERMS_TOGETHER = 200_000
-"""For all different coefficients of a file."""
 ROOT = "_root"
 
 
@@ -58,9 +57,7 @@ class FamilyValues(Values):
         return member(tableau, ring, values)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
-        """Rational numbers around all ranges of a parameter; other ends are faults, and a void
-        range.
-        """
+        """Rational numbers around all ranges; other ends and void ranges are faults."""
         least = greatest = None
         for ends in free.ranges:
             smallest, largest = map(self._end, ends)

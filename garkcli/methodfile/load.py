@@ -58,7 +58,6 @@ def noting() -> Iterator[list[MethodFile]]:
 
 
 def noted(method: MethodFile) -> MethodFile:
-    """The method, which is now among those that ``noting`` collects."""
     if (methods := _READ.get()) is not None:
         methods.append(method)
     return method
@@ -182,8 +181,7 @@ def _maker_by_digits(text: str, source: str, settings: Any, radii: Sequence[fmpq
 
 
 def works_in(text: str, source: str) -> tuple[Work, ...]:
-    r"""The publications of a method, or else those of its parts; MethodFileError if neither can be
-    read.
+    r"""MethodFileError if neither a reference nor the parts of a method can be read.
 
     >>> [x[0][:8] for x in works_in("methods: [gauss-2, gauss-3]\ntransfer: collocation", "")]
     ['E. Haire', 'A. Zanna']

@@ -35,14 +35,11 @@ PREFIX = "catalogue:"
 _OF_FILES = (".yaml", ".yml", ".json")
 """Endings that names do not have."""
 METHOD_FILES = (".gark.yaml", ".yaml", ".yml", ".json")
-"""Endings that the name of a method file may lack."""
 _MOST_SHOWN = 6
 
 
 def read_argument(argument: str, path: str = "") -> tuple[str, str]:
-    """The text and the name of a method, whose file may be at ``path``; MethodFileError if there is
-    none, or several.
-    """
+    """The text and the name; MethodFileError for no method, or several."""
     method = find_named(argument, path)
     if method is None:
         return read_text(path or argument, METHOD_FILE)
@@ -231,7 +228,6 @@ def visible(shelves: Iterable[shelving.Shelf]) -> Iterator[tuple[shelving.Shelf,
 
 
 def hidden_by(method: shelving.Shelved) -> list[str]:
-    """The other places with a method of the same name."""
     key = shelving.key_of(method.name)
     elsewhere = [
         x for x in (*shelving.own_folders(), shelving.package()) if x.label != method.shelf

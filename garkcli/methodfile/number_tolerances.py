@@ -17,8 +17,8 @@ from garkcli.methodfile.tolerance import DIGITS, OTHERS, Tolerance
 
 
 class NumberTolerances:
-    """A number has the tolerance of embedded weights or of dense output, if it is one; otherwise
-    that of its colour; otherwise that of the others; otherwise it is exact.
+    """Embedded weights and dense output have tolerances of their own, other numbers those of their
+    colour, or else that of the others.
     """
 
     def __init__(
@@ -42,16 +42,13 @@ class NumberTolerances:
         return self._keys.get(id(entry), OTHERS)
 
     def radius(self, entry: Coefficient, part: Expression) -> fmpq:
-        """0 if the number is exact."""
         off = self.tolerance.offs.get(self.key_of(entry), ZERO)
         if isinstance(off, fmpq):
             return off
         return unit_of(part, self._fewest)
 
     def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
-        """Node, message, cure and kind of fault of each key; ``used`` keys apply to rounded
-        numbers.
-        """
+        """The faults of keys: node, message, cure, kind; ``used`` keys apply to rounded numbers."""
         known = [OTHERS, *d.BESIDE, *(name for names in self.names for name in names)]
         for key, node in self.tolerance.places.items():
             if key not in known:

@@ -34,7 +34,6 @@ _OF_MATRICES = {
     "predictor, old": "po",
     "predictor, new": "pn",
 }
-"""The names of unknowns in matrices, by what messages call these."""
 _OF_ROWS = {
     "b": "b",
     "bbar": "bbar",
@@ -134,10 +133,8 @@ NOTHING = Expanded(Literal(ZERO))
 
 
 class Numbers(Mutable):
-    """Reads the coefficients of one file; ``parameters`` are substituted as they are read.
-
-    ``settings`` are values of parameters from outside, as text, ``places`` the nodes of values of
-    parameters, ``used`` the names in all coefficients.
+    """``settings`` are values of parameters from outside, as text, ``places`` the nodes of values
+    of parameters, which are substituted, ``used`` the names in all coefficients.
     """
 
     source: Source
@@ -151,7 +148,6 @@ class Numbers(Mutable):
     _read: dict[str, Expanded] = field(default_factory=dict)
 
     def define(self, name: str, value: Expanded) -> None:
-        """Sets a value in all coefficients that are read later."""
         self._read.clear()
         self.parameters[name] = value
 
@@ -166,7 +162,6 @@ class Numbers(Mutable):
         return entry
 
     def parameter(self, name: str, node: Node, where: str) -> None:
-        """For all coefficients that are read later."""
         value = self._value(node, where)
         self.of_parameters[name] = Coefficient(value.expression, node, where)
         self.define(name, value)
@@ -233,9 +228,7 @@ class Numbers(Mutable):
         return entry
 
     def _expression(self, text: str) -> Expanded:
-        """One object for equal texts, which large matrices have; ExpressionError if there is
-        no number, LimitExceeded if it is too long.
-        """
+        """One object for equal texts; ExpressionError for no number, LimitExceeded if long."""
         if text in self._read:
             return self._read[text]
         value = expanded(parse(text), self.parameters, self.used)
@@ -304,10 +297,8 @@ class Numbers(Mutable):
         return ()
 
     def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
-        """A matrix of the given shape, for the reason ``why``; at most one fault if it has another.
-
-        The rows of a triangular matrix may end at the diagonal or before it, as explicit tableaus
-        are printed: missing entries are zero.
+        """Entries behind the diagonal, or on it, may be left out, as explicit tableaus are printed:
+        they are zero. ``why`` is the reason for the shape; a wrong one is one fault.
         """
         if not rows:
             return rows
@@ -334,7 +325,6 @@ class Numbers(Mutable):
     def rectangular(
         self, rows: Rows, node: Node, where: str, shape: tuple[int, int] | None = None
     ) -> Rows:
-        """The rows of a matrix, a triangle completed; reports different lengths."""
         lengths = [len(row) for row in rows]
         if shape == (len(rows), len(rows)) and spellings.is_triangle(lengths):
             return self._completed(rows, node, where)

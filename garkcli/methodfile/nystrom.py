@@ -115,9 +115,9 @@ NYSTROM = g.mapping(
 
 
 class NystromText(d.OwnContent):
-    """``A`` is None if g depends on q only, ``c`` if it has the row sums of A. ``embedded`` has
-    weights in q and in q′, each None if they are those of the method; ``dense`` the polynomials in
-    q and in q′, the latter None if they are the slopes of the former.
+    """``A`` is None if g depends on q only, ``c`` for the row sums of A. ``embedded`` has weights
+    in q and in q′, None for those of the method; ``dense`` polynomials, in q′ None for slopes of
+    those in q.
     """
 
     Abar: Rows
@@ -202,8 +202,6 @@ def nystrom(at: NumbersReader, node: Node) -> NystromText | None:
 def _dense(
     at: NumbersReader, entries: g.ReadMapping, stages: int
 ) -> tuple[Rows, Rows | None] | None:
-    """Reads the polynomials of both components; None for slopes of the others."""
-
     def rows(key: str) -> Rows | None:
         node, where = entries.nodes[key], f"dense, {key}"
         return spelled_out.polynomials(at, node, where, stages, entries["degree"])

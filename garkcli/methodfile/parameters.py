@@ -80,9 +80,7 @@ _FREE = mapping(
 
 
 def _read(at: Any, node: yaml_nodes.Node, _: str) -> None:
-    """Each may use those before it. They are apart from the coefficients: an unused one does not
-    enlarge their domain, but its faults are reported.
-    """
+    """Each may use those before it; an unused one does not enlarge the domain of coefficients."""
     numbers: Numbers = at.numbers
     source = numbers.source
     keys = yaml_nodes.key_nodes(node)

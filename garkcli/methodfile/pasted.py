@@ -95,8 +95,7 @@ class _PastedLine(Frozen):
 
 
 def read_pasted(text: str) -> Pasted:
-    r"""Reads lines of stages, one of weights, perhaps one of embedded weights; MethodError for
-    others.
+    r"""Lines of stages, of weights, perhaps of embedded weights; MethodError for other texts.
 
     >>> read_pasted("0 |\n1/2 | 1/2\n---\n | 0 1").A
     (('0', '0'), ('1/2', '0'))
@@ -151,9 +150,7 @@ def _line(text: str, sign: str) -> _PastedLine:
 
 
 def _with_nodes(lines: list[_PastedLine]) -> Pasted:
-    """Stages have a node before the bar, weights have none. The first stage of an explicit method
-    may be its node 0 alone.
-    """
+    """Stages have a node before the bar; the first explicit one may be its node 0 alone."""
     first = lines[0]
     if first.node is None and len(first.row) == 1 and not first.row[0].strip("0."):
         lines = [_PastedLine(first.row[0], ()), *lines[1:]]
@@ -163,7 +160,6 @@ def _with_nodes(lines: list[_PastedLine]) -> Pasted:
 
 
 def _without_bars(lines: list[_PastedLine]) -> Pasted:
-    """Nodes come first if there is one column more."""
     rows = [line.row for line in lines]
     longest = max(map(len, rows))
     weights = [rows.pop()]

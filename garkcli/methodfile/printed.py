@@ -24,8 +24,8 @@ FEW_PLACES = range(3, 6)
 SEVERAL, SEVERAL_PLACES = 3, 4
 """Fewest such decimals, and fewest places: three places are often exact."""
 RARE = 15
-"""About 3 n²/10 fractions below 1 have denominators up to n. One number in fifty is as close to one
-of them as a decimal with this times n² units.
+"""About 3 n²/10 fractions below 1 have denominators up to n: one number in fifty is as close to one
+as a decimal with this times n² units.
 """
 SHORTENED = 4
 """In lowest terms, the denominator of a decimal has at most so many digits less."""
@@ -39,14 +39,11 @@ LONG_DECIMAL = 9
 SLACK = 10
 """Units of the last place that a number may be wrong by if it was computed in that precision."""
 CARELESS = 1_000
-"""Units of the last place."""
 FLOAT = fmpq(1, 2**53)
-"""The relative rounding error of floats."""
 LARGEST = fmpq(2) ** 1023
 SHORTER = 100
 """A decimal whose units are finer than those of a float by this factor was not a float."""
 QUADRUPLE = fmpq(1, 2**113)
-"""The relative rounding error of quadruple precision."""
 
 
 def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmpq]:
@@ -81,8 +78,8 @@ def left_open(printed: Printed) -> list[fmpq]:
 
 
 def is_short(printed: Printed) -> bool:
-    """Whether decimals with few places look rounded, though ``left_open`` finds them exact: none
-    has more, and there are several, or all are simple fractions; one alone of four places.
+    """Whether short decimals look rounded although ``left_open`` finds them exact: several, or
+    simple fractions, or one alone of four places.
     """
     decimals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
     few = [x for x in decimals if _decimals(x) in FEW_PLACES]
@@ -177,7 +174,6 @@ def careless_units(printed: Printed, given: Units | None = None) -> dict[Number,
 
 
 def _is_float(value: Number, unit: fmpq) -> bool:
-    """Whether all digits of a decimal are those of a float."""
     if not isinstance(value, fmpq) or abs(value) > LARGEST:
         return False
     return abs(fmpq(*(int(value.p) / int(value.q)).as_integer_ratio()) - value) <= unit
@@ -200,7 +196,6 @@ def _approximation(value: Number) -> fmpq:
 
 
 def is_long_fraction(expression: Expression, value: Number) -> bool:
-    """Whether a fraction of integers may be an approximant, with a long denominator."""
     return _is_whole(expression) and isinstance(value, fmpq) and value.q >= LONG_DENOMINATOR
 
 
@@ -232,7 +227,6 @@ def unit_of(expression: Expression, fewest: int) -> fmpq:
 
 
 def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
-    """The largest error of the numbers in some texts, by their own digits."""
     fewest = fewest_digits(texts)
     units = [fmpq(0)]
     units += [unit_of(x, fewest) for text in texts for x in _literals(text)]
@@ -240,7 +234,6 @@ def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
 
 
 def _places(literal: Literal) -> int:
-    """The number of digits of a decimal, with zeros after the point."""
     return max(_digits(literal), _decimals(literal))
 
 

@@ -19,8 +19,8 @@ from garkcli.methodfile.numbers import Between, Coefficient
 def between_roots(
     source: Source, ends: tuple[Coefficient, Coefficient], node: Node, where: str
 ) -> Between:
-    """Rational numbers around two algebraic ones, and their minimal polynomials if these have no
-    other zero there: between the former, they are nonnegative exactly between the latter.
+    """Rational bounds, and the minimal polynomials if they have no other zero there: between the
+    bounds they are nonnegative exactly between the ends.
     """
     cure = "write [1/4, 1] or [0, sqrt(2)/2], the smaller end first"
     try:

@@ -155,7 +155,6 @@ _ABOUT = (
     *("gark", "name", "description", "aliases", "reference", "tolerance", "expect"),
     "parameters",
 )
-"""Keys that are read before the coefficients."""
 
 
 class MethodReader(NumbersReader):
@@ -235,7 +234,6 @@ class MethodReader(NumbersReader):
         return self.content.shaped
 
     def _opened(self, name: str) -> Opened:
-        """A method of the catalogue; MethodFileError if there is none, or it refers to itself."""
         from garkcli.methodfile.constructed.parts import Opened
         from garkcli.methodfile.naming import read_argument
 

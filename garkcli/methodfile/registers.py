@@ -28,7 +28,6 @@ KEYS_OF_FORMS: Mapping[str, tuple[str, ...]] = {
     "2S": ("gamma1", "gamma2", "delta", "beta"),
     "3S*": ("gamma1", "gamma2", "gamma3", "delta", "beta"),
 }
-"""The coefficients of each scheme; the last one has an entry for each stage."""
 _FORM_OF_SHU_OSHER = (
     "give {alpha: [[1], [3/4, 1/4]], beta: [[1], [0, 1/4]]}: a row for each value but the first"
 )

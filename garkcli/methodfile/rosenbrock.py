@@ -201,7 +201,6 @@ class RosenbrockText(description.OwnContent):
         return description.Made(replace(rosenbrock_method, c=c, d=d_).tableau, finish=finish)
 
     def _finished(self, values: Values, size: int, gamma: Matrix, further: Further) -> Further:
-        """With the weights from ``e``."""
         if self.error is not None:
             pairs = zip(values.vector(self.b[0]), values.vector(self.error), strict=True)
             row = tuple(m - e for m, e in pairs)
@@ -224,7 +223,6 @@ def rosenbrock(at: NumbersReader, node: Node) -> RosenbrockText | None:
 def _text(
     at: NumbersReader, node: Node, entries: g.ReadMapping, names: tuple[str, str, str], gamma: Rows
 ) -> RosenbrockText | None:
-    """The method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
     b: Row = entries[name_of_b]
     stages = len(b)

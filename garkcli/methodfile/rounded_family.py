@@ -60,8 +60,8 @@ class RoundedFamily(Frozen, eq=False):
 
 
 def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
-    """Values are written to ``digits`` decimals, nonzero ones ± ``width``. Raises MethodFileError
-    if they do not make a method, MethodError if joined stages would differ with other last digits.
+    """Nonzero values may be wrong by ``width``. MethodFileError if they make no method, MethodError
+    if stages are joined that would differ with other last digits.
     """
     texts = {name: in_decimals(x, digits) for name, x in values.items()}
     reader, description = described(family.text, family.source, {**family.settings, **texts})
@@ -86,8 +86,6 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
 
 
 def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
-    """The rounded numbers move by ``shifts`` radii; irrational ones have so many ``bits``."""
-
     def moved(rounded: Rounded) -> Mapping[int, Expression]:
         printed, radii = rounded.numbers, rounded.radii
         offs = shifts or (fmpq(0),) * len(printed)

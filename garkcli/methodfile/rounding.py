@@ -31,9 +31,8 @@ _Rounded: TypeAlias = tuple[Coefficient, nodes.Expression, Number]
 def rounded_of(
     built: Builder[Values], numbers: Numbers, content: Content, tolerance: Tolerance
 ) -> Rounded:
-    """Each decimal in a file, and each fraction with a long denominator; short fractions are exact,
-    and roots of exact numbers. If there are none, but one tolerance for the whole file, each
-    nonzero coefficient is rounded.
+    """The decimals and the long fractions; if there are none, but one tolerance for the whole file,
+    every nonzero coefficient. Short fractions and roots of exact numbers are exact.
     """
     named = {id(x) for known in numbers.parameters.values() for x in _all_parts(known.expression)}
     tolerances = NumberTolerances(tolerance, content, numbers.entries)
@@ -57,9 +56,7 @@ def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of:
 
 
 class Rounded:
-    """A rounded number is a decimal, perhaps under a root; an expression that is a long fraction;
-    or a root of a polynomial with decimals, which has the errors of all of these.
-    """
+    """A rounded number is a decimal, a long fraction, or a root of a polynomial with decimals."""
 
     def __init__(
         self,
@@ -140,9 +137,7 @@ class Rounded:
         return {key: nodes.Literal(numbers[place]) for key, place in self.places.items()}
 
     def indeterminates(self) -> Mapping[int, nodes.Expression]:
-        """Names for the rounded numbers, including those in sums that are 0 as printed, and for
-        roots of known ones.
-        """
+        """Names for rounded numbers, also in sums printed as 0, and for roots of known numbers."""
         names: dict[int, nodes.Expression] = {}
         for entry in self._coefficients:
             expression = self.expressions[id(entry)]
@@ -159,9 +154,7 @@ class Rounded:
     def changer(
         instead: Mapping[int, nodes.Expression],
     ) -> Callable[[nodes.Expression], nodes.Expression]:
-        """A root of a polynomial with decimals becomes a decimal with as many digits as the
-        precision.
-        """
+        """A root of a polynomial with decimals becomes a decimal of the precision."""
         known: dict[int, nodes.Expression] = {}
 
         def change(expression: nodes.Expression) -> nodes.Expression:
@@ -214,7 +207,6 @@ def _copied(expression: nodes.Expression, kept: Container[int]) -> nodes.Express
 
 
 def is_of_unknowns(expression: nodes.Expression, given: Container[int]) -> bool:
-    """Whether an expression contains unknowns, or literals in their place."""
     if isinstance(expression, nodes.Name) or id(expression) in given:
         return True
     return any(is_of_unknowns(x, given) for x in nodes.parts(expression))

@@ -20,7 +20,6 @@ Texts: TypeAlias = tuple[TextRow, ...]
 ZERO = "0"
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
-"""An entry of a matrix that is an unknown of its own."""
 
 
 class UnknownLayout(Frozen):
@@ -59,7 +58,6 @@ class UnknownLayout(Frozen):
 
 
 def full_layout(stages: int) -> UnknownLayout:
-    """An unknown for each entry, named by its place."""
     join = _join(stages)
     numbers = range(1, stages + 1)
     rows = tuple(tuple(f"a{join}{i}{join}{j}" for j in numbers) for i in numbers)
@@ -219,9 +217,7 @@ def _last_stage_is_step(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _shu_osher(layout: UnknownLayout) -> UnknownLayout:
-    """Row i combines values and slopes before value i + 1; the first entry of α is 1 minus the
-    others.
-    """
+    """Row i combines values and slopes before value i + 1; α_i1 is 1 minus the others."""
     s, join = layout.stages, _join(layout.stages)
 
     def named(letter: str, i: int) -> list[str]:
@@ -254,7 +250,6 @@ def _mri(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _with_embedded_rows(layout: UnknownLayout) -> UnknownLayout:
-    """The embedded rows have the row sums of the last ones."""
     s, join = layout.stages, _join(layout.stages)
     rows = []
     for power, total in enumerate((_rest("1", [layout.c[-2]]), ZERO), start=1):

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
 PATH_VARIABLE = "GARK_PATH"
-"""The environment variable with the user's folders, like ``PATH``."""
 GROUP = "gark.catalogue"
 INDEX = "catalogue/index.json"
 DATA = "catalogue/data"
@@ -66,7 +65,6 @@ class Shelved(Frozen):
 
 
 Found = Mapping[str, Sequence[Shelved]]
-"""Methods by the keys of names or aliases, which several may share."""
 
 
 def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) -> Found:
@@ -96,13 +94,11 @@ class Shelf(ABC):
 
     @cached_property
     def spellings(self) -> Found:
-        """By the letters and digits of names and aliases."""
         return _by(
             lambda x: map(letters_of, (x.name, *self.called(x))), chain(*self.methods.values())
         )
 
     def called(self, method: Shelved) -> Sequence[str]:
-        """No aliases if the file cannot be read."""
         try:
             return aliases_of(method.read(), method.place)
         except MethodFileError:
@@ -170,8 +166,6 @@ def _resource(file: str) -> bytes:
 
 
 class OtherPackage(Shelf):
-    """``label`` is the name of its entry point."""
-
     def __init__(self, label: str, root: Traversable) -> None:
         super().__init__(label)
         self.root = root

@@ -471,7 +471,6 @@ def further_of_colours(
 def _a_colour(
     at: NumbersReader, node: Node, where: str, stages: Sized, is_shared: bool, depth: int
 ) -> Iterator[tuple[int, Node, str]]:
-    """The item of each colour, ``depth`` lists deep, and its name in messages."""
     colours, is_one = len(stages), _depth(node) == depth
     if is_shared and is_one:
         yield from ((l, node, where) for l in range(colours))
@@ -491,7 +490,6 @@ def _a_colour(
 
 
 def _is_of_several(at: NumbersReader, node: Node, where: str, depth: int) -> bool:
-    """Whether weights are written as for several colours; reports that."""
     if _depth(node) != depth:
         return False
     noun = "row" if depth == 2 else "block"

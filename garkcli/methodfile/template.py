@@ -17,7 +17,6 @@ HEAD = (
     "# renews them; gark explain WORD says what a key means.",
 )
 _MEANS = re.compile("[;:.]")
-"""The end of the first part of a text about a key, which says what it is."""
 
 
 class Member(Frozen):

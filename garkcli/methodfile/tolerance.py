@@ -29,9 +29,7 @@ _FORM = "write for instance {others: 1e-20, embedded: 1e-12}"
 
 
 class Tolerance(FrozenBut):
-    """By ``others``, ``embedded``, ``dense``, and colours by number or name; ``places`` are the
-    nodes of these keys.
-    """
+    """By the keys of the file; ``places`` are their nodes."""
 
     besides = frozenset({"places"})
 

@@ -68,7 +68,6 @@ TRANSFER = g.ValueKind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema(), _ALL_UNKNOWN]},
     inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
-"""They are read once the number of colours is known."""
 _BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 
@@ -107,7 +106,6 @@ def _is_unknown(node: nodes.Node) -> bool:
 def _unknown(
     at: NumbersReader, node: nodes.Node, edge: tuple[int, int], stages: Sequence[int]
 ) -> d.MatrixText:
-    """A block with an unknown for each entry, named by its place."""
     rows, columns = (range(1, stages[k] + 1) for k in edge)
     name = d.block_name(*edge)
     places = [[f"{name}, row {i}, entry {j}" for j in columns] for i in rows]
@@ -117,7 +115,6 @@ def _unknown(
 
 
 def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
-    """Unknown blocks with names for their entries."""
     texts = {}
     for (l, m), block in blocks.items():
         rows = [", ".join(str(name_of_place(x.where)) for x in row) for row in block.rows]

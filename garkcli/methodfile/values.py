@@ -64,7 +64,6 @@ class Values:
         return known
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
-        """Constructs no field, as there may be many large coefficients."""
         source = numbers.source
         before = len(source.faults)
         _note_faults(numbers, (*numbers.of_parameters.values(), *numbers.entries))

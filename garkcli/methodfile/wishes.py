@@ -126,7 +126,6 @@ class Wishes(Frozen):
 
 
 def read_wishes(at: Any, node: Node) -> Wishes:
-    """The numbers of the file stay as they are."""
     numbers: Numbers = at.numbers
     before = len(numbers.entries)
     demands: ReadMapping | dict[str, Any] = DESIGN.read(at, node, "design") or {}
@@ -170,9 +169,7 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
 def meaning_of(
     wishes: Wishes, made: Builder[FamilyValues], source: Source, deadline: float | None = None
 ) -> WantConditions:
-    """Demands that do not apply are reported; after ``deadline``, a value of ``time.monotonic``,
-    the rest stays undecided.
-    """
+    """Demands that do not apply are reported; after ``deadline`` the rest stays undecided."""
     from garkcli.constructions.wants import meant_of
 
     values = made.values

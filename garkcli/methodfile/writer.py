@@ -37,9 +37,7 @@ def write_tableau_file(
     parameters: Sequence[str] = (),
     further: Further = NOTHING,
 ) -> str:
-    """A file with every block of an exact tableau on point spaces; ``note`` is a comment at its
-    top, ``parameters`` has a text such as ``tau: free`` for each parameter.
-    """
+    """Exact, on point stages; ``note`` is a comment, ``parameters`` has ``tau: free`` and so on."""
     tableau.demand_fields("a method file")
     with with_letters(None if parameters else tableau, NAMES) as letters:
         spelled_out = _spelled_out(tableau, text, further)
@@ -87,7 +85,6 @@ def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
 def write_method(
     tableau: Tableau, name: str, tolerance: Written | None, further: Further = NOTHING
 ) -> str:
-    """Rounded coefficients are decimals."""
     text = to_text if tolerance is None else _decimal_text
     return write_tableau_file(tableau, name, tolerance, text=text, further=further)
 
@@ -132,10 +129,8 @@ def _in_form(
 
 
 def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING) -> str:
-    """Entries are within half a unit of their last digit.
-
-    The tolerance is a hundred units in the last digit of the largest entry, as residuals are sums
-    of entries and of their products.
+    """Entries are within half a unit of their last digit; the tolerance is a hundred units of the
+    largest, as residuals are sums of entries and of products.
     """
     digits = entries.digits
     made = _rounded_tableau(tableau, entries)
@@ -200,7 +195,6 @@ def _is_prk(tableau: Tableau) -> bool:
 
 
 def _is_ark(tableau: Tableau) -> bool:
-    """Whether several colours share all stages and nodes, and none is linear."""
     colours = tableau.colours
     if len(colours) == 1 or len(tableau.spaces) > 1:
         return False

@@ -156,9 +156,7 @@ def _steps(at: PartReader, entries: g.ReadMapping, where: str) -> Iterator[_Step
 
 
 def _orders(at: PartReader, entries: g.ReadMapping, scheme: Scheme) -> tuple[int, int]:
-    """The orders of the method and of a repeated scheme: the substeps that raise a symmetric method
-    of order p contain a root of degree p + 1.
-    """
+    """Substeps that raise a symmetric method of order p contain a root of degree p + 1."""
     if not scheme.has_orders:
         for key in entries.nodes.keys() & {"order", "from"}:
             message = f"{scheme.name} has one order, {scheme.order}"

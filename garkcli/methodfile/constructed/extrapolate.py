@@ -126,11 +126,7 @@ def _read(at: PartReader, entries: g.ReadMapping, _: str) -> ConstructionText:
 
 
 class _Plan(Frozen):
-    """The order, or the sequence, of an extrapolation.
-
-    ``wanted`` is 0 if the sequence is given by its numbers; ``base``, the order of the method, and
-    ``is_symmetric`` are None if they have to be found.
-    """
+    """``wanted`` is 0 for a sequence of numbers; ``base`` order and symmetry may be open."""
 
     sequence: str | tuple[int, ...]
     wanted: int

@@ -245,9 +245,9 @@ _KEYS = g.mapping(
 
 
 class StepPredictor(Frozen):
-    """``slow`` takes the step for both parts. ``forcing`` has the rows of the fast problem, and
-    those for the embedded value; if empty, the slow slopes are interpolated. ``fast`` is None for
-    the exact solution.
+    """``slow`` takes the step for both parts; ``forcing`` has the rows of the fast problem and of
+    the embedded value, empty if the slow slopes are interpolated; ``fast`` is None for the exact
+    solution.
     """
 
     slow: PartText
@@ -406,7 +406,6 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
 def _polynomials(
     at: PartReader, entries: g.ReadMapping
 ) -> Callable[[TableauOf, Values], mri.Coupling]:
-    """The polynomial couplings between nodes, the explicit part before the implicit one."""
     c: Row = entries["c"]
     restart = entries.get("restart")
     matrices: dict[str, list[Rows]] = {}
@@ -494,7 +493,6 @@ def _embedded_rows(at: PartReader, entries: g.ReadMapping) -> dict[str, Rows] | 
 
 
 def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
-    """The rows filled with zeros to one column for each node."""
     width = max(map(len, rows), default=0)
     if width > nodes:
         message = f"{name} has {counted(width, 'column')} for {counted(nodes, 'node')}"

@@ -58,7 +58,6 @@ class PartReader(NumbersReader):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The tolerance of the coefficients read so far."""
         own = self._tolerance
         return None if own is None else own.largest(self.numbers.entries)
 
