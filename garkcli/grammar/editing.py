@@ -22,7 +22,6 @@ def number_text(number: str) -> str:
 
 
 def quoted(text: str) -> str:
-    """Nonprintable characters are escaped."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     inside = "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
     return f'"{inside}"'
@@ -65,14 +64,11 @@ def mapping_under(root: MappingNode, name: str) -> MappingNode | None:
 
 INDENT = "  "
 Edit: TypeAlias = tuple[int, int, str]
-"""A place in a text and its new content."""
 
 
 def with_values(text: str, root: MappingNode, name: str, values: Mapping[str, str]) -> str | None:
-    """The text of a file with other values in the mapping under a key; everything else stays.
-
-    New keys follow the last one. None if there is no place for a new mapping, because the file is
-    in braces or has an empty one.
+    """Other keys stay, new ones follow the last one; None if there is no place for a new mapping,
+    because the file is in braces or has an empty one.
     """
     there = mapping_under(root, name)
     if there is None or not there.value:

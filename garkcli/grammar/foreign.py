@@ -48,7 +48,6 @@ _WITHOUT_KEYS: tuple[tuple[str, str], ...] = (
     (r"^[-+0-9/.]*,[-+0-9/., ]*$", f"this looks like CSV: {_READS}"),
     (r"\A[-+0-9/. \t\n]+\Z", _PASTED),
 )
-"""Patterns of YAML without keys, and the cures."""
 
 
 def cure_of_foreign(text: str, name: str, is_yaml: bool) -> str:

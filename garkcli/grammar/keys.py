@@ -22,7 +22,6 @@ NOTHING: Mapping[str, Any] = {}
 
 
 def as_it_is(_: Any, node: Node, __: str) -> Node:
-    """For keys that are read later."""
     return node
 
 
@@ -42,11 +41,8 @@ class ValueKind(Frozen):
 
 
 class Key(Frozen):
-    """Attributes:
-    line: an example: a line of a file with its name, a colon and a value.
-    page: a page about it; empty for the page about such files.
-    is_word: whether ``gark explain`` finds it by its own name.
-    also: other spellings, which are read as this key.
+    """``line`` is an example; ``page`` is empty for the page about such files; ``gark explain``
+    knows the name if ``is_word``; ``also`` are other spellings.
     """
 
     line: str
@@ -64,7 +60,6 @@ class Key(Frozen):
         return self.line.partition(":")[0]
 
     def schema(self) -> Schema:
-        """With description, example and default."""
         import yaml  # only who asks for a schema reads examples
 
         schema = self.kind.schema()
@@ -104,8 +99,6 @@ def _any_given(keys: Sequence[str]) -> Schema:
 
 
 class Together(Frozen):
-    """All of ``needed``, and perhaps others."""
-
     needed: tuple[str, ...]
     perhaps: tuple[str, ...] = ()
 
@@ -125,13 +118,7 @@ class Together(Frozen):
 
 
 class Ways(Frozen):
-    """Alternatives for the same statement, of which a mapping has one.
-
-    Attributes:
-        what: the statement, with a verb: ``the substeps are``.
-        none: the message if there is none; empty if none is required.
-        is_one: whether only one is allowed.
-    """
+    """``what`` has a verb: ``the substeps are``; without ``none`` no alternative is required."""
 
     what: str
     ways: tuple[str | Together, ...]
@@ -170,20 +157,14 @@ class Ways(Frozen):
 
 
 class KeyValues(Frozen):
-    """By a schema and by a test of nodes."""
-
     schema: Schema
     has: Callable[[Node], bool]
 
 
 class KeyRelation(Frozen):
-    """Keys that a key requires, or excludes.
-
-    Attributes:
-        message: with ``{way}`` for the alternative that a mapping has instead.
-        cure: the cure, or cures by the alternative, with one for all others under ``""``.
-        needs: the keys of which one is required.
-        values: the values to which it applies; None for all.
+    """One of ``needs`` is required, all of ``bars`` are excluded, for these ``values``, None for
+    all. The message has ``{way}`` for the alternative in use, by which cures may differ, with
+    ``""`` for others.
     """
 
     key: str
@@ -254,9 +235,7 @@ def entries_in(
     cures: Cures = dict,
     form: str = "",
 ) -> Entries:
-    """The entries, misspelt keys under their correct names; ``cures`` are for keys that belong
-    elsewhere, ``form`` if there is no mapping.
-    """
+    """``cures`` are for keys that belong elsewhere, ``form`` is for other values than mappings."""
     words = {word: name for name, key in keys.items() for word in key.also}
     return source.mapping(node, where, keys, cures, form, words)
 
@@ -268,11 +247,7 @@ def mapping(
     cures: Cures = dict,
     rules: Iterable[Rule] = (),
 ) -> ValueKind:
-    """A mapping with these keys and no others.
-
-    ``more`` returns keys that only files with them need, and schemas; ``form`` is the cure if there
-    is no mapping, or a key is missing; ``cures`` returns advice about keys that belong elsewhere.
-    """
+    """``more`` keys are for schemas and files with them; ``cures`` for keys of other places."""
 
     @cache
     def every() -> dict[str, Key]:
@@ -371,9 +346,7 @@ def list_of(
     form: str = "",
     rules: Mapping[str, Any] = NOTHING,
 ) -> ValueKind:
-    """A nonempty list; in messages ``noun`` names its items, ``each`` one of them, with ``{}`` for
-    the number; ``form`` is the cure if there is no list.
-    """
+    """Messages have ``noun`` for items, ``each`` with ``{}`` for one; ``form`` is a cure."""
     schema = {"minItems": 1, **({} if most is None else {"maxItems": most}), **rules}
 
     def read(at: Any, node: Node, where: str) -> list[Any] | None:

@@ -65,7 +65,6 @@ def extent(text: str, first: Node, last: Node) -> Extent:
 
 
 def node_at(value: object, place: Node) -> Node:
-    """Nodes for a mapping, a list or a text, at the place of another node."""
     marks = place.start_mark, place.end_mark
     if isinstance(value, Mapping):
         pairs = [(node_at(key, place), node_at(x, place)) for key, x in value.items()]
@@ -101,7 +100,6 @@ def unquoted(name: str) -> str:
 
 
 def shortened(text: str, length: int = 60) -> str:
-    """``text`` in quotes, shortened if long."""
     if len(text) > length:
         text = text[:length] + "…"
     return repr(text)
@@ -194,7 +192,6 @@ _YAML_WORDS = (
     ("alphabetic or numeric", "a name is missing after this sign", _SIGN),
     ("", "the directive or tag is not known", "leave it out, or quote a text with % or !"),
 )
-"""PyYAML's messages, what they mean, and the cure."""
 _FROM_START = ("could not find expected ':'", "found unexpected end of stream")
 """Messages about the start of what PyYAML reads, not about where it gives up."""
 

@@ -12,9 +12,7 @@ from garkcli.glossary.key import FileKind
 from garkcli.grammar.source import MAX_BYTES
 
 MOST_COMPARED = 1_000
-"""Files in a folder with which a missing name is compared."""
 MOST_SHOWN = 4
-"""Files that are suggested for a missing one."""
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
@@ -51,8 +49,8 @@ def _not_quoted(path: str, kind: FileKind) -> Remark:
 
 
 def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
-    """Whether errors may quote a file. It has to have a key of its kind, or be no link to elsewhere
-    and have an ending: a path chosen by someone else must not reveal secrets.
+    """A quoted file has a key of its kind, or an ending and no link to elsewhere: a path chosen by
+    someone else must not reveal secrets.
     """
     if not is_elsewhere(path) and os.path.splitext(path)[1]:
         return True

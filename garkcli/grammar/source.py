@@ -16,7 +16,6 @@ from garkcli.grammar.foreign import cure_of_foreign
 from garkcli.grammar.nodes import composed, folded_place, keys_of, meant_key, position, shortened
 
 Place: TypeAlias = tuple[int, int]
-"""Line and column, from 1."""
 MAX_PLACES = 3
 """Further places that are listed for a cause with many faults."""
 
@@ -66,7 +65,6 @@ MAX_FAULTS_READ = 1_000
 
 
 Entries: TypeAlias = dict[str, Node]
-"""The values of a mapping by their keys."""
 
 
 class Home(Frozen):
@@ -180,7 +178,6 @@ class Source:
         return error
 
     def compose(self) -> MappingNode | None:
-        """The root of the file; None after a fault."""
         if len(self.text) > MAX_BYTES:
             message = f"a file of more than {MAX_BYTES} characters"
             self.fault(None, message, "split it", code="file-too-large")

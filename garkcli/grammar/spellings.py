@@ -110,11 +110,9 @@ _SPELLINGS: tuple[tuple[str, str], ...] = (
     (r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])", "coefficients are real here: no complex ones"),
     (r"[0-9)][ \t]+[0-9.]+", "put commas between entries and points in decimals: [0.5, 1/2]"),
 )
-"""Numbers of other languages, and their spelling in a method file."""
 
 
 def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
-    """The error with a cure for spellings of other languages."""
     start = error.start
     if len(text) > MAX_PRINTED:
         return error, ""

@@ -14,11 +14,9 @@ from garkcli.grammar.source import Source
 
 HEAD = re.compile(r"^[ \t]*\[[ \t]*tool[ \t]*\.[ \t]*gark[ \t]*\]", re.MULTILINE)
 BEFORE = r"(?:tool[ \t]*\.[ \t]*)?gark[ \t]*\.[ \t]*"
-"""The prefix of a key outside of a table."""
 TAG = "tag:yaml.org,2002:"
 QUOTED = f"{TAG}str"
 DEEPEST = 2
-"""The deepest nesting that is read or refused."""
 
 
 def read_settings(

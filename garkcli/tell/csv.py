@@ -47,7 +47,6 @@ def _line(cells: Iterable[str]) -> str:
 
 
 def _cells(section: Section[T], part: T | None, d: Plain) -> Iterator[tuple[str, str]]:
-    """Empty cells without a part."""
     for row in section.rows:
         what = row.kind.what
         value = None if part is None else row.answer(part).value

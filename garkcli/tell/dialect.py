@@ -42,17 +42,13 @@ if TYPE_CHECKING:
 LONG = 40
 """Longer exact numbers are shown as decimals where that is enough."""
 LONG_POLYNOMIAL = 320
-"""Longer polynomials are described."""
 WORDS = 24
-"""Columns that are enough for words."""
 CUT = 8
-"""Columns that are enough for the beginning of words."""
 NAME = 26
 """Longer names have a line of their own where a table is wide."""
 AT_ONCE = 100
 """Rows of a stream that are shown at a time."""
 FEW = 4
-"""Names of a list that are shown; the others are counted."""
 
 
 Cells: TypeAlias = Sequence[str]
@@ -100,7 +96,6 @@ def _broken(text: str, width: int) -> list[str]:
 
 
 def _cell_width(text: str) -> int:
-    """The columns of a cell, which may have several lines."""
     return max(map(shown_width, text.split("\n"))) if "\n" in text else shown_width(text)
 
 
@@ -439,7 +434,6 @@ class Plain(Mutable):
     def beside(
         self, columns: Sequence[Cells], widths: Sequence[int], room: int, heads: int = 1
     ) -> Iterable[str]:
-        """Long cells are folded."""
         are_right = [are_numbers(column[heads:]) for column in columns]
         for row in zip(*columns, strict=True):
             if len(row) > 1 and shown_width(row[0]) > widths[0]:
@@ -457,7 +451,6 @@ class Plain(Mutable):
         return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 
     def more(self, count: int, depth: int) -> list[str]:
-        """For rows that are left out."""
         return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
     def definitions(self, letters: Defined, text: str) -> Iterator[str]:

@@ -31,7 +31,6 @@ V_out = TypeVar("V_out", covariant=True)
 Wording: TypeAlias = "Callable[[T, Plain], str]"
 Labelling: TypeAlias = "Callable[[T, Plain], Iterable[tuple[str, str]]]"
 Phrasing: TypeAlias = "Callable[[str, T, Answer[T], Plain], str]"
-"""A part of a sentence."""
 
 
 class Display(Frozen, Generic[V_in]):
@@ -39,10 +38,8 @@ class Display(Frozen, Generic[V_in]):
 
 
 class Words(Display[V_in]):
-    """Attributes:
-    whole: the answer in words, if its status and its reason are not added after ``words``.
-    phrase: a part of a sentence, if that is not the label with the words.
-    absent: the cell of a table if there is no value.
+    """``whole`` is the answer with status and reason, ``phrase`` a part of a sentence in place of
+    label and words, ``absent`` the cell of a table without a value.
     """
 
     words: Wording[V_in]
@@ -60,8 +57,6 @@ class Below(Display[V_in]):
 
 
 class TextPicture(Below[V_in]):
-    """Made of characters, if the output has room for it."""
-
     lines: Callable[[V_in, Plain], Sequence[str]]
 
 
@@ -70,8 +65,6 @@ class Drawing(Below[V_in]):
 
 
 class Plot(Below[V_in]):
-    """Axes, curves and areas, which each output draws in its own way."""
-
     scene: Callable[[V_in], Scene]
 
 
@@ -87,10 +80,7 @@ class OnePart(Display[T]):
 
 
 class ManyParts(Display[Sequence[T]]):
-    """Attributes:
-    words: the line of all parts, if the usual facts do not make it.
-    most: the most rows of a usual table, 0 for all; None if a line is usual.
-    """
+    """``words`` is the line of all parts; ``most`` rows are usual, 0 for all; None for a line."""
 
     section: Section[T]
     words: Wording[Sequence[T]] | None = None
@@ -117,11 +107,8 @@ class Level(IntEnum):
 
 
 class Answer(Frozen, Generic[V_out]):
-    """Attributes:
-    value: None if there is none, or none is decided.
-    level: where it is reported, if not where its row says.
-    witness: of an order whose value has none.
-    names: of the colours in trees, if they are not numbers.
+    """``value`` is None if there is none, or none is decided; ``level`` replaces that of the row;
+    ``witness`` is for orders whose value has none; ``names`` are of colours in trees.
     """
 
     value: V_out | None
@@ -140,9 +127,7 @@ class Described(Protocol[V_in]):
 
 
 class FieldBeside(Frozen, Generic[V]):
-    """A field of JSON beside that of a row; in its name ``*`` is the key of the row up to the last
-    ``order``.
-    """
+    """In its name ``*`` is the key of the row up to the last ``order``."""
 
     name: str
     schema: Schema
@@ -321,8 +306,6 @@ Rows: TypeAlias = "Sequence[Row[T]]"
 
 
 class maybe(Row[T_in]):  # noqa: N801 -- it is called like a function
-    """Null in JSON without a value."""
-
     has_null = True
 
 
@@ -351,12 +334,8 @@ def via(get: Callable[[T], U | None], rows: Iterable[Row[U]]) -> Rows[T]:
 
 
 class Section(Generic[T_in]):
-    """Rows in order: all that is reported of a type of result.
-
-    Attributes:
-        title: of a part among others, or of a result, such as its file.
-        columns: keys of the rows that tell it in a line of a table.
-        is_cut: whether the last words of such a line may be cut.
+    """All that is reported of a type of result, in order; ``columns`` tell it in a line of a table,
+    whose last words may be cut if ``is_cut``.
     """
 
     def __init__(

@@ -76,7 +76,6 @@ POSITION = counted(S.POSITION)
 INDEX: facts.Kind[int] = facts.Kind(
     facts.Json(S.POSITION, lambda x, _: x + 1), facts.Words(lambda x, _: str(x + 1))
 )
-"""From 0 for the program, from 1 for people."""
 TEXT: facts.Kind[str] = facts.Kind(facts.Json(S.TEXT), facts.Words(lambda x, d: d.prose(x)))
 TEXTS: facts.Kind[Sequence[str]] = facts.Kind(
     facts.Json(array(S.TEXT), lambda x, _: list(x), csv=lambda x: csv_cell("; ".join(x))),
@@ -183,7 +182,6 @@ WITNESS: facts.Section[Witness] = facts.Section(
 
 
 def order_answer(found: AnyOrder | None) -> facts.Answer[AnyOrder]:
-    """An order, exact or rounded, as a value with its status."""
     if found is None:
         return facts.Answer(None)
     within = getattr(found, "tolerance", None)

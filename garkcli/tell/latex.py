@@ -58,7 +58,6 @@ _SIGN = re.compile(rf"\|[^|]+\||[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
 
 
 def _sign(found: re.Match[str]) -> str:
-    """A sign, a letter with an accent, or an absolute value."""
     sign = found[0]
     if sign.startswith("|") and len(sign) > 1:
         return f"$|{_SIGN.sub(_sign, sign[1:-1]).replace('$', '')}|$"

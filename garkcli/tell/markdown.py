@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 
 class Markdown(Plain):
-    """As code hosts read it."""
-
     breadth = "any"
 
     def prose(self, text: str) -> str:

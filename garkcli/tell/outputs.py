@@ -30,7 +30,6 @@ COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
 
 
 def words(fact: Fact, d: Plain) -> str:
-    """Value, status and reason."""
     answer, shown = fact.answer, fact.shown
     if answer.value is None:
         if answer.status.open:
@@ -107,9 +106,7 @@ def one(section: Section[T], whole: T, d: Plain, level: Level = Level.USUAL) -> 
 
 
 def body(section: Section[T], whole: T, d: Plain, level: Level, depth: int) -> Iterator[str]:
-    """The facts below the headline. Usually some share a line; with details each has its own, and
-    parts are below under their titles.
-    """
+    """Usually facts share lines; with details each has its own, and parts follow with titles."""
     sentences: dict[str, list[str]] = {}
     rows: list[tuple[str, str]] = []
     below: list[Fact] = []
@@ -242,7 +239,6 @@ def _cells(section: Section[T], part: T, d: Plain, level: Level) -> Iterator[tup
 def filled(
     heads: Sequence[str], rows: Sequence[Sequence[str]]
 ) -> tuple[list[str], list[list[str]]]:
-    """Without empty columns."""
     kept = [i for i in range(len(heads)) if any(row[i] for row in rows)]
     return [heads[i] for i in kept], [[row[i] for i in kept] for row in rows]
 

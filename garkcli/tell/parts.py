@@ -69,7 +69,6 @@ def drawing(draw: Callable[[T, Plain], Iterable[str]]) -> facts.Kind[T]:
 
 
 def plot(make: Callable[[T], Scene], when: Callable[[T], bool] = lambda _: True) -> facts.Row[T]:
-    """With -v, for people alone."""
     return facts.Row(
         "plot",
         facts.Kind(None, facts.Plot(make)),

@@ -29,8 +29,6 @@ FORMATS = ("text", "json", "markdown", "latex")
 
 
 class DialectSigns(TypedDict, total=False):
-    """Attributes of a dialect that a result or the command decides."""
-
     digits: int
     width: int
     colours: Sequence[str]
@@ -139,9 +137,7 @@ class Report(Frozen, Generic[Whole]):
         verbosity: int = 0,
         **signs: Unpack[DialectSigns],
     ) -> Iterator[str]:
-        """A result in pieces, while it is found, in ``FORMATS``, ``csv`` or ``ndjson``; verbosity
-        −1 leaves out its stream.
-        """
+        """In pieces while it is found, as ``ndjson`` too; verbosity −1 leaves out the stream."""
         form = self.form(whole)
         streams = [row for row in form.rows if isinstance(row.kind.shown, Stream)]
         if not streams and format == "ndjson":
@@ -227,7 +223,6 @@ class Report(Frozen, Generic[Whole]):
     def labelled(
         self, whole: Whole, d: Plain, level: Level, without: Collection[str] = ()
     ) -> list[Labelled]:
-        """For pages with their own look."""
         return list(labelled(self.form(whole), whole, d, level, without))
 
     def data(self, whole: Whole) -> dict[str, Any]:

@@ -31,7 +31,6 @@ _DOTS = ("blue", "yellow", "green", "magenta", "cyan", "red")
 """The colours 1, 2, … of the dots of a tree, repeated after the last."""
 _DOT = re.compile("[●o]([0-9]+)")
 _LINK = re.compile(r"(?:https?://|\b10\.[0-9]{4,9}/)[!-;=?-~]*[\w/#=&~+-]", re.ASCII)
-"""An address, or a DOI."""
 _LINK_NUMBER = re.compile("(?<=\x1b]8;)id=[0-9-]+")
 """A random number that rich gives to each link."""
 _HEADING = re.compile(r"^(?:Usage(?=:)|[A-Z][\w ,-]*(?=:$))", re.MULTILINE)
@@ -39,7 +38,6 @@ _OPTION = re.compile(r"(?<![\w-])--?(?:\[no-\])?[a-zA-Z][\w-]*")
 _RULED = "    \n    \n ── \n    \n    \n    \n    \n    \n"
 """A rule below the heads of a table, as ``rich.box`` describes boxes."""
 _LEAST = 20
-"""Columns that are enough for words beside a label."""
 
 
 class Folding(Text):
@@ -57,7 +55,6 @@ class Folding(Text):
         tab_size: int = 8,
         no_wrap: bool | None = None,
     ) -> Lines:
-        """See ``rich.text.Text.wrap``."""
         lines = Lines()
         for line in self.split(allow_blank=True):
             places = [] if no_wrap else _places(line.plain, width, self.hanging)
