@@ -24,7 +24,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 100
-"""In usual reports."""
 
 
 class Audit(NamedTuple):
@@ -33,7 +32,6 @@ class Audit(NamedTuple):
 
     @property
     def wrong(self) -> list[tuple[Audited, Sequence[Remark]]]:
-        """The tables with errors or doubts, and their findings."""
         if self.errors_alone:
             found = ((x, [y for y in x.findings if y.level == "error"]) for x in self.tables)
             return [(x, findings) for x, findings in found if findings]
@@ -171,4 +169,3 @@ FORMATS: Mapping[str, Callable[..., str]] = {
     "github": _github,
     "sarif": lambda tables, *_: log_of(list(_findings(tables)), "audit"),
 }
-"""For people with colours, verbosity and width."""

@@ -46,9 +46,7 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
 
 def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
-    """The publications of methods, each once, or else those of their parts; ``gark`` is this
-    program and its paper.
-    """
+    """Each once, or else those of the parts; ``gark`` is this program and its paper."""
     cited: list[citation.Cited] = []
     for method in methods:
         if method == GARK:
@@ -70,7 +68,6 @@ WORKS = (
     ),
     ZANNA,
 )
-"""This program, and its paper."""
 
 
 def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:
@@ -129,7 +126,6 @@ def run_sweep(
 def swept(
     plan: Plan, source: str, rows: str, is_resumed: bool = False, jobs: int = 1, scheduler: str = ""
 ) -> tuple[SweepReport, Progress]:
-    """A sweep, run or resumed, and its progress."""
     with RowStore(rows, is_resumed) as store:
         with doing("methods") as work:
             for last in sweep(plan, store, jobs, scheduler):

@@ -55,8 +55,6 @@ Block: TypeAlias = "tuple[tuple[int, int], Sequence[Sequence[Number]]]"
 
 
 class In(NamedTuple, Generic[P]):
-    """A part of a tableau over a field of some degree."""
-
     part: P
     degree: int
 
@@ -240,7 +238,6 @@ def _exists(proof: ExistenceProof, d: Plain) -> str:
 
 
 def _excluded(proof: ExistenceProof) -> str | None:
-    """The proof that no method within the tolerance has the next order."""
     order, count = proof.order.order + 1, len(proof.witness or ())
     if count:
         how = "a condition excludes" if count == 1 else f"{count} conditions together exclude"
@@ -314,9 +311,7 @@ REPORT: Report[MethodProof | ExistenceProof] = Report(
 
 
 def coq_proof(proof: MethodProof) -> str:
-    """A file for ``coqc``: the orders of the method, its conjugate and its pair; MethodError if a
-    colour is linear, which the theory does not know.
-    """
+    """Orders of method, conjugate and pair; MethodError for a linear colour."""
     tableau = proof.method.tableau
     tableau.demand_fields("a proof for Coq")
     if any(colour.is_linear for colour in tableau.colours):
@@ -391,7 +386,6 @@ def _rational(x: fmpq) -> str:
 
 
 def _polynomial(p: fmpq_poly) -> str:
-    """The coefficients of a monic polynomial below the leading one."""
     return _list(map(_rational, p.coeffs()[:-1]))
 
 

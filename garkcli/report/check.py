@@ -77,9 +77,7 @@ Failing: TypeAlias = "tuple[str, Witness, Tableau]"
 
 
 def stages_text(tableau: Tableau) -> str:
-    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum. The stages of q drive
-    q.
-    """
+    """``4 stages``; ``2 colours, 2 + 3 stages``; the stages of q drive q."""
     if tableau.is_partitioned:
         parts_of = [
             " + ".join(str(len(colour.b)) for colour in tableau.colours if colour.part == part)
@@ -115,7 +113,6 @@ def _method_words(outcome: Outcome, d: Plain) -> str:
 
 
 def with_arithmetic(text: str, a: AnyAnalysis) -> str:
-    """With the arithmetic that decides the orders."""
     if a.tolerance is not None:
         return f"{text}; coefficients rounded"
     degree = a.tableau.degree
@@ -158,7 +155,6 @@ def _some(names: Sequence[str], most: int = 8) -> str:
 
 
 def no_order(answer: Answer[Any], obstacle: Reason) -> Reason:
-    """Why a method has no order of the conjugate or the pair."""
     is_none = answer.value is None and bool(obstacle)
     return Reason("none: {}", obstacle) if is_none else NO_REASON
 
@@ -359,8 +355,6 @@ def _names(tableau: Tableau, space: int) -> list[str]:
 
 
 class Staged(TypedDict):
-    """Stages count from 1; of polynomials the substitution moves their nodes."""
-
     colours: list[str]
     stages: list[int] | Literal["1 - x"]
 
@@ -607,7 +601,6 @@ class PrintDistance(NamedTuple):
 
     @property
     def entry(self) -> EntryPlace | None:
-        """The entry that is off the most."""
         return self._placed(self.near.entry)
 
     @property
@@ -1010,7 +1003,6 @@ OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, 
 
 
 def transfer(o: Outcome) -> Answer[list[str]] | None:
-    """Whether rules keep the order of the pair; those that lose it by their degree are warnings."""
     level = DATA if all(map(is_lost, o.about_rules)) else DETAIL
     return Answer([*o.about_rules], level=level) if o.about_rules else None
 
@@ -1030,7 +1022,6 @@ def known(o: Outcome, is_same: bool) -> Known | None:
 
 
 def of_catalogue(within: Row[Known]) -> Section[Known]:
-    """With the difference of entries."""
     return Section(
         Row("method", kinds.TEXT, lambda x: x.method),
         within,

@@ -21,7 +21,6 @@ ABOUT_CLAIMS = ("claim", "undecided", "no-claim")
 
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:
-    """A single file has the findings on claims alone."""
     found = [x for outcome in outcomes for x in findings(outcome)]
     if len(outcomes) == 1:
         found = [x for x in found if x.rule in ABOUT_CLAIMS]
@@ -100,7 +99,6 @@ def sarif(outcomes: Sequence[Outcome]) -> str:
 
 
 def baseline_text(found: Sequence[Regression], files: int) -> str:
-    """A line for each regression, then the number of files."""
     lines = [printable(f"{x.file}: {x.what} got worse: {x.before} -> {x.now}") for x in found]
     lines.append(f"{counted(files, 'file')}: {len(found) or 'nothing'} got worse")
     return inert("\n".join(lines)) + "\n"

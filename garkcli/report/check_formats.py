@@ -23,7 +23,6 @@ def _render(
     digits: int | None,
     width: int,
 ) -> str:
-    """Findings follow a table of Markdown."""
     if format == "text":
         from garkcli.report import check_text
 

@@ -34,9 +34,7 @@ def render(
     digits: int | None = None,
     width: int = 80,
 ) -> str:
-    """Verbosity −1 has faults and failed claims only; 0 one file in full, several a line each; 1
-    everything. ``digits`` is None for exact numbers.
-    """
+    """Verbosity −1 has faults and failed claims, 0 one file in full, 1 everything of all."""
     is_full = verbosity > 0 or (verbosity == 0 and len(outcomes) == 1)
     level = Level.DETAIL if verbosity > 0 else Level.USUAL
     blocks = []

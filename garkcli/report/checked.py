@@ -69,7 +69,6 @@ OF_ANALYSES = {
     "DerivativesAnalysis": "derivatives",
     "InfinitesimalAnalysis": "infinitesimal",
 }
-"""The attribute of an outcome for each class of analyses."""
 
 
 def whole(found: Outcome | Analysis | OtherAnalysis, name: str) -> Outcome:

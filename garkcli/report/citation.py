@@ -38,9 +38,7 @@ class Cited(Frozen):
 
 
 def together(cited: Sequence[Cited]) -> list[Cited]:
-    """Methods of one publication together, in the order of the first ones; the place in the work
-    and the origin of digits make no other publication.
-    """
+    """The place in the work and the origin of digits make no other publication."""
     found: dict[object, Cited] = {}
     for one in cited:
         key = _work(one) if one.text else one.methods
@@ -118,7 +116,6 @@ def bibliography(cited: Sequence[Cited], is_brief: bool = True) -> str:
 
 
 def _bibtex(cited: Cited, key: str) -> str:
-    """One entry, or a remark that there is none; methods are named above it."""
     names = ", ".join(map(printable, cited.methods))
     if not cited.text:
         return f"% {names}: no reference in its file\n"

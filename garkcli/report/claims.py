@@ -74,7 +74,6 @@ REPORT: Report[Claims] = Report(
 
 
 def yaml_text(claims: Sequence[Claims], width: int, is_brief: bool = True) -> str:
-    """As in a method file, with the decisions in comments."""
     lines: list[str] = []
     for found, is_written in claims:
         lines += [f"# {printable(found.file)}{': written' * is_written}", "expect:"]

@@ -31,7 +31,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 Tested: TypeAlias = Sequence[tuple[str, Convergence]]
-"""The results by the letters of their methods."""
 _GOALS = 6  # errors at which costs are compared
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 MOST_METHODS = 20
@@ -39,8 +38,6 @@ MOST_METHODS = 20
 
 
 class ConvergedMethod(Frozen):
-    """The exit code is that of the test of the method."""
-
     file: str
     name: str
     result: Convergence | None
@@ -110,7 +107,6 @@ METHOD: Section[LetteredMethod] = Section(
 
 
 def _remarks(compared: ConvergedMethods) -> list[tuple[str, str]]:
-    """Remarks on single methods, then those that several share."""
     said: list[tuple[str, str]] = []
     seen: dict[str, list[str]] = {}
     for x in compared.named:

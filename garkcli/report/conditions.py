@@ -31,15 +31,10 @@ from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
 
 MOST_DECIMALS = 20
-"""Longer values are rounded."""
 
 
 class ConditionRow(Frozen):
-    """Attributes:
-    is_shape: whether the row stands for all colourings of the tree, whose colours mean nothing.
-    stands_for: the number of equivalent conditions in a symplectic method; 0 if unasked.
-    members: the trees of these conditions.
-    """
+    """``is_shape``: all colourings of a tree; ``members`` are trees of equivalent conditions."""
 
     tree: Tree
     is_shape: bool
@@ -85,12 +80,8 @@ class Valued(Frozen):
 
 
 class ConditionTable(Mutable):
-    """Attributes:
-    coloured: the number of colours of trees; 0 for all colourings, a subject or a method.
-    subject: the methods for which the rows are independent conditions.
-    with_members: whether all trees of a class are listed.
-    digits: of values in decimals; None for exact ones.
-    count: the rows so far; ``failed``: those whose conditions fail.
+    """``coloured`` is the number of colours, 0 for all colourings, a subject or a method; rows are
+    the independent conditions of a ``subject``; ``count`` rows so far, ``failed`` ones included.
     """
 
     rows: Iterable[ConditionRow]
@@ -115,7 +106,6 @@ class ConditionTable(Mutable):
         return _form(self.valued is not None, frozenset(k for k, out in left_out.items() if out))
 
     def shown(self) -> Iterator[ConditionRow]:
-        """All conditions are counted meanwhile."""
         for row in self.rows:
             self.count += 1
             self.failed += row.condition is not None and not row.condition.holds
@@ -142,9 +132,7 @@ class ConditionTable(Mutable):
 
 
 def legend_of(tableau: Tableau) -> str:
-    """The names of the colours, and the meaning of colours and blocks of other methods than GARK
-    methods; empty if the names are numbers.
-    """
+    """Also meanings of colours of other methods than GARK methods; empty if names are numbers."""
     about = numbered([colour.name for colour in tableau.colours]), *_about_colours(tableau)
     told = "; ".join(filter(None, about))
     return f"colours: {told}" if told else ""
@@ -221,7 +209,6 @@ def _formula(row: ConditionRow, d: Plain) -> str:
 
 
 def _in_words(row: ConditionRow, d: Plain) -> str:
-    """The condition, how many it stands for, its value and its residual."""
     lines = [f"{row.text(len(d.colours) > 1)}   {_multiplicity(row)}".rstrip()]
     condition = row.condition
     if condition is not None and not (condition.is_exact and d.is_brief):

@@ -28,14 +28,11 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 MOST_STEPS = 10
-"""Rows of a usual table in a terminal."""
 _LONGEST_HEAD = 40  # characters of the name of an invariant above a column
 NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 
 
 class ConvergenceReport(Frozen):
-    """Attributes are as in ``ConvergedMethods``."""
-
     result: results.Convergence
     name: str
     has_work: bool = False

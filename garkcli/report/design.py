@@ -42,18 +42,13 @@ Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
 """Signs of polynomials in usual reports."""
 OF_POLYNOMIALS = 200
-"""Signs of the polynomials that are zero, in usual reports."""
 MOST = 4
-"""Best methods in usual reports."""
 LONG = 2000
 """A longer polynomial is for programs alone."""
 
 
 class DesignReport(NamedTuple):
-    """Attributes:
-    choices: the methods that each value of --choose leaves.
-    sets: the values that are as stable as wanted, if all values have the order.
-    """
+    """``choices`` remain with --choose; ``sets`` are stable, if all values have the order."""
 
     file: str
     design: Design
@@ -91,7 +86,6 @@ class OrderDemand(NamedTuple):
 
     @property
     def likeness(self) -> tuple[object, ...]:
-        """Steps with equal likeness are reported together."""
         return self.step.kind, self.step.known.is_real, self.zeros, self.conditions
 
 
@@ -123,7 +117,6 @@ def joined(values: dict[str, RealRoot], d: Plain) -> str:
 
 
 def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex") -> str:
-    """Polynomials that are zero; usually the first of many."""
     return f"the zeros, {which}, of {_listed(texts, d, 'polynomial')}"
 
 
@@ -149,7 +142,6 @@ UNDECIDED = (
     " fewer such as palindromic; --search N looks for methods and decides nothing"
 )
 LATE = "give it more; "
-"""Advice if more seconds may decide."""
 
 
 def _undecided(design: Design, step: steps.Undecided) -> Iterator[str]:
@@ -171,7 +163,6 @@ def _undecided(design: Design, step: steps.Undecided) -> Iterator[str]:
 
 
 def _real(found: OrderDemand, d: Plain) -> Iterator[str]:
-    """The real values of a family, unless these are a family too."""
     known = found.step.known
     if known.within is not None and known.within.ideal.is_everything:
         yield "none of them is real"
@@ -441,7 +432,6 @@ def _least(minimum: Minimum, d: Plain) -> str:
 
 
 def _number(value: RealRoot, d: Plain) -> str:
-    """Simple radicals, and decimals."""
     simple, decimals = root_text(value), root_decimal(value, d.digits)
     if simple is None or len(simple) > 40:
         return d.prose(f"{decimals}…")

@@ -83,9 +83,7 @@ LONG = 40
 
 
 def _bounds(family: Family) -> tuple[dict[str, list[str]], list[fmpq_mpoly]]:
-    """Bounds of unknowns, by ranges and by numbers that may not be negative; the rest of these
-    numbers.
-    """
+    """Bounds of unknowns, by ranges and by numbers that may not be negative; the other numbers."""
     ends = {}
     others = list(family.not_negative)
     for name, rational in family.ranges.items():

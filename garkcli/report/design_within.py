@@ -27,8 +27,6 @@ class WithinReport(NamedTuple):
 
 
 class _Found(NamedTuple):
-    """``digits`` are those that the tolerance leaves."""
-
     digits: int
     values: ValuesWithin
 
@@ -38,7 +36,6 @@ class _Found(NamedTuple):
 
     @property
     def directions(self) -> list[tuple[str, dict[str, str]]]:
-        """Each free unknown with the slopes of its dependent ones."""
         slopes = self.values.directions.items()
         return [
             (free, {name: self.text(x[free]) for name, x in slopes if free in x})
@@ -63,7 +60,6 @@ def _briefly(step: StepWithin) -> str:
 
 
 def _answer(x: WithinReport, d: Plain) -> str:
-    """The highest order with values, then the next one."""
     design, best, last = x.design, x.design.best, x.design.steps[-1]
     whose = "" if design.whose == "method" else f" of the {design.whose}"
     within = f"within {decimal(design.tolerance)}"
@@ -78,7 +74,6 @@ def _answer(x: WithinReport, d: Plain) -> str:
 
 
 def _printed(step: StepWithin) -> str:
-    """The freedom that the printed digits leave."""
     if step.printed is None:
         return ""
     if step.printed < 0:

@@ -68,8 +68,6 @@ class ComparedMethod(NamedTuple):
 
 
 class ComparedPair(NamedTuple):
-    """``typed`` are the arguments."""
-
     found: Comparison
     files: tuple[str, str]
     typed: tuple[str, str] = ("", "")
@@ -100,7 +98,6 @@ def _entry_data(x: Cell, _: Plain) -> str:
 
 
 def _entry_words(x: Cell, d: Plain) -> str:
-    """Exact if that is short."""
     if isinstance(x, arb):
         return d.prose(str(x.str(12, radius=False)))
     found = value_text(x, 12)
@@ -112,7 +109,6 @@ def _known(key: str, verdict: Verdict, tolerance: fmpq | None) -> Answer[Verdict
 
 
 def _verdict_cell(verdict: Verdict, d: Plain) -> str:
-    """Without the polynomial of a root."""
     value = verdict.value
     if isinstance(value, Size) and value.root is not None and not verdict.is_at_least:
         return d.root(value.root)

@@ -30,7 +30,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 MOST_QUANTITIES = 10
-"""Rows of a usual table in a terminal."""
 FATES = {
     "elliptic": "the energy error is bounded for all time",
     "unstable": "the energy grows for ever",
@@ -42,16 +41,12 @@ _NEARLY = 2.0
 
 
 class RunClaim(Frozen):
-    """``holds`` is None if undecided."""
-
     claim: str
     found: str
     holds: bool | None
 
 
 class EnergyReport(Frozen):
-    """Symplecticity is None if the problem is not Hamiltonian."""
-
     name: str
     run: histories.LongRun
     symplecticity: Symplecticity | None = None
@@ -69,7 +64,6 @@ def _word(history: histories.InvariantHistory, d: Plain) -> str:
 
 
 def _because(history: histories.InvariantHistory, run: histories.LongRun) -> str:
-    """The reason for a verdict, and how an undecided run can be decided."""
     match history.verdict:
         case "exact":
             return " by every step, exactly"
@@ -361,8 +355,6 @@ FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
 
 
 class Moment(NamedTuple):
-    """``errors`` is NaN without a value."""
-
     t: float
     errors: dict[str, float]
 

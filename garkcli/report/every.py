@@ -48,7 +48,6 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 V = TypeVar("V")
 MOST = 8
-"""Most polynomials that are named."""
 VALUE: S.Schema = {
     "type": ["boolean", "integer", "string", "array", "null"],
     "description": "The answer; null where there is none.",
@@ -90,8 +89,6 @@ def fact_data(f: FamilyFact, inner: Kind[V], d: Plain) -> dict[str, object]:
 
 
 def lifted(inner: Kind[V]) -> Kind[FamilyFact]:
-    """The kind for families: a value with exceptions."""
-
     def words(f: FamilyFact, d: Plain) -> str:
         plain, of_value = (
             Plain(colours=d.colours),
@@ -238,7 +235,6 @@ EVERY: Section[Outcome] = Section(
 
 
 STABILITIES = ("a-stable", "l-stable", "p-stable", "i-stable", "algebraically-stable")
-"""Decided for one parameter."""
 LIMIT = 60
 
 

@@ -101,5 +101,4 @@ REPORT: Report[Sequence[ImportedMethod]] = Report.only(
 
 
 def yaml_text(results: Sequence[TableResult]) -> str:
-    """The method files as documents of YAML."""
     return "---\n".join(x.method.text for x in results if x.method is not None)

@@ -39,7 +39,6 @@ def _sizes(family: MethodFamily) -> str:
 
 
 def chosen_by(family: MethodFamily) -> Iterator[tuple[str, str]]:
-    """The keys of a family besides its stages, with their values."""
     if family.size != "stages":
         yield family.size, _sizes(family)
     for option in family.options:
@@ -154,7 +153,6 @@ PROOF = Bridge(
 
 
 def all_targets() -> Mapping[str, Bridge]:
-    """With certificates."""
     return dict(sorted({**bridges(), PROOF.name: PROOF}.items()))
 
 

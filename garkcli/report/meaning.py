@@ -64,7 +64,6 @@ def every_term() -> list[Told]:
 
 
 def list_text(width: int) -> str:
-    """By topic."""
     lines = []
     for topic, title in TOPICS.items():
         names = "; ".join(term.name for term in terms_of(topic))

@@ -30,7 +30,6 @@ HEADLINE, USUAL, DETAIL, DATA = facts.Level
 V = TypeVar("V")
 Entry: TypeAlias = dict[str, Any]
 ORDER = "order"
-"""The line of a report with orders and the sizes of errors."""
 
 
 def _field(
@@ -53,7 +52,6 @@ def _order(key: str, level: facts.Level = USUAL, label: str | None = None) -> fa
 
 
 def _size_words(text: str, d: Plain) -> str:
-    """Decimals for a long fraction."""
     over, _, under = text.partition("/")
     is_fraction = over.lstrip("-").isdecimal() and under.isdecimal()
     return d.prose(shortest(fmpq(int(over), int(under))) if is_fraction else text)
@@ -131,7 +129,6 @@ MARKS = {
     "t": ("", "another order for y' = f(t, y)"),
     "~": ("", "rounded"),
 }
-"""Letters of frequent questions."""
 TYPES = {
     "explicit": "explicit",
     "sdirk": "SDIRK",
@@ -200,7 +197,6 @@ LINE: facts.Section[Entry] = facts.Section(
 
 
 def _title(entries: Sequence[Entry], d: Plain) -> str:
-    """The number of methods, and the meaning of the letters."""
     if not entries:
         return "no method of the catalogue matches"
     present = {mark for entry in entries for mark in marks(entry)} if d.is_brief else set()

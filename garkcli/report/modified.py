@@ -23,15 +23,11 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 MOST_TERMS = 10
-"""Rows of a usual table in a terminal."""
 _FORMLESS = Reason("no Hamiltonian problem has its form")
 
 
 class ModifiedReport(Frozen):
-    """Attributes:
-    with_equation: whether rooted trees are shown although there is a Hamiltonian.
-    formula: on a problem, multiplied out.
-    """
+    """``with_equation``: rooted trees are shown although there is a Hamiltonian."""
 
     file: str
     name: str
@@ -76,9 +72,7 @@ TERM: facts.Section[ModifiedTerm] = facts.Section(
 
 
 def _equation(report: ModifiedReport) -> facts.Answer[list[ModifiedTerm]]:
-    """The nonzero coefficients b(u); usual if there is no Hamiltonian. Those of a rounded method
-    are left out up to its order: they are zero within the tolerance.
-    """
+    """Without those up to the order of a rounded method: they are zero within the tolerance."""
     found = report.found
     zero = range(2, found.order.order + 1) if found.tolerance is not None else ()
     terms = [

@@ -24,7 +24,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 12
-"""Rows of a usual table in a terminal."""
 
 
 class ModifiedEnergyReport(Frozen):

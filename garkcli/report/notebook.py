@@ -40,7 +40,6 @@ def method_latex(method: GarkMethod) -> str | None:
 
 
 def method_html(method: GarkMethod) -> str:
-    """With the region of stability if there is one."""
     if _is_large(method):
         return f"<pre>{_text(repr(method))}</pre>"
     with with_letters(method.tableau) as letters:
@@ -67,7 +66,6 @@ def _is_large(method: GarkMethod) -> bool:
 
 
 def witness_html(witness: Witness) -> str:
-    """The tree at which an order ends, and its condition."""
     colours = len(witness.tree.colours) > 1 or bool(witness.tree.root)
     text = str(witness_text(witness, colours))
     return f"{draw_svg_sheet([witness.tree])}<p>{_text(text)}</p>"
@@ -80,7 +78,6 @@ def order_html(order: AnyOrder) -> str:
 
 
 def dense_order_html(order: DenseOrder) -> str:
-    """The order of dense output in a sentence, and the tree at which it ends."""
     from garkcli.report.check import dense_answer
     from garkcli.tell.kinds import COUNT
 

@@ -118,8 +118,6 @@ STABILITY: facts.Rows[Linear] = (
 def _form(
     get: Callable[[Outcome], A | None], flag: str, words: facts.Wording[A], analysis: facts.Rows[A]
 ) -> facts.Section[Outcome]:
-    """``flag`` is the field of JSON that names the kind."""
-
     def method(a: A, d: Plain) -> str:
         return c.with_arithmetic(words(a, d), a)
 
@@ -282,4 +280,3 @@ TOLD_BY: dict[str, tuple[facts.Section[Outcome], facts.Rows[Never]]] = {
     "DerivativesAnalysis": (DERIVATIVES, OF_DERIVATIVES),
     "InfinitesimalAnalysis": (MULTIRATE, OF_MULTIRATE),
 }
-"""The rows of an outcome, and of its analysis, by the class of that."""

@@ -28,7 +28,6 @@ _LONGEST = 80
 
 
 def describe(problem: Stepped) -> str:
-    """The problem and its split; long terms are counted."""
     if isinstance(problem, Oscillator):
         energies = [_energy(k, v) for k, v in problem.shares]
         return f"q̈ = −ω²q, ω = {problem.omega}; {', '.join(_numbered('H', energies))}"
@@ -51,7 +50,6 @@ def describe(problem: Stepped) -> str:
 
 
 def _numbered(letter: str, texts: Sequence[str]) -> list[str]:
-    """A single term has no number."""
     if len(texts) == 1:
         return [f"{letter}: {texts[0]}"]
     return [f"{letter}{{{l}}}: {text}" for l, text in enumerate(texts, start=1)]
@@ -127,6 +125,4 @@ STEPPED: dict[type[Stepped], Rows[Run]] = {
         ),
     ),
 }
-"""For programs: ω and the shares (k_l, v_l) of each term, the terms H^{l}, or the components of
-f^{l}.
-"""
+"""For programs: ω and shares (k_l, v_l) of each term, terms H^{l}, or components of f^{l}."""

@@ -46,7 +46,6 @@ class FailedRun(NamedTuple):
 FAILURE: Section[FailedRun] = Section(
     Row("name", TEXT, lambda x: x.name), Row("errors", parts(FAULT), lambda x: x.faults)
 )
-"""For programs; people read it elsewhere."""
 
 
 def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
@@ -72,7 +71,6 @@ def fault_rows(faults: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
 
 
 def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator[str]:
-    """Each with a caret under its place."""
     source = text.splitlines()
     for x in remarks:
         place = printable(file)
@@ -86,7 +84,6 @@ def lines(remarks: Sequence[Remark], file: str, text: str, d: Plain) -> Iterator
 
 
 def items(finding: Finding) -> Iterator[str]:
-    """An item of a list in Markdown, with the cure."""
     x = finding.remark
     level = "" if x.level == "error" else f"{x.level}: "
     place = f"`{_code(finding.file)}:{x.line}:{x.column}`"
@@ -139,7 +136,6 @@ def _property_of_command(text: str) -> str:
 
 
 def log_of(found: Sequence[Finding], command: str) -> str:
-    """SARIF, with every rule in words."""
     kinds = findings_of(command)
     rules = [
         {

@@ -42,9 +42,7 @@ TOLD_BY = {
     "sweep.SweepReport": "sweep",
     "stability.Stability": "stability",
 }
-"""By room and class of a value the file with its ``REPORT``; ``whole`` there makes the result from
-the value and a name, if it is not the value.
-"""
+"""The file with the ``REPORT`` of a class; its ``whole`` makes the result of a value and a name."""
 
 
 def render(value: object, format: str = "text", name: str = "") -> str:
@@ -164,4 +162,3 @@ WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
     "sweep.SweepReport": (_sweeps, (*FORMATS, "csv", "jsonl")),
     "tableau.GarkMethod": (_methods, FORMATS),
 }
-"""By room and class the writers of values with further formats, or without rows."""

@@ -47,7 +47,6 @@ REPORTS = {
     "import": "garkcli.report.imported:REPORT",
     "sweep": "garkcli.report.sweep:REPORT",
 }
-"""A report, or the function that makes its schema."""
 
 
 REFERENCES = (("publication",), ("reference",))
@@ -113,7 +112,6 @@ def text_of(path: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=1)
 def _elsewhere() -> Mapping[str, str]:
-    """Descriptions of claims, columns of sweeps and parts of references."""
     from garkcli.properties.definitions import every_definition
 
     found = {}

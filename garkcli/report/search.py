@@ -26,11 +26,9 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 SHOWN = 24
-"""Decimals of numbers that are not exact, or long; files have all."""
 LONG = 50
 """Signs of a number that nobody reads."""
 PRECISION = 1000
-"""Bits for the evaluation of long numbers."""
 ROOT = re.compile(r"root_of\([^()]*\)")
 ENDINGS: dict[Ending, str] = {
     "interrupt": "interrupted",
@@ -54,7 +52,6 @@ class SearchReport(NamedTuple):
 
 
 def _found(x: SearchReport, d: Plain) -> str:
-    """The number of methods, or the best value, and the starts."""
     search, result = x.search, x.result
     order = f"order {search.order}" + f" of the {search.whose}" * (search.whose != "method")
     found = f"{counted(len(result.methods), 'method')} of {order} found"
@@ -145,7 +142,6 @@ def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
 
 
 def _of(objective: Single | WeightedSum) -> str:
-    """Without its sign."""
     return objective.key if isinstance(objective, WeightedSum) else objective.key.removeprefix("-")
 
 

@@ -43,15 +43,10 @@ T = TypeVar("T")
 HEADLINE, USUAL, DETAIL, DATA = facts.Level
 Extent: TypeAlias = "Sequence[Interval] | Bounds"
 Form: TypeAlias = "tuple[Polynomial, Polynomial, Polynomial]"
-"""A quadratic form of (ωq, p)."""
 
 
 class StabilityReport(Frozen):
-    """Attributes:
-    springs: the two-frequency problem for a slow frequency; ``slow``: for an interval of them.
-    plane: both frequencies in floats, for a picture.
-    is_order_star: whether the picture is |R(z)| > |e^z|.
-    """
+    """``springs`` is for one slow frequency, ``slow`` for an interval; ``plane`` is a picture."""
 
     file: str
     name: str
@@ -142,7 +137,6 @@ SECTOR: facts.Kind[RealRoot] = facts.Kind(
     ),
     facts.Words(lambda x, d: d.prose(f"α = {_degrees(x, d.digits)}°, cos α = ") + d.root(x)),
 )
-"""By its cosine."""
 
 
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
@@ -685,7 +679,6 @@ SEVERAL: facts.Rows[StabilityReport] = [
 
 
 def _of_linear(*keys: str) -> facts.Section[LinearStability]:
-    """Rows of ``LINEAR`` by their keys."""
     rows = {row.key: row for row in LINEAR}
     return facts.Section([rows[key] for key in keys])
 
@@ -706,14 +699,12 @@ PARTS: facts.Rows[StabilityReport] = [
     *facts.via(imex_parts, OF_BOTH),
     facts.Row("coupled", _after_colon(_coupled_words), coupled, HEADLINE),
 ]
-"""An implicit-explicit method by its parts; one λ for both comes with -v."""
 ONE_LAMBDA: facts.Row[StabilityReport] = facts.Row(
     "one_lambda", _line(OF_ALL), lambda x: x.found.linear[0], DETAIL, label="one λ"
 )
 
 
 def _by_parts(rows: facts.Rows[StabilityReport]) -> facts.Rows[StabilityReport]:
-    """The rows of an implicit-explicit method, its parts first."""
     of_one_lambda = {row.key for row in LINEAR} - {"points"} | {"R_alike"}
     changes = {"pair": {"label": "coupled"}, "points": {"label": "at points, z1 = z2"}}
     return [
@@ -743,7 +734,6 @@ WAVES: dict[str, facts.Rows[StabilityReport]] = {
     "late": [facts.maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
     "known": facts.via(lambda x: x.found.oscillator, OSCILLATOR),
 }
-"""By the state of knowledge."""
 
 
 def _left_out_words(_: StabilityReport, d: Plain) -> str:
@@ -834,7 +824,6 @@ SLOW: facts.Section[StabilityReport] = facts.Section(
 
 
 def form(x: StabilityReport) -> facts.Section[StabilityReport]:
-    """The method determines the fields."""
     if x.slow is not None:
         return SLOW
     if x.springs is not None:

@@ -70,7 +70,6 @@ def _part(values: StableValues, x: Interval, d: Plain) -> str:
 
 
 def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
-    """The strips of a plane or irrational ends, and undecided values."""
     brief = replace(d, is_brief=True)
     rows = _strips(values, brief) if values.is_plane else _irrational(values, brief)
     texts = ", ".join(f"{d.expression(values.names[0])} = {number(x, d)}" for x in values.undecided)
@@ -222,7 +221,6 @@ FOUND: Rows[StableValues] = [
 ]
 APART: Row[StableValues] = optional("apart", TRUTH, lambda x: x.is_apart or None, DATA)
 VALUES = Section(WANTED, COLOUR, EMBEDDED, FOUND, APART)
-"""As a part of the report of an order."""
 
 
 def _answer(x: StableValues, d: Plain) -> str:

@@ -22,7 +22,6 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}
-"""The proof of a find, in rows and for people."""
 
 
 def _answer(report: SweepReport, _: Plain) -> str:
@@ -52,7 +51,6 @@ def _values(
 
 
 def _method(row: Judged) -> str:
-    """The key of a method, with the values and the proof of a find."""
     proof = f"; {WORDS[str(row['proof'])]}: {_values(row, with_root)}" if "proof" in row else ""
     return f"{row['key']}{proof}"
 
@@ -74,7 +72,6 @@ def _column(name: str) -> Row[Judged]:
 def _table(
     plan: Plan | None, label: str, get: Callable[[SweepReport], Sequence[Judged]], most: int = 10
 ) -> Row[SweepReport]:
-    """The criteria, and the method."""
     criteria = [] if plan is None else [_column(name) for name in plan.criteria.columns]
     line: Section[tuple[int, Judged]] = Section(
         Row("number", COUNT, lambda x: x[0]),

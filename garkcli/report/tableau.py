@@ -68,9 +68,7 @@ def of_method(
     with_transformation: bool = False,
     coupling: Coupling | None = None,
 ) -> ShownTableau:
-    """Entries in decimals if there are ``digits``; ``coupling`` is that of slow stages. MethodError
-    if the transformation is requested, and there is none.
-    """
+    """MethodError if the transformation is requested, and there is none."""
     entries = method.entries
     if digits is not None:
         entries = pointwise.entries(method.tableau, digits).beside(method.further)
@@ -137,7 +135,6 @@ def _symplectic(x: GarkMethod) -> Answer[bool]:
 
 
 def _sums(x: ShownTableau, _: Plain) -> str:
-    """The sum of the weights of each colour."""
     sums = (sum(row[1:], row[0]) for row in x.readable.b)
     return ", ".join(cell_text(total, x.entries.digits) for total in sums)
 
@@ -170,7 +167,6 @@ def _about(x: ShownTableau, d: Plain) -> list[tuple[str, str]]:
 
 
 def _decimals(x: ShownTableau, d: Plain) -> list[str]:
-    """The tableau in decimals, if that differs."""
     entries = x.entries
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
     is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
@@ -184,7 +180,6 @@ OF_SLOW = "the slow method, which is left where the fast part is 0"
 OF_ROSENBROCK = "α, with c and b", "γ, with d, the weights of ∂f/∂t, in place of A and c"
 OF_NYSTROM = "Ā, with c and b̄", "A, with c and b"
 OF_POSITIONS = OF_NYSTROM[0], "b, with 0 in place of A: g depends on q alone"
-"""Titles of the tableaus of methods that are no GARK methods."""
 
 
 def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:
@@ -334,4 +329,3 @@ REPORT: Report[ShownTableau] = Report.only(
 DOCUMENT: Section[ShownTableau] = Section(
     Row("schema", constant(SCHEMA), lambda _: SCHEMA), TABLEAU.rows
 )
-"""A tableau within another document."""

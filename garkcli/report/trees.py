@@ -25,7 +25,6 @@ from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
-"""For each order, the numbers of trees by root colour."""
 DRAWN_ORDER = 4
 """Up to this order a terminal shows the drawn trees too, with -v all."""
 DETAIL, DATA = Level.DETAIL, Level.DATA
@@ -101,8 +100,6 @@ def picture(tree: Callable[[T], Tree]) -> Row[T]:
 
 
 def drawn(tree: Callable[[T], Tree]) -> Row[T]:
-    """On a terminal, if the tree is small."""
-
     def small(x: T, d: Plain) -> str:
         found = tree(x)
         if found.order > DRAWN_ORDER and d.is_brief:
@@ -219,9 +216,7 @@ _PROBLEMS = {
 
 
 class SymplecticSubject(Frozen):
-    """``kind`` is ``pair`` also if a structure has no name; ``structure`` tells how roots move
-    among colours.
-    """
+    """``kind`` is ``pair`` for structures without name; in a ``structure`` roots change colour."""
 
     kind: Symplectic
     structure: Structure
@@ -231,7 +226,6 @@ class SymplecticSubject(Frozen):
 
     @cached_property
     def counts(self) -> tuple[tuple[int, int, int], ...]:
-        """For each order the independent conditions and all conditions."""
         admissible = self._admissible
         lacks_blocks = admissible != self.structure.admissible
         every = counts_upto(admissible, self.orders[-1])
@@ -333,9 +327,8 @@ def subject_of_kind(kind: Symplectic, terms: int | None, orders: range) -> Sympl
 
 def subject_of_method(method: AnyTableau, orders: range) -> SymplecticSubject:
     """A partitioned method or its own conjugate as it is, of any other the symplectic pair.
-
-    Raises UsageProblem for a partitioned method that is not symplectic, or linear in positions or
-    in momenta only; ZeroWeight if the pair would divide by zero.
+    UsageProblem for a partitioned one that is not symplectic, or linear in one part; ZeroWeight
+    without pair.
     """
     from garkcli.order.simplifying import is_symplectic
 
@@ -381,8 +374,6 @@ def _not_symplectic(tableau: Tableau) -> UsageProblem:
 
 
 class FreeList(Frozen):
-    """A class of conditions each; None if they are only counted."""
-
     subject: SymplecticSubject
     classes: Iterable[symplectic.ConditionClass] | None
     with_members: bool = False
@@ -409,7 +400,6 @@ class ClassCount(Frozen):
 
 
 def _by_order(x: FreeList) -> dict[str, int] | None:
-    """If there are several orders."""
     counts = x.subject.counts
     return {str(n): few for n, few, _ in counts} if len(counts) > 1 else None
 
@@ -427,7 +417,6 @@ END: Row[FreeList] = sentence(lambda x: x.subject.summary)
 
 
 def _listing(*members: Row[ListedClass]) -> Section[FreeList]:
-    """A class in a line, with its members if they are requested."""
     part: Section[ListedClass] = Section(
         picture(lambda x: x.tree),
         Row("kind", choice(*symplectic.KINDS), lambda x: x.subject.kind, DATA),
@@ -486,5 +475,4 @@ FREE_TREES: Report[FreeList] = Report(
 
 
 def trees_report_schema() -> Schema:
-    """Rooted trees or free ones, listed or counted."""
     return published("report of gark trees", one_of(*REPORT.documents, *FREE_TREES.documents))
