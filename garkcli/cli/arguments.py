@@ -21,7 +21,6 @@ _NOTES = "garkcli.notes"
 """Notes are kept in a context until the verbosity is known."""
 _VARIABLE = "GARK_PATH"
 SPELLINGS = {"color": "colour", "minimiz": "minimis", "recogniz": "recognis"}
-"""American spellings in options, and those in the help."""
 OLD_NAMES = {"emit-all": "output-dir"}
 DECADES = 50
 """Times, frequencies and errors are between 10^-50 and 10^50."""
@@ -104,7 +103,6 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
 
 def named(place: str) -> Any:
-    """An object of a module; of a function, its result."""
     file, _, name = place.partition(":")
     found = getattr(import_module(f"garkcli.{file}"), name)
     return found() if callable(found) else found
@@ -115,9 +113,7 @@ def completed(place: str) -> Callable[..., list[str]]:
 
 
 def add_folders(context: click.Context, _: click.Parameter, folders: Sequence[str]) -> None:
-    """Adds folders before those of ``GARK_PATH``, for this run and its processes; UsageProblem for
-    files.
-    """
+    """Before those of ``GARK_PATH``, for this run and its processes; UsageProblem for files."""
     if not folders or context.resilient_parsing:
         return
     for folder in folders:
@@ -141,7 +137,6 @@ def _restore(before: str | None) -> None:
 
 
 def with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
-    """Keeps notes on names until the verbosity is known."""
     if os.environ.get(_VARIABLE) and not context.resilient_parsing:
         from garkcli.methodfile.naming import note_of
 
@@ -182,7 +177,6 @@ def finite(_: click.Context, __: click.Parameter, seconds: float | None) -> floa
 
 
 def picture(_: click.Context, __: click.Parameter, path: str | None) -> str | None:
-    """UsageProblem for a suffix that cannot be drawn."""
     if path is not None:
         from pathlib import Path
 

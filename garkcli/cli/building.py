@@ -221,7 +221,6 @@ def claims(given: ClaimsOptions, output: Output) -> None:
 
 
 def _loaded(path: str) -> MethodFile:
-    """A method with its claims; UsageProblem for a family of methods."""
     from garkcli.methodfile.load import load
 
     try:

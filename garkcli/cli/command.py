@@ -28,7 +28,6 @@ CONTEXT = {
     "max_content_width": 100,
     "token_normalize_func": arguments.spelled,
 }
-"""``-h`` and ``--help`` are an option of each command."""
 ONE_METHOD = (
     "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
     "or - for standard input"
@@ -40,8 +39,6 @@ SEVERAL = (
 
 
 class Declared(Frozen, Generic[Given]):
-    """A command before it is made for click."""
-
     name: str
     options: type[Given]
     formats: Sequence[str]
@@ -55,7 +52,6 @@ class Declared(Frozen, Generic[Given]):
 
     @property
     def all_options(self) -> list[opt.Option]:
-        """Former ones too, without those of a bundle."""
         catalogue = [_CATALOGUE] if self.has_catalogue or self.methods else []
         return [*self._own, *catalogue, *self.output.values()]
 
@@ -75,7 +71,6 @@ class Declared(Frozen, Generic[Given]):
         )
 
     def _params(self) -> Iterator[click.Parameter]:
-        """With their headings, the class's own before inherited ones."""
         inherited = {x for base in self.options.__bases__ for x in declared_by(base)}
         made: dict[str, list[click.Parameter]] = {}
         heading = "Options"
@@ -192,10 +187,8 @@ def _in_short(name: str) -> str:
 
 
 class GroupedOption(click.Option):
-    """An option with the heading of its group in the help.
-
-    For an argument of a function of the package the help and the default are those of the argument,
-    looked up only for the help; if it is not given, it is not passed.
+    """The help and the default may be those of an argument of a function of the package, looked up
+    only for the help; if the option is not given, the argument is not passed.
     """
 
     def __init__(self, flags: list[str], heading: str, of: str = "", **settings: Any) -> None:
@@ -207,7 +200,6 @@ class GroupedOption(click.Option):
 
     @property
     def help(self) -> str | None:
-        """The text of the option, or the documentation of the argument."""
         return self._help or (told(self._of) if self._of else None)
 
     @help.setter
@@ -289,10 +281,9 @@ def declared(
     output: Mapping[str, object] = REPORTED,
     has_catalogue: bool = False,
 ) -> Callable[[Body[Given]], Body[Given]]:
-    """Makes the function the implementation of a command of the table.
-
-    It takes the options and the ``Output``, and returns the exit code, or None for 0. The first of
-    ``formats`` is the default; ``output`` has its options on them.
+    """The function implements a command: it takes options and ``Output``, and returns the exit
+    code, or None for 0. ``formats`` are those it writes, the first by default; ``output`` its
+    options on them.
     """
 
     def declare(body: Body[Given]) -> Body[Given]:

@@ -288,7 +288,6 @@ def _refuse_rounded(family: FamilyFile, given: DesignOptions) -> None:
 
 
 def _within(family: FamilyFile, given: DesignOptions, output: Output) -> int:
-    """Reports values within the tolerance and writes the files; returns the exit code."""
     from garkcli.api.design import find_parameters
     from garkcli.design.within import DesignWithin
     from garkcli.methodfile.naming import called
@@ -384,7 +383,6 @@ def _as_stable(family: FamilyFile, asked: RequiredStability | None) -> FamilyFil
 
 
 def _told(family: FamilyFile, chosen: list[Choice], given: DesignOptions, output: Output) -> int:
-    """Finds the values, and writes the report and the files; returns the exit code."""
     from garkcli.methodfile.naming import called
     from garkcli.report.design import REPORT, DesignReport
 
@@ -441,9 +439,7 @@ def _sets(found: Design, given: DesignOptions) -> tuple[StableValues, ...] | Non
 
 
 def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
-    """The remains of each value of --choose; UsageProblem if it is not valid, leaves no unknown, or
-    a question is not decided in time.
-    """
+    """UsageProblem if a choice is not valid, leaves no unknown, or is not decided in time."""
     from garkcli.design.choices import walk_down
 
     unknowns = known.family.parameters
@@ -492,9 +488,7 @@ def _stable_values(family: FamilyFile, given: DesignOptions, output: Output) -> 
 def _emit(
     found: Design | DesignWithin | Minimum, family: FamilyFile, given: DesignOptions, output: Output
 ) -> None:
-    """Writes the first of the methods found, or all; UsageProblem if there is none, MethodError if
-    a method file cannot hold the values.
-    """
+    """UsageProblem if there is no method, MethodError if a file cannot hold its values."""
     if given.emit is None and given.folder is None:
         return
     from garkcli.api.design import found_files
@@ -593,9 +587,7 @@ def _order(family: FamilyFile, given: DesignOptions) -> int:
 def _searched(
     asked: FileSearch, starts: int, given: DesignOptions
 ) -> tuple[SearchResult, int | None]:
-    """The result, and the exit code if an interrupt or a lost worker, not the time, ended the
-    search.
-    """
+    """The exit code is of an interrupt or a lost worker, not of the end of the time."""
     from garkcli.design.search.run import MOST, SearchResult, results
 
     most = given.most or (MOST if given.minimise is None else 1)
@@ -628,7 +620,6 @@ def _worked(
     found: AnyResult,
     show: Callable[[AnyResult], None],
 ) -> tuple[AnyResult, int | None]:
-    """The last step of some work, and the exit code of an interrupt or a lost worker."""
     from garkcli.crew.hiring import hired
 
     with undone():

@@ -11,7 +11,6 @@ import click
 from garkcli.errors import UsageProblem
 
 AUTO = "auto"
-"""The format that suits the environment of the command."""
 PLAIN = ".txt"
 ENDINGS: Mapping[str, tuple[str, ...]] = {
     ".json": ("json", "sarif"),
@@ -53,14 +52,12 @@ CURES = {
         "gark export writes tables for programs",
     ),
 }
-"""Commands that write the formats which others cannot."""
 PICTURES = ("png", "svg", "pdf")
 UNDRAWN = ("tableau", "tree")
 """No other command draws these."""
 DRAWN_BY_OTHERS = ("check", "plot", "show", "stability")
 """Other commands draw pictures of their methods."""
 DRAWING = {"convergence": "converge", "energy": "energy"}
-"""These draw the pictures of ``gark plot`` that are not of stability."""
 
 
 def ending_of(path: str) -> str:
@@ -72,9 +69,7 @@ def ending_of(path: str) -> str:
 def settled(
     path: str, formats: Sequence[str], chosen: str | None = None, option: str = "-o"
 ) -> str | None:
-    """The format of the ending, otherwise the chosen one, or None; UsageProblem for another format,
-    with ``option`` in the message.
-    """
+    """The format of the ending, or ``chosen``; UsageProblem naming ``option`` for others."""
     ending = ending_of(path)
     if not ending:
         is_plain = splitext(path)[1].lower() == PLAIN and "text" in formats

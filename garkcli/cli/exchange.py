@@ -239,7 +239,6 @@ def import_(given: Import, output: Output) -> int:
 
 
 def _tell_signs(results: Sequence[TableResult], output: Output) -> None:
-    """Notes how error estimates of unknown sign are read, as a report does."""
     for result in results:
         if result.method is not None and result.method.sign:
             output.note(f"{_place(result)}: {result.method.sign}")
@@ -285,7 +284,6 @@ def _tell_unread(unread: Sequence[TableResult], output: Output) -> None:
 
 
 def _other(table: FoundTable) -> tuple[str, str]:
-    """The remark about arrays that may not be a method, and the cure."""
     place = f"{printable(table.source)}:{table.line}"
     cure = f"--from {table.format} takes them for one"
     if table.c[0] is None:
@@ -438,7 +436,6 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
 
 
 def _claim(files: Sequence[str], place: str, output: Output) -> None:
-    """Writes the method files of the tables, with the declared orders as claims."""
     from garkcli.bridges.collecting import collected
     from garkcli.cli.designing import make_folder
 

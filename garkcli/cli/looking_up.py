@@ -89,7 +89,6 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]
 
 
 def _filters() -> list[click.Option]:
-    """The options that filter and sort the lists of methods, by keys of entries."""
     from garkcli.catalogue.entries import ORDERS
     from garkcli.properties.subject import every_property
     from garkcli.report.methods import BY_KIND, KEYS_OF_KINDS
@@ -325,7 +324,6 @@ def _is_no_page(path: str) -> bool:
 
 
 def _page_name(paths: list[str], which: str | None) -> str:
-    """METHOD.html, or report.html for several methods."""
     if len(paths) > 1 or is_stream(paths[0]):
         return "report.html"
     from garkcli.methodfile.naming import called

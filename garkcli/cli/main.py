@@ -26,9 +26,7 @@ if TYPE_CHECKING:
 
 REPORT_TO = "the issue tracker of the project"
 HELP = "help"
-"""Followed by the name of a command, it shows the help of the command."""
 COMPLETION = "_GARK_COMPLETE"
-"""The variable in which shells ask for completions."""
 
 
 class _LazyGroup(click.Group):
@@ -57,7 +55,6 @@ class _LazyGroup(click.Group):
         return super().resolve_command(ctx, args)
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """The commands, the word for help, and the commands behind it."""
         from click.shell_completion import CompletionItem
 
         found = super().shell_complete(ctx, incomplete)
@@ -125,9 +122,8 @@ gark.params.append(help_option())
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Exit codes: 0 success, 1 a claim fails, 2 wrong usage or input, or no place for the report, 3
-    undecided, or an internal error, 128 + n ended by signal n: 130 interrupted, 141 the reader of
-    the report is gone.
+    """Exit codes: 0 success, 1 a claim fails, 2 wrong usage or input, 3 undecided, or an internal
+    error, 128 + n ended by signal n, 141 if the reader of the report is gone.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     streams.prepare()

@@ -36,11 +36,9 @@ class Kind(Frozen, Generic[T]):
 
 
 class Option(Frozen):
-    """An option, or an argument.
-
-    ``flags`` are as on the command line, of an argument its word in the usage; ``of`` is the
-    function and the argument in Python, or empty, whose docstring serves without ``help``.
-    ``heading`` begins a group in the help; ``is_former`` keeps it out of the help.
+    """``flags`` are as on the command line, of an argument its word in the usage; ``of`` is an
+    argument of a function, whose docstring replaces ``help``; ``heading`` begins a group in the
+    help.
     """
 
     flags: tuple[str, ...]
@@ -70,8 +68,6 @@ class Option(Frozen):
 
 
 class Bundle(Frozen):
-    """Options that a function makes; their values are a mapping by their names."""
-
     make: Callable[[], list[click.Option]]
 
 
@@ -81,11 +77,8 @@ class Value(Frozen):
 
 
 class Rule(Frozen):
-    """The one of ``options`` that is given needs one of the others if ``needs``, otherwise excludes
-    all.
-
-    OPTION in the message is that option. For ``--format`` the effective format counts, for
-    ``--output`` a file.
+    """The given one of ``options`` needs one of the others if ``needs``, else excludes them all; it
+    is OPTION in the message. The effective format counts for ``--format``, a file for ``--output``.
     """
 
     options: tuple[Option | Value, ...]
@@ -99,8 +92,6 @@ class Rule(Frozen):
         return "option-alone" if self.needs else "options-clash"
 
     def check(self, value_of: Callable[[Option], object]) -> None:
-        """UsageProblem for options that break the rule."""
-
         def is_given(each: Option | Value) -> bool:
             if isinstance(each, Value):
                 return value_of(each.option) == each.value
@@ -122,7 +113,6 @@ def excludes(given: object, others: object, message: str, cure: str) -> Rule:
 
 
 def being(given: object, value: object) -> Value:
-    """The value of an option in a rule."""
     first = given[0] if isinstance(given, tuple) else given
     return Value(cast("Option", first), value)
 
@@ -163,7 +153,6 @@ def required(flags: str, kind: Kind[T], help: str = "", *, of: str = "", heading
 def repeated(
     flags: str, kind: Kind[T], help: str = "", *, of: str = "", heading: str = ""
 ) -> tuple[T, ...]:
-    """The option can be given several times."""
     declared: object = option(flags, _with(kind, multiple=True), help, of=of, heading=heading)
     return cast("tuple[T, ...]", declared)
 
@@ -203,7 +192,6 @@ def maybe_argument(written: str, kind: Kind[T]) -> T | None:
 
 
 def arguments_of(written: str, kind: Kind[T]) -> tuple[T, ...]:
-    """In brackets the argument may be left out."""
     is_needed = not written.startswith("[")
     declared: object = option(written, _with(kind, required=is_needed, nargs=-1))
     return cast("tuple[T, ...]", declared)
@@ -328,14 +316,10 @@ SET = always("--set", SETTINGS, "Give a parameter of FILE a value; repeatable.",
 
 
 class WithSettings(Options):
-    """Parameters of methods may be given values."""
-
     settings: Mapping[str, str] = SET
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """With the values of --set; MethodFileError if there is no method, HasFreeParameters
-        without a value.
-        """
+        """MethodFileError if there is no method, HasFreeParameters if one has no value."""
         from garkcli.methodfile.load import load
 
         found: GarkMethod = load(file, self.settings)
@@ -349,8 +333,6 @@ PAIR = flag("--pair", "Take the symplectic pair of FILE instead, 2N colours.")
 
 
 class Derivable(WithSettings):
-    """The conjugate or the pair can stand for a method."""
-
     conjugate: bool = CONJUGATE
     pair: bool = PAIR
     rules: ClassVar[tuple[Rule, ...]] = (
@@ -418,6 +400,5 @@ FAST = option(
 
 
 def of_springs(slow: object) -> tuple[Rule, Rule]:
-    """``--slow`` and ``--fast`` belong together."""
     said = "--slow and --fast belong together", "give both"
     return needs(slow, FAST, *said), needs(FAST, slow, *said)

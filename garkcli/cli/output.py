@@ -24,11 +24,9 @@ if TYPE_CHECKING:
 
 
 class Output:
-    """The place and the appearance of a report.
-
-    ``path`` is the file of ``-o``, or None; ``verbosity`` −1, 0 or 1; ``is_streamed`` says that
-    ``-o -`` was given, ``is_by_ending`` that the ending of the file determines the format,
-    ``is_default`` that nothing does. UsageProblem, before any work, if nothing can be written.
+    """``path`` is the file of ``-o``, or None; ``verbosity`` −1, 0 or 1; ``is_streamed``: ``-o -``
+    was given, ``is_by_ending``: the ending determines the format, ``is_default``: nothing does.
+    UsageProblem, before any work, if nothing can be written.
     """
 
     def __init__(
@@ -52,10 +50,8 @@ class Output:
 
     @classmethod
     def of(cls, values: Mapping[str, Any], formats: Sequence[str] = ()) -> Output:
-        """The output for the values of its options, as far as a command has them.
-
-        ``formats`` are those that the command writes, empty if it checks the ending itself.
-        UsageProblem if the ending of the file belongs to another format.
+        """A command that checks endings itself has no ``formats``; UsageProblem if the ending of
+        the file belongs to another format.
         """
         verbosity = values.get("verbose", False) - values.get("quiet", False)
         format, path = values.get("format", "text"), values.get("output")
@@ -84,9 +80,7 @@ class Output:
     def files_meant(
         self, files: Sequence[str], settings: Mapping[str, str] | None = None
     ) -> list[str]:
-        """The files of FILE..., never overwritten; UsageProblem if the report would be one, or for
-        --set with several.
-        """
+        """Inputs are never overwritten; UsageProblem for one as report, or several with --set."""
         from garkcli.methodfile.naming import find_files
 
         found = list(find_files(files, self.note))
@@ -108,7 +102,6 @@ class Output:
 
     @property
     def width(self) -> int:
-        """In columns, or 80."""
         return width_of_terminal() if self.path is None else TERMINAL
 
     def write(self, text: str | Iterable[str], format: str = "") -> None:
@@ -123,7 +116,6 @@ class Output:
         self.save(self.path, safe_pieces(pieces, format, coloured))
 
     def write_exactly(self, text: str) -> None:
-        """With all characters and line ends, such as a patch."""
         if self.path is None:
             put_exactly(text)
         else:
@@ -139,9 +131,7 @@ class Output:
         self.write(report.render(wholes, self.format, self.look, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
-        """While the result is computed; ``is_document``: LaTeX has its preamble, or names it; None
-        for neither.
-        """
+        """``is_document``: LaTeX has its preamble, or names it; None for neither."""
         pieces = report.pieces(whole, self.format, self.look, self.verbosity, width=self.width)
         if self.format == "latex" and is_document is not None:
             from garkcli.page.latex import fragment
@@ -174,7 +164,6 @@ class Output:
             raise UsageProblem(message, "leave one of them out", code="options-clash")
 
     def show(self, path: str) -> None:
-        """In the browser of the user."""
         import webbrowser
         from pathlib import Path
 

@@ -98,7 +98,6 @@ def _possible(method: GarkMethod) -> list[str]:
 
 
 def _first(method: GarkMethod) -> tuple[str, Panel | None]:
-    """Region, oscillator or tableau."""
     from garkcli.webpage.pictures import NotDrawn, panel_named
 
     for what in ("region", "oscillator"):
@@ -137,7 +136,6 @@ def _last_tree(method: GarkMethod) -> Tree:
 
 
 def _tree(tree: Tree, method: GarkMethod, output: Output) -> None:
-    """Colours have the names of gark check."""
     from garkcli.ntrees.drawing import draw_svg_sheet, draw_text
     from garkcli.ntrees.notation import format_tree
     from garkcli.page.plaintext import plain_text

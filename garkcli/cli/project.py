@@ -21,9 +21,7 @@ MOST_BYTES = 1_000_000
 
 
 class Project(Frozen):
-    """``paths`` are the method files, folders or patterns that are checked if none are named;
-    ``needed`` are required claims; ``defaults`` are values for options that are not given.
-    """
+    """``paths`` are checked if none are named; ``needed`` are required claims."""
 
     file: str = ""
     paths: tuple[str, ...] = ()
@@ -33,8 +31,8 @@ class Project(Frozen):
 
 
 def find_project() -> Project:
-    """The first file with settings for gark, in the current folder or above, up to the root of the
-    repository; UsageProblem if it cannot be read, MethodFileError with all its faults.
+    """From the current folder up to the root of the repository; UsageProblem if a file cannot be
+    read, MethodFileError with all faults.
     """
     for folder in _folders():
         for name in (OWN, SHARED):
@@ -80,7 +78,6 @@ _TOOL = (
     rb"tool[\"' \t]*\.[\"' \t]*gark"
     rb"|^[ \t]*\[[ \t]*[\"']?tool[\"']?[ \t]*\]|^[ \t]*[\"']?tool[\"']?[ \t]*="
 )
-"""The start of a table of gark, or of a table of tools that may contain it."""
 
 
 _DEEP = r"(?<![\w\"'-])(?:[\w\"'-]++[ \t]*+\.[ \t]*+){100}"

@@ -40,7 +40,6 @@ def _path(at: Any, node: Node, where: str) -> str | None:
 
 
 def file_of(formats: Iterable[str]) -> g.ValueKind:
-    """``formats`` are those of ``gark check``."""
     return g.mapping(
         g.Key(
             'paths: ["methods"]',

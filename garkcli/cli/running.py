@@ -182,7 +182,6 @@ class Modified(opt.Derivable):
 
 
 DRIFTING = frozenset({"drifts", "unstable"})
-"""Verdicts that contradict ``--bounded``."""
 UNDECIDED = 3
 
 
@@ -269,9 +268,7 @@ def _one(path: str, given: Converge, output: Output) -> int:
 
 
 def _several(paths: Sequence[str], given: Converge, output: Output) -> int:
-    """Failures are reported at once and do not stop the other tests; MethodFileError for faults of
-    the problem file, UsageProblem if the steps do not fit the time.
-    """
+    """MethodFileError for faults of the problem; other failures do not stop the tests."""
     from garkcli.methodfile.naming import called
     from garkcli.plots.convergence import errors_scene
     from garkcli.report.comparison import REPORT, ConvergedMethod, ConvergedMethods
@@ -325,10 +322,8 @@ def _failed(path: str, name: str, error: GarkError) -> ConvergedMethod:
 
 
 class Problems:
-    """The problem of a convergence test, split for each of the tested methods.
-
-    A file is read once. All methods get the same sum of terms, even if its coefficients depend on
-    their number. Without a name every tree of the methods matters for the problem.
+    """A file is read once. All methods get the same sum of terms, even if its coefficients depend
+    on their number. Without a name every tree of the methods matters for the problem.
     """
 
     def __init__(self, given: Converge) -> None:
@@ -448,9 +443,7 @@ def energy(given: Energy, output: Output) -> int:
 
 
 def _followed(tableau: Tableau, given: Energy, output: Output) -> Oscillator | Problem:
-    """With as many terms as the tableau needs; UsageProblem if nothing is conserved, or
-    --symplecticity does not apply.
-    """
+    """UsageProblem if nothing is conserved, or --symplecticity does not apply."""
     from garkcli.api.problems import problem_for
     from garkcli.problems.builtin import is_path
     from garkcli.problems.hamiltonian import Hamiltonian
@@ -520,7 +513,6 @@ def _claims(run: LongRun, given: Energy) -> tuple[RunClaim, ...]:
 
 
 def _in_modified(order: int, given: Energy, output: Output) -> int:
-    """For exact coefficients only."""
     from garkcli.api.problems import hamiltonian_for
     from garkcli.api.runs import modified_run
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport

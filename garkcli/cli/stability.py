@@ -157,7 +157,6 @@ def _report(
 
 
 def _strengths(slow: str) -> tuple[fmpq, fmpq]:
-    """The ends of --slow, equal ones for one number."""
     first, dots, last = slow.partition("..")
     low = square("--slow", first)
     high = rational("--slow", last) if dots else low

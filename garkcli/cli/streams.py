@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 
 HANDLER = "garkcli.plaintext"
-"""The name of the error handler of streams."""
 READER_GONE = 128 + 13
 """The exit code if the reader of the report is gone, as after SIGPIPE."""
 INTERRUPTED = 128 + signal.SIGINT
@@ -130,7 +129,6 @@ def say(text: str, coloured: bool = False, is_folded: bool = True) -> None:
 
 
 def _fitting(text: str) -> str:
-    """Folded if standard error is a terminal."""
     if not is_terminal(sys.stderr):
         return text
     from garkcli.page.lines import folded
@@ -214,9 +212,7 @@ def look_of(stream: object, has_colour: bool) -> Look:
 
 
 def wants_colour(stream: object) -> bool:
-    """Without an option: a nonempty ``NO_COLOR`` turns colours off and ``FORCE_COLOR`` on;
-    otherwise terminals have them, unless they declare themselves dumb.
-    """
+    """A nonempty ``NO_COLOR`` turns colours off, ``FORCE_COLOR`` on; terminals have them."""
     if os.environ.get("NO_COLOR"):
         return False
     forced = os.environ.get("FORCE_COLOR", "")

@@ -6,9 +6,7 @@ from garkcli.frozen import Frozen
 
 
 class Command(Frozen):
-    """``group`` is a heading in the help, ``calls`` are functions of the package, ``examples``
-    lines to copy.
-    """
+    """``group`` is a heading, ``calls`` functions of the package, ``examples`` lines to copy."""
 
     group: str
     file: str

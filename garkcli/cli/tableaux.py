@@ -32,7 +32,6 @@ EXIT_CODES = {
 
 
 REDUCED = "reduced"
-"""The value of ``--to`` for the smallest equivalent method."""
 
 
 def forms() -> list[str]:
@@ -179,10 +178,8 @@ def read_family(
     needs: Mapping[str, object],
     is_judged: bool = True,
 ) -> tuple[FamilyFile, EveryFamily]:
-    """The family of a file, from the error of reading it as a method.
-
-    ``needs`` has options that require numbers. With ``is_judged`` decisions follow, which need
-    exact coefficients. UsageProblem if that fails, or if one of the options was given.
+    """``needs`` has options that require numbers; decisions follow if ``is_judged``, and need exact
+    coefficients. UsageProblem if one of these is violated.
     """
     from garkcli.check.every_family import every_family
     from garkcli.methodfile.family import family_of, refuse_rounded
@@ -203,9 +200,7 @@ def read_family(
 
 
 def _write_family(error: HasFreeParameters, given: TableauOptions, output: Output) -> None:
-    """With rational functions of the parameters; UsageProblem if the nodes have no simple radicals,
-    or decimals are requested.
-    """
+    """UsageProblem if the nodes have no simple radicals, or decimals are requested."""
     from garkcli.order.meant import derived, printed
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
 

@@ -28,7 +28,6 @@ MANY = 1_000_000
 """For more lines the command asks first."""
 MAX_PICTURES = 2000
 BLOCK_SIZE = 1 << 14
-"""Trees that are made at a time."""
 
 
 COLOURS = opt.option(
@@ -151,7 +150,6 @@ def _orders(order: int | None, upto: bool) -> range:
 
 
 def counts_of(query: Query) -> list[tuple[int, tuple[int, ...]]]:
-    """By root colour for each order."""
     from garkcli.ntrees.count import Admissible, count_by_root, counts_upto
 
     if not query.upto:
@@ -374,7 +372,6 @@ def conditions(given: ConditionsOptions, output: Output) -> None:
 
 
 def _valued(file: str, given: ConditionsOptions) -> Valued:
-    """With rational functions for free parameters."""
     from garkcli.methodfile.load import load
     from garkcli.order.meant import as_meant, derived
     from garkcli.report.conditions import Valued
@@ -393,7 +390,6 @@ def _valued(file: str, given: ConditionsOptions) -> Valued:
 
 
 def _subject(given: ConditionsOptions, orders: range, valued: Valued | None) -> SymplecticSubject:
-    """A kind of methods, or the method of a file, for independent conditions."""
     from garkcli.report.trees import subject_of_kind, subject_of_method
 
     if valued is None:

@@ -23,7 +23,6 @@ MEANT = {
     "simulate": "converge",
     "solve": "converge",
 }
-"""Words that people type for a command."""
 CURES = {
     "FILE...": "name a file, a folder, or a method of the catalogue, such as rk4",
     "FILE": "name a file, or a method of the catalogue, such as rk4",
@@ -104,7 +103,6 @@ def _no_such_option(name: str, options: list[str], context: click.Context | None
 
 
 _SHOWN = 4
-"""Commands that are listed for an option they have."""
 
 
 def _commands_with(option: str, context: click.Context | None) -> Iterator[str]:
