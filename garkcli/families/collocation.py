@@ -195,7 +195,6 @@ def hbvm(stages: int, options: Options) -> Recipe:
 
 
 MOST_OF_GAUSS = 500
-"""Entries of Gauss methods are found fast (``tableau.gauss_points``)."""
 _ORDER = "2s - 2"
 STIFF = Reference(
     authors=("E. Hairer", "G. Wanner"),

@@ -48,7 +48,6 @@ SWEEPS = Option(
     shown="4",
 )
 MAX_SLOPES = 400
-"""Most slopes that are made to count the stages."""
 SWEEP = Option(
     "sweep",
     "Whether sweeps of deferred corrections are explicit or implicit Euler's.",
@@ -96,8 +95,6 @@ def _nodes(word: str, points: int) -> tuple[Expression, ...]:
 
 
 class _Corrections:
-    """The stages of one method with ascending nodes, swept by an Euler method."""
-
     def __init__(self, nodes: Vector, is_implicit: bool) -> None:
         self.nodes = nodes
         self.is_implicit = is_implicit

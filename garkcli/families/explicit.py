@@ -51,7 +51,6 @@ def ssp2(s: int) -> Method:
 
 
 def _lower(rows: Sequence[Vector]) -> Matrix:
-    """These rows follow a zero row."""
     s = len(rows) + 1
     matrix: list[Vector] = [(ZERO,) * s]
     matrix.extend(row + (ZERO,) * (s - len(row)) for row in rows)

@@ -99,7 +99,6 @@ def _extrapolated(name: str, steps: Steps, parts: Sequence[int], powers: Sequenc
 
 
 def _explicit(name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]) -> Recipe:
-    """All sequences share their first stage."""
     return Recipe(1 + sum(parts) - len(parts), lambda _: _extrapolated(name, steps, parts, powers))
 
 

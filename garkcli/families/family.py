@@ -12,7 +12,6 @@ from garkcli.reference import Reference
 from garkcli.tableau.tableau import Method
 
 Given: TypeAlias = "str | int | Expression"
-"""A word, an integer or a coefficient."""
 Options: TypeAlias = Mapping[str, Given]
 
 
@@ -46,9 +45,7 @@ STAGES = Option("stages", "How many stages the member of the family has.", small
 
 
 class Recipe(Frozen):
-    """``numbers`` are the irrational numbers of a member, whose values ``make`` takes in one
-    domain.
-    """
+    """``make`` takes values of the irrational ``numbers`` in one domain."""
 
     stages: int
     make: Callable[[Vector], Method]
@@ -97,7 +94,6 @@ class MethodFamily(Frozen):
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """Besides ``family``."""
         return tuple(option.name for option in self.chosen)
 
     @property
@@ -111,13 +107,10 @@ NONSTIFF = Reference(
     publisher="Springer",
     year="1993",
 )
-"""The book with most of the explicit families."""
 MAX_STAGES = 200
 
 
 def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:
-    """Members have a number of stages and no options."""
-
     def recipe(stages: int, _: Options) -> Recipe:
         return Recipe(stages, lambda _: make(stages))
 

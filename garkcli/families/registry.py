@@ -171,7 +171,6 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
 
 
 def _given(option: Option | None, value: object, key: str) -> Given:
-    """In the form of recipes; UnknownFamily if the word or number is not allowed."""
     if option is None:
         return str(value)
     if option.smallest is not None:

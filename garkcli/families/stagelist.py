@@ -17,7 +17,6 @@ from garkcli.tableau.tableau import Method, butcher
 
 Weights: TypeAlias = Mapping[int, Number]
 START: Weights = {}
-"""The value at the beginning of the step."""
 
 
 def combined(terms: Iterable[tuple[Number | int, Weights]]) -> Weights:
@@ -31,8 +30,6 @@ def combined(terms: Iterable[tuple[Number | int, Weights]]) -> Weights:
 
 
 class StageList:
-    """In the order of computation."""
-
     def __init__(self) -> None:
         self._rows: list[Weights] = []
 

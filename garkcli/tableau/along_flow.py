@@ -19,9 +19,7 @@ T = TypeVar("T", bound="AlongFlow")
 
 
 class AlongFlow(Frozen):
-    """``A`` has matrices a^1, a^2, … of f, f' f, …, shape (s, s); ``c`` is None for row sums of
-    a^1.
-    """
+    """``A``: matrices a^1, a^2, … of f, f' f, …, shape (s, s); ``c`` is None for sums of a^1."""
 
     A: tuple[Matrix, ...]
     b: Weights
@@ -86,7 +84,6 @@ def flow_nodes(order: int) -> tuple[fmpq, ...]:
 
 
 def weights_of(row: Vector, space: Jets) -> Weights:
-    """The weights of f, f' f, … in a row of such a tableau."""
     nodes = flow_nodes(space.order)
     parts = [row[i : i + space.order] for i in range(0, len(row), space.order)]
     weights = []

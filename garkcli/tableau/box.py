@@ -18,18 +18,13 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 Make: TypeAlias = Callable[[Sequence[Any]], Tableau]
-"""From numbers in place of the printed ones: exact ones or affine forms."""
 
 
 FAMILY_BITS = 1000
-"""Precision of the entries of families beside rounded methods."""
 
 
 class Box(Frozen, eq=False):
-    """All methods whose printed numbers are off by at most their ``radii`` t_k > 0.
-
-    ``make`` makes the method of such numbers; further weights are colours that no stage sees.
-    """
+    """Printed numbers are off by at most radii t_k > 0; further weights are unseen colours."""
 
     numbers: tuple[Number, ...]
     radii: tuple[fmpq, ...]
@@ -163,9 +158,9 @@ def _maker(
     sums: Sequence[int | None],
     first: Sequence[int],
 ) -> Make:
-    """``rows`` are the weights of the printed tableau, the rows of its blocks, and nodes that are
-    printed; ``radii`` are 0 for exact numbers. ``sums`` has for each colour l the m with A^{l,m} 𝟙
-    as its nodes, None if they are printed; ``first`` the first colour with these nodes and stages.
+    """``rows``: weights, rows of blocks, printed nodes; ``radii`` are 0 for exact numbers. ``sums``
+    has for each colour l the m with A^{l,m} 𝟙 as nodes; ``first`` the first colour with these nodes
+    and stages.
     """
     colours = len(sums)
 

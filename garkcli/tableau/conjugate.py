@@ -24,9 +24,7 @@ def conjugate_block(
     other: StageSpace,
     b_other: matrix.Vector,
 ) -> matrix.Matrix:
-    """Â^{l,m}, shape (stages of l, stages of m), from ``block`` A^{m,l}, ``here`` the space of l;
-    ZeroWeight if b^{l} has a zero weight.
-    """
+    """Â^{l,m}, shape (s_l, s_m), from ``block`` A^{m,l}; ZeroWeight if b^{l} has a zero weight."""
     try:
         adjoint = other.adjoint(block, b_other, here, b)
     except matrix.SingularMatrixError:
@@ -38,10 +36,8 @@ def conjugate_block(
 
 
 def conjugate(tableau: Tableau) -> Tableau:
-    """The symplectic conjugate (Â^{l,m}, b, c); conjugated again it is ``tableau``.
-
-    For a partitioned tableau (A, Â) momentum blocks come from position blocks and vice versa.
-    Raises ZeroWeight if a conjugate would divide by zero, MethodError if the tableau is no GARK
+    """(Â^{l,m}, b, c); conjugated again it is ``tableau``. For a partitioned one, (A, Â), momentum
+    blocks come from position blocks and vice versa. Raises ZeroWeight, or MethodError for no GARK
     method.
     """
     tableau.demand_fields("the symplectic conjugate")

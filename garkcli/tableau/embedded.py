@@ -17,7 +17,6 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Weights: TypeAlias = tuple[Vector, ...]
-"""For each colour, one number per stage."""
 
 
 class DenseOutput(Frozen):
@@ -77,7 +76,6 @@ class Predictor(Frozen):
                 yield name, matrices
 
     def at(self, ratio: Number) -> tuple[Matrix, Matrix]:
-        """The matrices p and q at one ratio."""
         return _matrix_at(self.old, ratio), _matrix_at(self.new, ratio)
 
     def changed(self, change: Callable[[Matrix], Matrix]) -> Predictor:
@@ -199,9 +197,7 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """The inverse of ``as_colours``; ``further`` tells the kinds. A predictor is left out, as it
-    belongs to the original stages.
-    """
+    """The inverse of ``as_colours``, without predictor, which belongs to the original stages."""
     if not further.rows:
         return tableau, replace(further, predictor=None)
     size = tableau.size // (len(further.rows) + 1)

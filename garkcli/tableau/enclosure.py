@@ -20,17 +20,11 @@ Rows: TypeAlias = list[Row]
 MAX_DIGITS = 300
 """The exponents of floats end at 308."""
 GUARD_OF_ENTRIES = 32
-"""Guard bits of entries, relative to the arithmetic that uses them."""
 
 
 class Enclosure(Frozen):
-    """Balls around the entries of a tableau, on point stages.
-
-    Attributes:
-        bits: the precision of the arithmetic with them.
-        stages: s of each stage space.
-        A: blocks as in ``Tableau.blocks``, shape (s_space, s_colour).
-        b: the weights of each colour as a column, shape (s_colour, 1).
+    """Balls on point stages, for arithmetic with ``bits``: A as in ``Tableau.blocks``, shape
+    (s_space, s_colour), and b as columns, shape (s_colour, 1).
     """
 
     bits: int

@@ -23,10 +23,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Radical(Frozen):
-    """A root among the coefficients of a family: an unknown, a zero of ``relation``.
-
-    ``is_even`` roots are nonnegative; ``meant`` is the zero, if there are several real ones.
-    """
+    """A zero of ``relation``, nonnegative if ``is_even``, ``meant`` if several are real."""
 
     name: str
     relation: fmpq_mpoly
@@ -63,18 +60,13 @@ OSCILLATING = ("p-stable", "i-stable")
 
 
 class RequiredStability(Frozen):
-    """Attributes:
-    kind: ``a-stable``, ``l-stable``, ``p-stable`` or ``i-stable``.
-    colour: of a diagonal method, counted from 0; None for the whole method.
-    is_embedded: whether the embedded weights take the place of b.
-    """
+    """``colour``: of a diagonal method, from 0; ``is_embedded``: with embedded weights as b."""
 
     kind: str
     colour: int | None = None
     is_embedded: bool = False
 
     def __str__(self) -> str:
-        """A-stable, for instance."""
         name = self.kind[0].upper() + self.kind[1:]
         name += " with the embedded weights" * self.is_embedded
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
@@ -150,7 +142,6 @@ class Family(Frozen, kw_only=True):
 
 
 NAME = "_node"
-"""Prefix of the names of unknowns that are roots of nodes."""
 
 
 def ring_of(tableau: Tableau) -> Parameters:
@@ -181,7 +172,6 @@ def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
     radicals = [larger.parameter(name) for name in names]
 
     def function(x: object) -> Any:
-        """The coefficient in the larger ring."""
         if not isinstance(x, Parametric):
             return x
         parts = (p.project_to_context(larger.context) for p in (x.numerator, x.denominator))

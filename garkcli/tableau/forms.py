@@ -172,10 +172,8 @@ def _driving(colour: Colour, letter: str, space: int, part: Part) -> Colour:
 
 
 def pair(tableau: Tableau) -> Tableau:
-    """The symplectic pair (Q, P), eq. (varGARK): 2N colours V¹…Vᴺ, F¹…Fᴺ.
-
-    A partitioned tableau keeps its position blocks, and its momentum blocks become their
-    conjugates. Raises ZeroWeight if a conjugate would divide by zero.
+    """Eq. (varGARK): 2N colours V¹…Vᴺ, F¹…Fᴺ. Of a partitioned tableau the position blocks stay,
+    and the momentum blocks become their conjugates. Raises ZeroWeight.
     """
     if not tableau.is_partitioned:
         everything = range(tableau.size)
@@ -190,9 +188,7 @@ def pair(tableau: Tableau) -> Tableau:
 
 
 def on_linear_problems(tableau: Tableau) -> Tableau:
-    """The GARK method with the same step on linear problems; A = β = α + γ for a Rosenbrock method,
-    as vertices there have one branch.
-    """
+    """A = β = α + γ for a Rosenbrock method, as vertices of linear problems have one branch."""
     kinds = {colour.kind for colour in tableau.colours}
     if kinds != {NOT_ONE, ONE_BRANCH}:
         return tableau

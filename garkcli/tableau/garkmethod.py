@@ -24,8 +24,6 @@ K = TypeVar("K", int, tuple[int, int])
 
 
 class NoSuchColour(MethodError, KeyError):
-    """The method has no such colour or pair of colours."""
-
     __str__ = MethodError.__str__
 
 
@@ -81,12 +79,10 @@ def derived_name(derivation: str, name: str) -> str:
 
 
 def derivation_of(method: GarkMethod | None) -> Derivation:
-    """Empty if only the tableau is known."""
     return "" if method is None else method.derivation
 
 
 def word_for(method: GarkMethod | None) -> str:
-    """The noun in a sentence: method, conjugate or pair."""
     return derivation_of(method) or "method"
 
 
@@ -228,7 +224,6 @@ class GarkMethod(Shown, Frozen, kw_only=True):
         return Further(self.embedded, self.dense, self.predictor)
 
     def _by_colour(self, rows: Sequence[Any]) -> Any:
-        """The row of the single colour, or the rows of all."""
         if self.tableau.size == 1:
             return rows[0]
         return ByColour(dict(enumerate(rows, start=1)))

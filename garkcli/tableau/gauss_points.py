@@ -48,7 +48,6 @@ def has_gauss_nodes(space: StageSpace) -> bool:
 
 
 def nodes_and_weights(stages: int) -> tuple[list[arb], list[arb]]:
-    """Ascending, at the current precision."""
     pairs = [arb.legendre_p_root(stages, k, weight=True) for k in reversed(range(stages))]
     return [(1 + x) / 2 for x, _ in pairs], [w / 2 for _, w in pairs]
 

@@ -20,16 +20,13 @@ Defined: TypeAlias = Mapping[AlgebraicRoot, str]
 def with_letters(
     tableau: Tableau | None, written: Mapping[str, str] = NOTHING, taken: str = ""
 ) -> Iterator[Defined]:
-    """Roots of degree 3 or more get letters in texts that are made inside; yields those so far.
-    ``written`` and ``taken`` are as in ``Letters``.
-    """
+    """Yields letters of roots of degree 3 or more so far; arguments as in ``Letters``."""
     letters = Letters(_diagonal(tableau), written, taken) if _has_roots(tableau) else None
     with lettered(letters):
         yield {} if letters is None else letters.of
 
 
 def _has_roots(tableau: Tableau | None) -> TypeGuard[Tableau]:
-    """Whether numbers have a root of degree 3 or more."""
     if tableau is None or tableau.field is None:
         return False
     roots = chain.from_iterable(roots_in(radical) for radical, _ in tableau.field.radicals)

@@ -26,7 +26,6 @@ from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Edge, Method, Tableau
 
 Cell: TypeAlias = Number | arb
-"""An exact number, or an enclosure of an irrational one."""
 Row: TypeAlias = tuple[Cell, ...]
 Block: TypeAlias = tuple[Row, ...] | None
 
@@ -117,9 +116,7 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
-    """None if the nodes have no simple radicals, or generate too large a field with the
-    coefficients.
-    """
+    """None if the nodes have no simple radicals, or too large a field with the coefficients."""
     radical_nodes = nodes_in_radicals(tableau)
     if not radical_nodes:
         return None if radical_nodes is None else tableau

@@ -23,7 +23,6 @@ from garkcli.tableau.stages import StageSpace, in_flint
 MAX_BITS_OF_ROW = 20_000
 """Largest size of the denominators of a row that elimination may multiply with each other."""
 MAX_MOMENTS = 8
-"""Most functionals of a stage space whose moments are cached."""
 
 
 class PolynomialSpace(StageSpace):

@@ -71,9 +71,7 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def lifts(self) -> matrix.Matrix:
-        """The ``basis_polynomials`` as columns, shape (s, s); CoincidingNodes if two nodes are
-        equal.
-        """
+        """``basis_polynomials`` as columns, shape (s, s); CoincidingNodes for equal nodes."""
 
     def power(self, v: matrix.Vector, exponent: int) -> matrix.Vector:
         result = self.one
@@ -110,8 +108,8 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def divide_by_weights(self, weights: matrix.Vector, right: matrix.Matrix) -> matrix.Matrix:
-        """X with G X = ``right``, G the ``gram``: at points B⁻¹ ``right``; SingularMatrixError if a
-        weight is zero.
+        """G⁻¹ ``right`` with the ``gram`` G: at points B⁻¹ ``right``; SingularMatrixError for a
+        zero.
         """
 
 
@@ -156,9 +154,7 @@ class PointSpace(StageSpace):
         return tuple(_value(coefficients, c) for c in self.points)
 
     def interpolation_bits(self, enough: int) -> int:
-        """The length of the common denominator of the Lagrange polynomials in bits, summed over the
-        coordinates of irrational nodes; a simple bound if that is at most ``enough``.
-        """
+        """Bits of the common denominator of the Lagrange polynomials, or a bound that is enough."""
         bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
         if bound <= enough or bound > MAX_BITS_COMPARED:
             return bound
@@ -208,14 +204,11 @@ OF_OTHERS = (
     "gark check, show, tableau, conditions, converge, diff, report and export know such methods; "
     "gark stability and plot know them but for nonlinearly partitioned ones"
 )
-"""The cure if a command is not defined for other methods than GARK methods."""
+"""For commands that are for GARK methods only."""
 
 
 class Flow(PointSpace):
-    """Collocation stages that represent the exact solution of problems between other stages.
-
-    Up to ``order`` conditions agree with those of the exact solution.
-    """
+    """Collocation stages as exact solution: conditions up to ``order`` agree with those of that."""
 
     order: int
 
@@ -224,9 +217,7 @@ class Flow(PointSpace):
 
 
 class Jets(Flow):
-    """Stages on the exact solution through each stage of the method, ``order`` of them, the first
-    at its beginning; ``derivatives`` is the number of f_k.
-    """
+    """Each stage has ``order`` nodes on its exact solution, for f_1, …, f_``derivatives``."""
 
     derivatives: int
 
@@ -266,8 +257,8 @@ def _value(coefficients: Sequence[Number], x: Number) -> Number:
 
 
 def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[matrix.Vector]:
-    """L_j = w/(x − c_j) / w'(c_j) for w = ∏ (x − c_k), each with one common denominator:
-    elimination in the Vandermonde matrix would carry that of all.
+    """L_j = w/(x − c_j) / w'(c_j), w = ∏ (x − c_k), each with one denominator: elimination in the
+    Vandermonde matrix would carry that of all.
     """
     x = fmpq_poly([0, 1])
     w = fmpq_poly([1])

@@ -46,7 +46,6 @@ class Colour(Frozen):
 
     @property
     def is_linear(self) -> bool:
-        """A vertex of a linear vector field has at most one branch."""
         return self.kind == LINEAR
 
 
@@ -245,9 +244,7 @@ class Tableau(Frozen):
 
 
 class Method(Frozen):
-    """``space`` has the nodes for transfer rules; ``A``, shape (s, s), maps it into itself, ``b``
-    is a functional.
-    """
+    """Transfer rules use the nodes of ``space``; ``A`` has shape (s, s), ``b`` is a functional."""
 
     name: str
     space: StageSpace

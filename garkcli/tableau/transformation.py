@@ -40,9 +40,7 @@ class Transformation(Frozen):
 
 
 def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
-    """In balls of width below 10^(−digits); MethodError if A has no inverse or a multiple
-    eigenvalue, or the method has several colours or too many stages.
-    """
+    """Width below 10^(−digits); MethodError for singular A or multiple eigenvalues."""
     stages = tableau.spaces[0].stages
     if tableau.size > 1 or tableau.block(0, 0) is None:
         message = "the transformation is for a method of one colour"
