@@ -45,10 +45,8 @@ class Substep(Frozen):
 
 
 def composed(substeps: Sequence[Substep]) -> Tableau:
-    """Takes the substeps one after the other, with equal stages merged.
-
-    Substeps share a stage if one ends with the value at which the next begins. Raises MethodError
-    if the methods are for different vector fields, or there are too many stages.
+    """Equal stages are merged: substeps share one if one ends with the value at which the next
+    begins. MethodError for different vector fields, or too many stages.
     """
     return merged(in_turn(substeps))
 
@@ -78,9 +76,7 @@ def count_stages(tableau: Tableau) -> int:
 
 
 def seen_in_nodes(tableau: Tableau, l: int) -> int | None:
-    """The colour whose time the nodes of colour l are: l itself if its stages see it, else the
-    first colour that they see; None if they see none.
-    """
+    """Colour l if its stages see it, else the first that they see; None if they see none."""
     seen = [m for k, m in tableau.edges() if k == l]
     return l if l in seen or not seen else seen[0]
 
@@ -151,9 +147,7 @@ Flow = tuple[int, Number]
 
 
 def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
-    """A splitting of a separable Hamiltonian: part 0 moves q, part 1 moves p; ``is_nystrom``:
-    velocities are linear in the momenta.
-    """
+    """Part 0 moves q, part 1 moves p; ``is_nystrom``: velocities are linear in the momenta."""
     nothing: matrix.Vector = ()
     drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
     kick = separable_prk((((),), nothing, (ZERO,)), ((), (ONE,), ()))
@@ -169,7 +163,6 @@ def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
 
 
 def alone(methods: Sequence[Method], l: int) -> Tableau:
-    """The step of one part: the other colours have no stages."""
     own = methods[l]
     spaces = []
     colours = []
@@ -233,13 +226,12 @@ def _turn(space: StageSpace) -> matrix.Matrix:
 
 
 def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: bool) -> Tableau:
-    """The combination of numbers of substeps that cancels powers of h, with equal stages merged.
+    """The combination of numbers of substeps that cancels powers of h; MethodError for too many
+    stages.
 
     E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.9: the
     error of a method of order p with n equal substeps has an expansion in h^p, h^(p+1), …, that of
-    a symmetric method in h^p, h^(p+2), … ``base``, of order ``order``, is on point stages;
-    ``parts`` has the number of equal substeps in each row. MethodError if there are too many
-    stages.
+    a symmetric method in h^p, h^(p+2), … ``base`` is on point stages; ``parts`` are the n.
     """
     refuse_large(count_stages(base) * sum(parts), "extrapolate fewer times, or a smaller method")
     gap = 2 if is_symmetric else 1

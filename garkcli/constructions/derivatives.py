@@ -46,7 +46,6 @@ class Derivatives(AlongFlow):
 
     @staticmethod
     def at_points(weights: Weights, order: int) -> Vector:
-        """Weights of f, f' f, … at the stages of such a tableau."""
         return tuple(
             sum((x * y[n] for x, y in zip(column, _derivatives(order), strict=False)), start=ZERO)
             for column in zip(*weights, strict=True)
@@ -66,9 +65,8 @@ class Derivatives(AlongFlow):
         return tuple(made)
 
     def apparent_order(self, weights: Weights) -> int:
-        """The order up to which the weights of the unbranched trees and of quadrature fit, up to
-        residuals that rounding may explain; finite, as R(z) has degrees of at most s times the
-        derivatives.
+        """Unbranched trees and quadrature fit up to this order, or rounding may explain it; it is
+        finite, as R(z) has degrees of at most s times the number of derivatives.
         """
         return fitting(self._sums(weights))
 
@@ -93,9 +91,7 @@ def _dot(u: Sequence[float], v: Sequence[float]) -> float:
 
 
 def plan(method: Derivatives, embedded: Weights | None = None) -> int:
-    """One more than the apparent order, or less if there are too many stages; MethodError if there
-    are too many for the derivatives.
-    """
+    """The apparent order plus one, or less to have fewer stages; MethodError for too many."""
     stages, least = len(method.b[0]), len(method.A)
     refuse_large(stages * least, "take fewer stages")
     weights = [method.b] if embedded is None else [method.b, embedded]

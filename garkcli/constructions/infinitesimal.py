@@ -172,9 +172,7 @@ def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, .
 
 
 def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
-    """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i; MethodError
-    if α or γ uses a later stage.
-    """
+    """The methods of Wensch, Knoth and Galant; MethodError if α or γ uses a later stage."""
     nodes: list[Number] = [ZERO]
     intervals = []
     for begin, row, drift in zip(alpha, beta, gamma, strict=True):
@@ -300,9 +298,8 @@ _PLAIN = 1e-3
 
 
 def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
-    """The order up to which quadrature and the unbranched trees fit for the slow method with equal
-    slow parts, up to residuals that rounding may explain; the larger one with b or the embedded
-    weights.
+    """Quadrature and the unbranched trees fit up to this order, or rounding may explain it, for the
+    slow method with equal parts, with b or the embedded weights.
     """
     still = CollocationPlan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
     made, further = _Infinitesimal(coupling, still, None, 1).made()
@@ -350,7 +347,6 @@ def collocation(stages: int) -> Method:
 
 
 def collocation_at(nodes: Vector) -> Method:
-    """Collocation at nodes, for a step to the last one."""
     space = PointSpace(nodes)
     integrals = [antiderivative(x) for x in space.basis_polynomials()]
     powers = [[node**k for k in range(len(nodes) + 1)] for node in nodes]
@@ -361,16 +357,13 @@ def collocation_at(nodes: Vector) -> Method:
 def infinitesimal(
     coupling: Coupling, plan: CollocationPlan, fast: Method | None = None, steps: int = 1
 ) -> tuple[Tableau, Further]:
-    """With embedded weights; ``fast`` takes ``steps`` small steps between slow stages apart in
-    time, None is the exact solution. MethodError for too many stages.
-    """
+    """``fast`` is None for exact solutions; ``steps`` lie between two slow stages; MethodError."""
     if fast is not None:
         refuse_large(len(coupling.every) * (steps * fast.stages + 2), multirate.SMALLER)
     return _finished(_Infinitesimal(coupling, plan, fast, steps), plan)
 
 
 def _finished(program: _Infinitesimal, plan: CollocationPlan) -> tuple[Tableau, Further]:
-    """With equal stages merged, or with stages on a flow."""
     made, further = program.made()
     if plan.order is None:
         return from_colours(merged(as_colours(made, further)), further)
@@ -387,9 +380,7 @@ def interpolation(slow: Method) -> Powers:
 def plan_for_predictor(
     slow: Method, forcing: Iterable[Powers], fast: Method | None
 ) -> CollocationPlan:
-    """The slow method takes the step for both parts first; ``forcing`` is that of the fast problem,
-    and for the embedded value.
-    """
+    """``forcing`` is that of the fast problem, and for the embedded value."""
     s = slow.stages
     stages = tuple(range(s))
     degrees = [max(len(powers), 1) for powers in forcing]
@@ -410,9 +401,9 @@ def predicted(
     fast: Method | None = None,
     steps: int = 1,
 ) -> tuple[Tableau, Further]:
-    """A step-predictor: the slow method takes the step for both parts; then the fast problem is
-    solved from y_n to the end of the step, with polynomials of the slow slopes as forcing.
-    MethodError for too many stages.
+    """The slow method takes the step for both parts; then the fast problem is solved from y_n to
+    the end of the step, with polynomials of the slow slopes as forcing. MethodError for too many
+    stages.
     """
     of_fast = sum(plan.fast) if fast is None else len(forcing) * steps * fast.stages
     refuse_large(2 * slow.stages + of_fast, multirate.SMALLER)

@@ -42,8 +42,6 @@ def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> 
 
 
 class SmallSteps:
-    """``spaces`` has the stage space of each colour."""
-
     def __init__(self, spaces: Sequence[int]) -> None:
         self.spaces = tuple(spaces)
         count = max(spaces) + 1
@@ -58,7 +56,6 @@ class SmallSteps:
         self._nodes[space].append(node)
 
     def tableau(self, result: Value) -> Tableau:
-        """The step ends at ``result``; every colour sees every other."""
         colours = []
         blocks: dict[Edge, Matrix] = {}
         for m, space in enumerate(self.spaces):
@@ -91,9 +88,7 @@ def _alone(tableau: Tableau) -> Method:
 
 
 def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
-    """Coupled both ways by a transfer rule; MethodError if it needs distinct nodes, or for too many
-    stages.
-    """
+    """MethodError if the transfer rule needs distinct nodes, or for too many stages."""
     whole = small_steps(fast, steps)
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
@@ -108,9 +103,9 @@ def add_slow_stages(program: SmallSteps, slow: Method) -> None:
 
 
 def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
-    """The slow method takes the whole step for both parts; then the fast part is repeated in small
-    steps, with the slow slopes interpolated. CoincidingNodes for equal slow nodes, MethodError for
-    too many stages.
+    """The slow method takes the whole step for both parts; then small steps repeat the fast part
+    with slow slopes interpolated. CoincidingNodes for equal slow nodes, MethodError for too many
+    stages.
     """
     refuse_large(2 * slow.stages + steps * fast.stages, SMALLER)
     program = SmallSteps([FAST, SLOW])
@@ -131,11 +126,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
 
 
 class Blocks(Frozen):
-    """Coupling matrices for every small step λ, with entries in small steps.
-
-    ``fast_slow`` are A^{f,s,λ}, with a row for each fast stage, ``slow_fast`` A^{s,f,λ}, with a row
-    for each slow stage.
-    """
+    """For every small step λ A^{f,s,λ} and A^{s,f,λ}, with entries in small steps."""
 
     fast_slow: tuple[Matrix, ...]
     slow_fast: tuple[Matrix, ...]

@@ -25,8 +25,6 @@ Tensor = Sequence[Matrix]
 
 
 class Pairs(PointSpace):
-    """Pairs (j, k) of stages of the method, from 0."""
-
     pairs: tuple[tuple[int, int], ...]
 
 

@@ -30,10 +30,8 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 TWICE = VertexKind(weight=2, is_field=False)
-"""A force that is integrated twice."""
 KINDS = (TWICE, ARGUMENT, LEAF)
 NAMES = ("q", "q'", "q'0")
-"""g in positions, g in velocities, the velocity at the beginning of the step."""
 POSITIONS, VELOCITIES, START = range(3)
 
 
@@ -147,7 +145,6 @@ Which: TypeAlias = Literal["in_positions", "in_velocities", "partitioned", "spli
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
-    """Another view of the method with a tableau, exact or rounded."""
     if isinstance(method, Tableau):
         return _seen(which, method)
     return method.derive(which.replace("_", " "), partial(_seen, which))
@@ -187,8 +184,8 @@ def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
 
 
 def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) -> Nystrom:
-    """Shapes (s, s) and length s; ``A`` is None if g depends on q only. ShapeMismatch if they do
-    not fit.
+    """``A`` is None if g depends on q only; ShapeMismatch for other shapes than (s, s) and length
+    s.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order

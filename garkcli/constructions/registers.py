@@ -21,7 +21,6 @@ from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Method, butcher
 
 Numbers: TypeAlias = Sequence[Any]
-"""Exact numbers, integers or balls."""
 
 
 class Steps(Frozen):
@@ -146,8 +145,8 @@ def three_registers(
 
 
 def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
-    """2R with one diagonal below the main one: every entry outside of the diagonals is the weight
-    of its column. Each diagonal has one entry per row, from the second row on.
+    """2R with one diagonal below the main one; every entry outside of the diagonals is the weight
+    of its column. Each diagonal has an entry per row, from the second row on.
     """
     stages = len(b)
     rows = [_whole(x, stages, 0) for x in diagonals]
@@ -168,10 +167,9 @@ def ahead(b: Numbers, A: Numbers) -> Steps:
 
 
 def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
-    """Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit method.
-
-    Rows are for each stage after the first, and the final value, perhaps behind a row of zeros.
-    MethodError if a value needs a later one.
+    """Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij. A row of zeros may precede
+    those of the stages after the first and of the final value. MethodError if a value needs a later
+    one.
     """
     if alpha and beta and all(x == 0 for x in (*alpha[0], *beta[0])):
         alpha, beta = alpha[1:], beta[1:]
@@ -224,9 +222,7 @@ OF_FILES: Mapping[str, Callable[..., Steps]] = {
 def as_butcher(
     scheme: str, numbers: Sequence[Any], c: Vector | None = None, grain: Any = 0
 ) -> Method:
-    """``c`` is None for the row sums; ``grain`` is the rounding of the nodes; MethodError if the
-    numbers are no method, or a stage does not begin at the initial value.
-    """
+    """MethodError if the numbers are no method, or a stage does not begin at the initial value."""
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
         off = start - ONE
@@ -250,12 +246,9 @@ FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {
     "van der Houwen": lambda A, b: van_der_houwen(b, A),
     "2C": lambda A, b: ahead(b, A),
 }
-"""Schemes that are printed as two rows A and b."""
 
 
 def nystrom(A: Sequence[Numbers], b: Numbers, c: Numbers) -> tuple[list[Numbers], Numbers]:
-    """The weights of velocities in the positions, and the final position, of a pair (q, p); ``A``
-    is Ā, ``b`` is b̄. There is one weight more than forces.
-    """
+    """Weights of velocities for a pair (q, p), one more than forces; ``A`` is Ā, ``b`` is b̄."""
     first = [node - sum(row) for node, row in zip(c, A, strict=True)]
     return [[x, *row] for x, row in zip(first, A, strict=True)], [1 - sum(b), *b]

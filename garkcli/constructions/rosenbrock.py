@@ -184,7 +184,6 @@ class Rosenbrock(Frozen):
 
     @property
     def nodes(self) -> tuple[Rows, Rows]:
-        """The nodes c and the weights d of f_t, as given or as row sums."""
         c, d = self.c, self.d
         if c is None:
             c = tuple(_sums(row[l]) for l, row in enumerate(self.alpha))
@@ -199,9 +198,6 @@ class Rosenbrock(Frozen):
         )
 
     def _tableau(self, *kinds: tuple[str, nature.VertexKind, Blocks]) -> Tableau:
-        """Colours of each kind see all others through their own blocks; ``kinds`` are a letter, the
-        kind of vertices, and the blocks.
-        """
         N = len(self.b)
         c, d = self.nodes
         alone = tuple(tuple(map(add_numbers, *rows)) for rows in zip(c, d, strict=True))
@@ -250,7 +246,6 @@ DAE_VIEWS: dict[str, Which] = {
 }
 """Orders on differential-algebraic equations, which need an inverse of α + γ."""
 OF_BETA = OF_TEST_EQUATION | {"gamma"}
-"""Properties of the Runge–Kutta method with A = β."""
 NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
 
 
@@ -351,7 +346,6 @@ def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
 
 
 def _full(C: matrices.Matrix, gamma: matrices.Vector) -> matrices.Matrix:
-    """Γ from the stored form."""
     if not all(gamma):
         message = "a diagonal entry of gamma is 0, and the coefficients are divided by it"
         raise MethodError(message, "give alpha and gamma", code="cannot-construct")

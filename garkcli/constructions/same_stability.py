@@ -26,7 +26,6 @@ def _with_same_function(tableau: Tableau) -> Tableau:
 
 
 def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau | None:
-    """``with_same_function`` of a tableau, known to ``meant`` with its rounding."""
     found = with_same_function(meant(tableau, tolerance))
     if found is None or isinstance(found, Tableau):
         return found

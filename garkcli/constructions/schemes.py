@@ -17,17 +17,11 @@ Part: TypeAlias = tuple[str, bool]
 """A fraction of the step as text, and whether the adjoint takes it."""
 Parts: TypeAlias = tuple[Part, ...]
 MAX_ORDER = 12
-"""Largest order of a repeated scheme."""
 
 
 class Scheme(Frozen):
-    """A composition of one method.
-
-    Attributes:
-        order: the order of the result, for people.
-        parts: makes the substeps from the order of the method and the requested order, both 0 for a
-            scheme of one order.
-        has_orders: whether it exists for any order.
+    """``parts`` makes the substeps from the order of the method and the requested one, both 0 for
+    schemes of one order; ``order`` is for people.
     """
 
     name: str
@@ -224,7 +218,6 @@ OTHER_NAMES: Mapping[str, str] = {
     "suzuki-fractal": "suzuki",
     "verlet": "strang",
 }
-"""The keys are names of other sources."""
 
 
 FlowText: TypeAlias = tuple[int, str]
@@ -232,13 +225,7 @@ FlowText: TypeAlias = tuple[int, str]
 
 
 class Splitting(Frozen):
-    """A splitting by name.
-
-    Attributes:
-        order: the order with exact flows, or flows of that order, for people.
-        flows: makes the flows for a number of parts.
-        terms: the number of parts; 0 for any number.
-    """
+    """``flows`` are for a number of parts, any if ``terms`` is 0; ``order`` is with exact flows."""
 
     name: str
     order: str

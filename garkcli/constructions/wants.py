@@ -55,7 +55,6 @@ def _stiffly_accurate(asked: Asked) -> WantConditions:
 
 
 def _wants() -> Iterator[Want]:
-    """Each order, of the method and with its embedded weights."""
     for key, text in _SUMMARIES.items():
         yield Want(key, "count", f"the order {text}", partial(_order, key))
     for key, text in _SUMMARIES.items():
@@ -76,7 +75,6 @@ _STEPS: dict[str, nystrom.Which] = {
     "position-order": "in_positions",
     "velocity-order": "in_velocities",
 }
-"""The tableaus with the conditions of one step, by its claim."""
 
 
 def _of_steps() -> Iterator[Want]:
@@ -131,17 +129,10 @@ def _nodes(tableau: Tableau) -> Tableau:
 
 
 Meant = Callable[[Tableau], Tableau]
-"""The tableau of a method that a requirement is about."""
 
 
 class OfKind(Frozen):
-    """Requirements on methods of one kind, by key.
-
-    Attributes:
-        own: requirements for these methods only.
-        meant: the tableaus that other requirements are about.
-        instead: meanings that replace the usual ones.
-    """
+    """By key: requirements of their ``own``, tableaus ``meant`` by others, other meanings."""
 
     name: str
     has: Callable[[Tableau], bool]

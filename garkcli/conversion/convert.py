@@ -47,7 +47,6 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
 
 
 KEPT = ("description", "reference")
-"""Keys that describe the method in any form."""
 UNNAMED = "a method"
 WIDER = (1, 10, 100, 1000)
 """Factors by which numbers of a form may be rounded more than the entries."""
@@ -131,7 +130,6 @@ def convert(
 
 
 def _converted(text: str, method: GarkMethod, goal: Target) -> Converted:
-    """With the description of the old file, and the claims that still hold."""
     text = _with_head(text, method)
     if not isinstance(method, MethodFile):
         return Converted(loads(text))
@@ -147,9 +145,7 @@ def _refuse_forms(to: str, stages: int | None) -> None:
 
 
 def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name: str) -> str:
-    """Numbers of a form may be rounded as far as no order falls and no entry of A and b is farther
-    off.
-    """
+    """Rounding is allowed as far as no order falls and no entry of A and b is farther off."""
     own = method.tolerance
     key, keys = form(sheet.tableau, own)
     tolerance = writer.tolerance_of_file(method, sheet.further)

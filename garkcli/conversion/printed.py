@@ -24,9 +24,7 @@ InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
-    """CannotConvert if the method is not explicit, or has several colours, or a vector field that
-    does not depend on the solution.
-    """
+    """CannotConvert for implicit methods, several colours, and constant vector fields."""
     if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
         raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
     b = tableau.colours[0].b
@@ -112,7 +110,6 @@ def in_shu_osher(tableau: Tableau, _: fmpq | None = None) -> Printed:
 
 
 def _rounded(numbers: Sequence[Any], tolerance: fmpq) -> list[Number]:
-    """With one digit more than the tolerance."""
     digits = len(str((1 / tolerance).floor()))
     unit = fmpq(10) ** -digits
     near = (midpoint(to_ball(_number(x), 2 * digits)) for x in numbers)

@@ -80,9 +80,7 @@ class RecoveredMethod(Frozen, eq=False):
 def recovered(
     method: GarkMethod, digits: int | None = None, is_recognising: bool = False
 ) -> RecoveredMethod:
-    """With ``digits`` digits after the point; CannotConvert for an exact method, MethodError if no
-    more digits are known.
-    """
+    """CannotConvert for an exact method, MethodError if no more digits are known."""
     meant = with_further(as_meant(method))
     if meant is None:
         message = "the coefficients are exact: there is nothing to recover"
@@ -141,8 +139,6 @@ def _recognised(x: fmpq, digits: int) -> str | None:
 def _entry_by_entry(
     values: Tableau, forms: Tableau, entry: Callable[[Any, Any], Number]
 ) -> Tableau:
-    """Each entry is made of its value and its form."""
-
     def row(some: Sequence[Any], others: Sequence[Any]) -> tuple[Number, ...]:
         return tuple(map(entry, some, others))
 

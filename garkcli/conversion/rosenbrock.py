@@ -41,7 +41,6 @@ _MATRICES = {"alpha", "gamma", "A", "C", "dense"}
 _NOISE = 2.0**-40
 """Smaller parts of a radius come from the arithmetic with forms only."""
 _SPARE = 100
-"""Units of the last place in a tolerance."""
 
 
 def text_in_form(method: GarkMethod, to: str, name: str) -> str:
@@ -71,7 +70,6 @@ def text_in_form(method: GarkMethod, to: str, name: str) -> str:
 
 
 def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
-    """With c and d unless they are row sums."""
     method = Rosenbrock.of(tableau).without_row_sums
     if len(method.b) > 1:
         return _blocks(method, further)
@@ -107,9 +105,7 @@ def _blocks(method: Rosenbrock, further: Further) -> _Parts:
 
 
 class _Places:
-    """Affine forms in the rounded numbers of a method; ``is_other``: the form is not that of the
-    file.
-    """
+    """Affine forms in rounded numbers; ``is_other``: the form is not that of the file."""
 
     def __init__(
         self, rounded: RoundedTableau, form: str, keys: Sequence[str], is_other: bool
@@ -212,7 +208,6 @@ def _file(texts: _Texts, form: str, name: str, tolerance: Written | None) -> str
 
 
 def _lines_of_blocks(texts: _Texts) -> Iterator[str]:
-    """The keys under ``blocks``, with null for zero blocks."""
     N = len(texts["b"])
 
     def block(key: str) -> str:

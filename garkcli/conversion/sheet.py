@@ -111,9 +111,7 @@ def _mapped(sheet: Sheet, field: OneField) -> Sheet:
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
-    """``spaces`` has the stages of each new space, ``homes`` for each colour the new space with all
-    its stages. CannotConvert if some stages of a new space see a colour and others do not.
-    """
+    """``homes`` are new spaces of colours; CannotConvert if stages of one see different colours."""
     homes = [*homes] * (1 + len(sheet.further.rows))
 
     def change(tableau: Tableau) -> Tableau:
@@ -149,7 +147,6 @@ def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
 
 
 def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:
-    """A row over the stages of one space; 0 for all others."""
     return tuple(ZERO if place is None or place[0] != space else row[place[1]] for place in places)
 
 
@@ -179,7 +176,6 @@ def _block(
 
 
 def each_its_own(sheet: Sheet) -> Sheet:
-    """Separate stages for every colour."""
     old = sheet.tableau
     spaces = [[(x.space, i) for i in range(len(x.b))] for x in old.colours]
     return regrouped(sheet, spaces, range(old.size))

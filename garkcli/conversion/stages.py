@@ -22,7 +22,6 @@ from garkcli.tableau.tableau import Tableau
 Stage: TypeAlias = tuple[int, int]
 Classes: TypeAlias = dict[Stage, int]
 _Signature: TypeAlias = tuple[Any, ...]
-"""Signatures of one round can be sorted."""
 _Glances: TypeAlias = dict[Stage, list[tuple[int, int, int]]]
 """For each stage the colours that it sees, with the entry and the class of the other stage."""
 _Ranks: TypeAlias = Mapping[Number, int]
@@ -55,7 +54,6 @@ def _numbered(signatures: Mapping[Stage, _Signature]) -> Classes:
 
 
 def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
-    """By the space, the nodes and the weights of every colour."""
     signatures: dict[Stage, _Signature] = {}
     for k, space in enumerate(sheet.tableau.spaces):
         rows = _own_rows(sheet, k)
@@ -65,7 +63,6 @@ def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
 
 
 def _own_rows(sheet: Sheet, space: int) -> list[Vector]:
-    """Nodes and weights of all colours at the stages of a space."""
     rows: list[Vector] = []
     for l, colour in enumerate(sheet.tableau.colours):
         if colour.space == space:

@@ -40,7 +40,6 @@ def as_gark(method: GarkMethod) -> sheets.Sheet:
 
 
 def without_parts(sheet: sheets.Sheet) -> sheets.Sheet:
-    """For vector fields that drive all unknowns, with numbered colours."""
     colours = []
     for l, colour in enumerate(sheet.tableau.colours):
         colours.append(replace(colour, name=str(l + 1), term=l, part="y"))
@@ -97,9 +96,7 @@ def shared(sheet: sheets.Sheet) -> sheets.Sheet | None:
 
 
 def as_prk(method: GarkMethod) -> sheets.Sheet:
-    """Colour 1 drives q, colour 2 drives p; CannotConvert for other numbers of colours, or if these
-    neither share their stages nor leave themselves unseen.
-    """
+    """Colour 1 drives q, colour 2 p; CannotConvert if stages are neither shared nor unseen."""
     sheet = sheets.sheet_of(method)
     tableau = sheet.tableau
     if tableau.size != 2:
