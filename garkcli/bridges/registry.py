@@ -9,22 +9,13 @@ from functools import lru_cache
 from importlib import import_module
 from typing import Literal, TypeAlias
 
-from garkcli.bridges import targets
+from garkcli.bridges import structure, targets
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import problem_class
 from garkcli.bridges.linear_stages import printed_stages
 from garkcli.bridges.numbers import DECIMALS, Style
 from garkcli.bridges.own_arrays import KINDS, stepped_values
 from garkcli.bridges.payload import Kind, Payload
-from garkcli.bridges.structure import (
-    Composition,
-    Table,
-    composition,
-    shared,
-    table,
-    vanishes,
-    with_last_stage,
-)
 from garkcli.bridges.texts import Values, program_values, text_of
 from garkcli.bridges.trials import sides, trial_of
 from garkcli.errors import UsageProblem, did_you_mean
@@ -77,7 +68,7 @@ class Bridge(Frozen):
     ends: bool = False
     lacks: tuple[str, ...] = (DENSE,)
     has_predictor: bool = False
-    values: Callable[[Payload, Sequence[Table]], Values] = lambda _, __: {}
+    values: Callable[[Payload, Sequence[structure.Table]], Values] = lambda _, __: {}
     words: Mapping[str, str] | None = None
     file: FileName | None = None
     reads_back: bool = False
@@ -126,13 +117,13 @@ class Bridge(Frozen):
         if payload.kind == "prk" and self.is_split:
             of_steps = {"steps": self._steps(payload), "tables": [], "fields": fields}
             return {**of_steps, "left_out": _left_out(payload, (EMBEDDED, DENSE, PREDICTOR))}
-        tables = [table(payload)] if payload.kind == "rk" else []
+        tables = [structure.table(payload)] if payload.kind == "rk" else []
         if payload.kind != "rk" and self.several != "as they are":
-            tables = shared(payload)
+            tables = structure.shared(payload)
             fields = self._pair(payload, tables) if self.several == "pair" else fields
         tables = [self._fitting(payload, tables[m]) for m in fields if tables]
-        late_nodes = [x.c[0] for x in tables if not vanishes(x.c[0])]
-        if self.starts and late_nodes and all(vanishes(x.A[0][0]) for x in tables):
+        late_nodes = [x.c[0] for x in tables if not structure.vanishes(x.c[0])]
+        if self.starts and late_nodes and all(structure.vanishes(x.A[0][0]) for x in tables):
             node = payload.number(late_nodes[0])
             cure = "where f does not depend on t, set the first node to 0"
             message = f"the first node is {node}; {self.name} has an explicit first stage at t"
@@ -145,8 +136,8 @@ class Bridge(Frozen):
     def _left_out(self, payload: Payload) -> list[str]:
         return _left_out(payload, self.lacks if self.has_predictor else (*self.lacks, PREDICTOR))
 
-    def _steps(self, payload: Payload) -> Composition:
-        sequence = composition(payload)
+    def _steps(self, payload: Payload) -> structure.Composition:
+        sequence = structure.composition(payload)
         if sequence is not None:
             return sequence
         cure = _others(payload, "any")
@@ -158,7 +149,7 @@ class Bridge(Frozen):
             cure,
         )
 
-    def _pair(self, payload: Payload, tables: Sequence[Table]) -> Sequence[int]:
+    def _pair(self, payload: Payload, tables: Sequence[structure.Table]) -> Sequence[int]:
         """The vector field with an explicit table, and the other one."""
         is_other = payload.tableau.is_partitioned and payload.kind != "prk"
         explicit = [m for m, x in enumerate(tables) if x.is_explicit]
@@ -175,7 +166,7 @@ class Bridge(Frozen):
             return explicit[0], 1 - explicit[0]
         raise CannotExport(message, _others(payload, "any"))
 
-    def _fitting(self, payload: Payload, found: Table) -> Table:
+    def _fitting(self, payload: Payload, found: structure.Table) -> structure.Table:
         """The table with stages that the target computes, and with the last one that it needs."""
         holds = {"lower": found.is_diagonally_implicit, "explicit": found.is_explicit, "any": True}
         computed = [x for x in holds if holds[x]]
@@ -191,7 +182,11 @@ class Bridge(Frozen):
                 )
             raise CannotExport(message, _others(payload, *computed))
         wants_end = self.ends and payload.kind == "rk" and found.is_explicit
-        return with_last_stage(found) if wants_end and not found.is_first_same_as_last else found
+        return (
+            structure.with_last_stage(found)
+            if wants_end and not found.is_first_same_as_last
+            else found
+        )
 
 
 EVERYTHING: tuple[Kind, ...] = ("rk", "ark", "prk", "gark")

@@ -24,14 +24,7 @@ from garkcli.methodfile.numbers import Numbers
 from garkcli.methodfile.parameters import refuse_free
 from garkcli.methodfile.reader import MethodReader
 from garkcli.methodfile.values import Values
-from garkcli.order.meant import (
-    ByRadii,
-    Radii,
-    remember,
-    remember_digits,
-    remembered,
-    remembered_digits,
-)
+from garkcli.order import meant
 from garkcli.reference import Work
 from garkcli.remade import Remade
 
@@ -142,9 +135,9 @@ def loads(
             file_box = rounded.box(made.text)
             return replace(file_box, make=Remade(file_box.make, _maker, *file)), made.further
 
-        remember(method.tableau, method.tolerance, Remade(box, _box, *file))
+        meant.remember(method.tableau, method.tolerance, Remade(box, _box, *file))
 
-    def box_by_digits(radii_of: Radii) -> tuple[Box, Further]:
+    def box_by_digits(radii_of: meant.Radii) -> tuple[Box, Further]:
         from garkcli.methodfile.rounding import box_of  # few files are rounded
 
         radii: list[fmpq] = []
@@ -157,13 +150,13 @@ def loads(
         make = Remade(digits_box.make, _maker_by_digits, *file, radii)
         return replace(digits_box, make=make), made.further
 
-    remember_digits(method.tableau, Remade(box_by_digits, _box_by_digits, *file))
+    meant.remember_digits(method.tableau, Remade(box_by_digits, _box_by_digits, *file))
     return method
 
 
 # another process reads the file again for what it is asked
 def _box(*file: Any) -> Callable[[], tuple[Box, Further]]:
-    return remembered(loads(*file).tableau)
+    return meant.remembered(loads(*file).tableau)
 
 
 def _maker(*file: Any) -> Make:
@@ -171,8 +164,8 @@ def _maker(*file: Any) -> Make:
     return box.make
 
 
-def _box_by_digits(*file: Any) -> ByRadii:
-    return remembered_digits(loads(*file).tableau)
+def _box_by_digits(*file: Any) -> meant.ByRadii:
+    return meant.remembered_digits(loads(*file).tableau)
 
 
 def _maker_by_digits(text: str, source: str, settings: Any, radii: Sequence[fmpq]) -> Make:

@@ -22,23 +22,8 @@ from garkcli.properties.subject import find
 from garkcli.properties.verdict import Size, Verdict
 from garkcli.reason import NO_REASON, Place, Reason, joined
 from garkcli.report.remarks import FAULT, FINDING, fault_rows, remark_rows
-from garkcli.tell import kinds
+from garkcli.tell import facts, kinds
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    Json,
-    Kind,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Several,
-    Words,
-    itself,
-    maybe,
-    optional,
-    via,
-)
 from garkcli.tell.parts import part, parts, picture, rows_of, told
 
 if TYPE_CHECKING:
@@ -68,7 +53,7 @@ if TYPE_CHECKING:
     from garkcli.properties.pattern import Shape
     from garkcli.tableau.tableau import Colour, Tableau
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 V = TypeVar("V", bound="bool | int | Size")
 AnyAnalysis: TypeAlias = "Analysis | OtherAnalysis"
 Edge: TypeAlias = "tuple[int, int]"
@@ -95,7 +80,7 @@ def _shape_words(shape: Shape, tolerance: fmpq | None, d: Plain) -> str:
     return d.known(shape.name, Status(tolerance if shape.singly else None))
 
 
-def _method_phrase(_: str, outcome: Outcome, answer: Answer[Outcome], d: Plain) -> str:
+def _method_phrase(_: str, outcome: Outcome, answer: facts.Answer[Outcome], d: Plain) -> str:
     """``explicit, 4 stages``."""
     found = outcome.analysis or outcome.every
     assert found is not None
@@ -108,7 +93,7 @@ def _method_phrase(_: str, outcome: Outcome, answer: Answer[Outcome], d: Plain) 
 
 
 def _method_words(outcome: Outcome, d: Plain) -> str:
-    text = _method_phrase("", outcome, Answer(outcome), d)
+    text = _method_phrase("", outcome, facts.Answer(outcome), d)
     return text if outcome.analysis is None else with_arithmetic(text, outcome.analysis)
 
 
@@ -131,7 +116,9 @@ def each_once(views: Mapping[str, tuple[AnyOrder | None, Tableau | None] | None]
     return found
 
 
-METHOD: Row[Outcome] = itself("method", told(_method_words, _method_phrase), line="method")
+METHOD: facts.Row[Outcome] = facts.itself(
+    "method", told(_method_words, _method_phrase), line="method"
+)
 
 
 def title(outcome: Outcome, d: Plain) -> str:
@@ -154,36 +141,36 @@ def _some(names: Sequence[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + more
 
 
-def no_order(answer: Answer[Any], obstacle: Reason) -> Reason:
+def no_order(answer: facts.Answer[Any], obstacle: Reason) -> Reason:
     is_none = answer.value is None and bool(obstacle)
     return Reason("none: {}", obstacle) if is_none else NO_REASON
 
 
-def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
+def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> facts.Row[Analysis]:
     """Usual if a method has several colours."""
 
-    def answer(a: Analysis) -> Answer[AnyOrder]:
+    def answer(a: Analysis) -> facts.Answer[AnyOrder]:
         answer = kinds.order_answer(get(a))
         is_told = a.tableau.size > 1 and (answer.value or key == "conjugate_order")
         level = USUAL if is_told else DETAIL  # there is no pair where there is no conjugate
         return replace(answer, reason=no_order(answer, a.obstacle), level=level)
 
-    return maybe(key, kinds.ORDER, answer)
+    return facts.maybe(key, kinds.ORDER, answer)
 
 
-def _pair_in_brief(a: Analysis) -> Answer[AnyOrder]:
+def _pair_in_brief(a: Analysis) -> facts.Answer[AnyOrder]:
     is_told = a.tableau.size == 1 and a.pair_order is not None and not a.symplectic
     return replace(kinds.order_answer(a.pair_order), level=USUAL if is_told else DATA)
 
 
-def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
+def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> facts.Row[Analysis]:
     """On problems with time; usual if the nodes are not the row sums."""
 
-    def answer(a: Analysis) -> Answer[AnyOrder]:
+    def answer(a: Analysis) -> facts.Answer[AnyOrder]:
         level = USUAL if a.inconsistent else DETAIL
         return replace(kinds.order_answer(get(a)), level=level)
 
-    return maybe(key, kinds.ORDER, answer)
+    return facts.maybe(key, kinds.ORDER, answer)
 
 
 def witnesses(a: Analysis) -> list[Failing]:
@@ -214,17 +201,17 @@ def named_colours(tree: Tree, names: Sequence[str]) -> str:
 
 def table(
     letter: str,
-    kind: Kind[kinds.BlockTable],
+    kind: facts.Kind[kinds.BlockTable],
     rows: Callable[[Simplifying], Sequence[Sequence[int | None]]],
-) -> Row[Analysis]:
-    def get(a: Analysis) -> Answer[kinds.BlockTable]:
+) -> facts.Row[Analysis]:
+    def get(a: Analysis) -> facts.Answer[kinds.BlockTable]:
         found = kinds.BlockTable(rows(a.simplifying), a.simplifying.limit)
-        return Answer(found, Status(a.tolerance))
+        return facts.Answer(found, Status(a.tolerance))
 
-    return Row(letter, kind, get, DETAIL)
+    return facts.Row(letter, kind, get, DETAIL)
 
 
-def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] | None:
+def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> facts.Answer[int] | None:
     """A lower bound of the order, with the numbers that determine it."""
     whose = a.pair_simplifying if is_of_pair else a.simplifying
     value = a.pair_bound if is_of_pair else a.bound
@@ -237,14 +224,14 @@ def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] 
         computed, formula = whose.sharp_bound, findings.SHARP_BOUND
     doubt = f"; {computed} is not decided within the tolerance" if computed != value else ""
     reason = Reason(f"{formula} with {findings.bound_numbers(whose)}{doubt}")
-    return Answer(value, Status(a.tolerance, whose.is_open(computed)), reason)
+    return facts.Answer(value, Status(a.tolerance, whose.is_open(computed)), reason)
 
 
-def pair_criterion(a: Analysis) -> Answer[int] | None:
+def pair_criterion(a: Analysis) -> facts.Answer[int] | None:
     found = pair_reason(a)
     if found is None:
         return None
-    return Answer(found.order, Status(a.tolerance, not found.is_sharp), Reason(found.text))
+    return facts.Answer(found.order, Status(a.tolerance, not found.is_sharp), Reason(found.text))
 
 
 def pair_criterion_why(a: Analysis) -> list[str]:
@@ -252,7 +239,7 @@ def pair_criterion_why(a: Analysis) -> list[str]:
     return [] if found is None else [*found.parts]
 
 
-def _simplifying_phrase(_: str, a: Analysis, answer: Answer[Analysis], d: Plain) -> str:
+def _simplifying_phrase(_: str, a: Analysis, answer: facts.Answer[Analysis], d: Plain) -> str:
     """``B(4), C(1), D(1) give at least order 3``."""
     found = a.simplifying
     numbers = (("B", found.r), ("C", found.eta), ("D", found.zeta))
@@ -260,17 +247,17 @@ def _simplifying_phrase(_: str, a: Analysis, answer: Answer[Analysis], d: Plain)
     return d.known(f"{said} give at least order {a.bound}", Status(a.tolerance))
 
 
-SIMPLIFYING: Section[Analysis] = Section(
+SIMPLIFYING: facts.Section[Analysis] = facts.Section(
     table("B", kinds.ROW_OF_COUNTS, lambda x: [x.B]),
     table("C", kinds.TABLE, lambda x: x.C),
     table("D", kinds.TABLE, lambda x: x.D),
-    Row("r", kinds.COUNT, lambda a: a.simplifying.r, DATA),
-    Row("eta", kinds.COUNT, lambda a: a.simplifying.eta, DATA),
-    Row("zeta", kinds.COUNT, lambda a: a.simplifying.zeta, DATA),
-    Row("xi", kinds.COUNT, lambda a: a.simplifying.xi, DATA),
-    Row("chi", kinds.COUNT, lambda a: a.simplifying.chi, DATA),
-    Row("bound", kinds.COUNT, lambda a: bound(a, is_sharp=False), DETAIL),
-    optional(
+    facts.Row("r", kinds.COUNT, lambda a: a.simplifying.r, DATA),
+    facts.Row("eta", kinds.COUNT, lambda a: a.simplifying.eta, DATA),
+    facts.Row("zeta", kinds.COUNT, lambda a: a.simplifying.zeta, DATA),
+    facts.Row("xi", kinds.COUNT, lambda a: a.simplifying.xi, DATA),
+    facts.Row("chi", kinds.COUNT, lambda a: a.simplifying.chi, DATA),
+    facts.Row("bound", kinds.COUNT, lambda a: bound(a, is_sharp=False), DETAIL),
+    facts.optional(
         "limit",
         kinds.COUNT,
         lambda a: a.simplifying.limit if a.simplifying.is_open(a.simplifying.limit) else None,
@@ -283,7 +270,7 @@ MOST_ROWS = 3
 """Further rows that do not sum to their nodes are counted."""
 
 
-def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[bool]:
+def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> facts.Answer[bool]:
     """Whether no block has other row sums than nodes."""
 
     def words(found: Sequence[Edge], d: Plain) -> str:
@@ -291,10 +278,10 @@ def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[boo
 
     verb = "differs" if len(found) == 1 else "differ"
     reason = Reason(f"{{}} {verb} from c", told(words)(found)) if found else NO_REASON
-    return Answer(not found, Status(within), reason)
+    return facts.Answer(not found, Status(within), reason)
 
 
-def consistent(a: Analysis) -> Answer[bool]:
+def consistent(a: Analysis) -> facts.Answer[bool]:
     """Whether the nodes are the row sums; usual if they are not."""
     answer = wrong(a.inconsistent, "A", a.tolerance)
     if rows := a.wrong_rows:
@@ -309,7 +296,7 @@ def wrong_row_sums(o: Outcome) -> list[Reason]:
     return [consistent(o.analysis).reason] if o.analysis and o.analysis.inconsistent else []
 
 
-def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
+def conjugate_consistent(a: Analysis) -> facts.Answer[bool] | None:
     """Whether the nodes of the conjugate are its row sums; usual for several colours."""
     if a.conjugate is None:
         return None
@@ -327,27 +314,27 @@ def rounding(key: str, value: object, tolerance: fmpq | None) -> fmpq | None:
     return tolerance if value and is_of_equations else None
 
 
-def verdict_answer(a: Analysis, key: str, kind: type[V]) -> Answer[V]:
+def verdict_answer(a: Analysis, key: str, kind: type[V]) -> facts.Answer[V]:
     v = a.subject.verdict(key)
     assert v.value is None or isinstance(v.value, kind)
     status = Status(within(a, key), v.is_at_least, v.reason if v.is_undecided else NO_REASON)
     is_told = v.value is not True and not v.is_undecided
-    return Answer(v.value, status, v.reason if is_told else NO_REASON)
+    return facts.Answer(v.value, status, v.reason if is_told else NO_REASON)
 
 
-def truth(key: str) -> Row[Analysis]:
+def truth(key: str) -> facts.Row[Analysis]:
     worthy, words = find(key).noted or (None, "")
 
-    def phrase(label: str, _: bool, answer: Answer[bool], d: Plain) -> str:
+    def phrase(label: str, _: bool, answer: facts.Answer[bool], d: Plain) -> str:
         return d.known(d.prose(words or label), answer.status)
 
-    def get(a: Analysis) -> Answer[bool]:
+    def get(a: Analysis) -> facts.Answer[bool]:
         answer = verdict_answer(a, key, bool)
         is_told = worthy is not None and (answer.value is worthy or bool(answer.status.open))
         return replace(answer, level=USUAL if is_told else DETAIL)
 
-    kind = Kind(kinds.TRUTH.what, Words(kinds.truth_words, phrase=phrase))
-    return maybe(find(key).field, kind, get, USUAL if words else DETAIL)
+    kind = facts.Kind(kinds.TRUTH.what, facts.Words(kinds.truth_words, phrase=phrase))
+    return facts.maybe(find(key).field, kind, get, USUAL if words else DETAIL)
 
 
 def _names(tableau: Tableau, space: int) -> list[str]:
@@ -424,34 +411,38 @@ def by_colour(a: Analysis) -> list[OfColour]:
     return [OfColour(*x, a.subject.limit, a.tolerance) for x in found]
 
 
-COLOUR: Section[OfColour] = Section(
-    Row("name", kinds.TEXT, lambda x: x.name, DATA),
-    Row(
+COLOUR: facts.Section[OfColour] = facts.Section(
+    facts.Row("name", kinds.TEXT, lambda x: x.name, DATA),
+    facts.Row(
         "kind",
         kinds.choice("explicit", "diagonally implicit", "fully implicit", None),
         lambda x: None if x.shape is None else x.shape.kind,
     ),
-    maybe(
+    facts.maybe(
         "gamma",
         kinds.GAMMA,
-        lambda x: None if x.shape is None else Answer(x.shape.gamma, Status(x.within)),
+        lambda x: None if x.shape is None else facts.Answer(x.shape.gamma, Status(x.within)),
     ),
-    Row("stage_order", kinds.COUNT, lambda x: Answer(x.stage_order, Status(x.within, x.is_open))),
-    optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: x.is_open or None, DATA),
+    facts.Row(
+        "stage_order",
+        kinds.COUNT,
+        lambda x: facts.Answer(x.stage_order, Status(x.within, x.is_open)),
+    ),
+    facts.optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: x.is_open or None, DATA),
     title=lambda x, d: f"colour {d.prose(x.name)}",
 )
 
 
-def whole_number(a: Analysis, key: str) -> Answer[int]:
+def whole_number(a: Analysis, key: str) -> facts.Answer[int]:
     return replace(verdict_answer(a, key, int), reason=NO_REASON)
 
 
-def count_rows(key: str) -> Rows[Analysis]:
+def count_rows(key: str) -> facts.Rows[Analysis]:
     """The number, and in JSON whether it is a lower bound."""
     field = find(key).field
     return (
-        Row(field, kinds.COUNT, lambda a: whole_number(a, key), DETAIL),
-        optional(
+        facts.Row(field, kinds.COUNT, lambda a: whole_number(a, key), DETAIL),
+        facts.optional(
             f"{field}_is_lower_bound",
             kinds.TRUE,
             lambda a: a.subject.verdict(key).is_at_least or None,
@@ -481,26 +472,28 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     return "; ".join(texts)
 
 
-SYSTEMS = Kind(Json(S.array(S.array(STAGES))), Words(_systems_words))
-MOVED = Kind(Json(S.array(RENUMBERED)), Words(_renumbering_words))
-OWN_ROWS: dict[str, Rows[Analysis]] = {
+SYSTEMS = facts.Kind(facts.Json(S.array(S.array(STAGES))), facts.Words(_systems_words))
+MOVED = facts.Kind(facts.Json(S.array(RENUMBERED)), facts.Words(_renumbering_words))
+OWN_ROWS: dict[str, facts.Rows[Analysis]] = {
     "gamma": (
-        maybe(
+        facts.maybe(
             "gamma",
             kinds.GAMMA,
-            lambda a: Answer(
+            lambda a: facts.Answer(
                 a.subject.shape.gamma, Status(rounding("gamma", a.subject.shape.gamma, a.tolerance))
             ),
         ),
     ),
     "implicit-stages": (
-        maybe("implicit_stages", kinds.COUNT, lambda x: x.subject.shape.implicit_stages, DETAIL),
-        Row("solved_together", SYSTEMS, together, DETAIL),
+        facts.maybe(
+            "implicit_stages", kinds.COUNT, lambda x: x.subject.shape.implicit_stages, DETAIL
+        ),
+        facts.Row("solved_together", SYSTEMS, together, DETAIL),
     ),
     "symmetric": (
         truth("symmetric"),
-        maybe("renumbering", MOVED, renumbering, DETAIL),
-        Row("symplectic", kinds.TRUTH, lambda x: x.symplectic, DATA),
+        facts.maybe("renumbering", MOVED, renumbering, DETAIL),
+        facts.Row("symplectic", kinds.TRUTH, lambda x: x.symplectic, DATA),
     ),
     "stage-order": count_rows("stage-order"),
     "weak-stage-order": count_rows("weak-stage-order"),
@@ -508,21 +501,21 @@ OWN_ROWS: dict[str, Rows[Analysis]] = {
 """Properties that are no truths, or that are reported with more."""
 
 
-def property_rows() -> Iterator[Row[Analysis]]:
+def property_rows() -> Iterator[facts.Row[Analysis]]:
     for key, file in KEYS.items():
         if file != "stability":
             yield from OWN_ROWS.get(key) or (truth(key),)
 
 
-PROPERTIES: Section[Analysis] = Section(
+PROPERTIES: facts.Section[Analysis] = facts.Section(
     property_rows(),
-    Row(
+    facts.Row(
         "by_colour",
         parts(COLOUR),
-        lambda a: Answer(by_colour(a), level=DETAIL if a.tableau.size > 1 else DATA),
+        lambda a: facts.Answer(by_colour(a), level=DETAIL if a.tableau.size > 1 else DATA),
         DETAIL,
     ),
-    Row(
+    facts.Row(
         "undecided",
         kinds.TEXTS,
         lambda a: [k for k in KEYS if find(k).is_cheap and a.subject.verdict(k).is_undecided],
@@ -539,52 +532,56 @@ def _of_matrix(r: Repair) -> bool:
     return r.m is not None and r.i is not None
 
 
-PLACED: Kind[list[int]] = Kind(Json(kinds.BLOCK))
-REPAIR: Section[Repair] = Section(
-    optional("b", PLACED, lambda r: None if _of_matrix(r) or r.is_embedded else _block(r.l, r.m)),
-    optional("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None),
-    optional("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None),
-    maybe("row", kinds.INTEGER, lambda r: None if r.i is None else r.i + 1),
-    Row("entry", kinds.INDEX, lambda x: x.j),
-    Row("old", kinds.EXACT, lambda x: x.old),
-    Row("new", kinds.EXACT, lambda x: x.new),
+PLACED: facts.Kind[list[int]] = facts.Kind(facts.Json(kinds.BLOCK))
+REPAIR: facts.Section[Repair] = facts.Section(
+    facts.optional(
+        "b", PLACED, lambda r: None if _of_matrix(r) or r.is_embedded else _block(r.l, r.m)
+    ),
+    facts.optional("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None),
+    facts.optional("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None),
+    facts.maybe("row", kinds.INTEGER, lambda r: None if r.i is None else r.i + 1),
+    facts.Row("entry", kinds.INDEX, lambda x: x.j),
+    facts.Row("old", kinds.EXACT, lambda x: x.old),
+    facts.Row("new", kinds.EXACT, lambda x: x.new),
 )
-MISPRINT: Section[SuspectedNumber] = Section(
-    Row("old", kinds.EXACT, lambda x: x.old),
-    Row("new", kinds.EXACT, lambda x: x.new),
-    Row("order", kinds.POSITION, lambda x: x.order),
+MISPRINT: facts.Section[SuspectedNumber] = facts.Section(
+    facts.Row("old", kinds.EXACT, lambda x: x.old),
+    facts.Row("new", kinds.EXACT, lambda x: x.new),
+    facts.Row("order", kinds.POSITION, lambda x: x.order),
 )
-BLAME: Section[Blame] = Section(
-    Row(
+BLAME: facts.Section[Blame] = facts.Section(
+    facts.Row(
         "of",
         kinds.choice("order", "conjugate-order", "pair-order", "embedded-order"),
         lambda x: x.of,
     ),
-    Row("order", kinds.POSITION, lambda x: x.order),
-    Row("failing", kinds.COUNT, lambda x: x.failing),
-    Row("conditions", kinds.COUNT, lambda x: x.total),
-    Row("only_coupling", kinds.TRUTH, lambda x: x.only_coupling),
-    maybe("culprit", PLACED, lambda b: None if b.culprit is None else _block(*b.culprit)),
-    Row("in_every", kinds.BLOCKS, lambda x: x.in_every),
-    Row("in_none", kinds.BLOCKS, lambda x: x.in_none),
-    Row("repairs", parts(REPAIR), lambda x: x.repairs),
-    Row("restores", kinds.TEXTS, lambda x: x.restores),
-    maybe("restored", kinds.POSITION, lambda x: x.restored),
-    maybe("within", kinds.TOLERANCE, lambda x: x.within),
+    facts.Row("order", kinds.POSITION, lambda x: x.order),
+    facts.Row("failing", kinds.COUNT, lambda x: x.failing),
+    facts.Row("conditions", kinds.COUNT, lambda x: x.total),
+    facts.Row("only_coupling", kinds.TRUTH, lambda x: x.only_coupling),
+    facts.maybe("culprit", PLACED, lambda b: None if b.culprit is None else _block(*b.culprit)),
+    facts.Row("in_every", kinds.BLOCKS, lambda x: x.in_every),
+    facts.Row("in_none", kinds.BLOCKS, lambda x: x.in_none),
+    facts.Row("repairs", parts(REPAIR), lambda x: x.repairs),
+    facts.Row("restores", kinds.TEXTS, lambda x: x.restores),
+    facts.maybe("restored", kinds.POSITION, lambda x: x.restored),
+    facts.maybe("within", kinds.TOLERANCE, lambda x: x.within),
 )
-WRONG_SUM: Section[WrongSum] = Section(
-    optional("b", PLACED, lambda x: _block(x.l) if x.m is None and not x.is_embedded else None),
-    optional("embedded", PLACED, lambda x: _block(x.l) if x.is_embedded else None),
-    optional("A", PLACED, lambda x: None if x.m is None else _block(x.l, x.m)),
-    maybe("row", kinds.POSITION, lambda x: None if x.i is None else x.i + 1),
-    Row("sum", kinds.EXACT, lambda x: x.total),
-    Row("required", kinds.EXACT, lambda x: x.wanted),
+WRONG_SUM: facts.Section[WrongSum] = facts.Section(
+    facts.optional(
+        "b", PLACED, lambda x: _block(x.l) if x.m is None and not x.is_embedded else None
+    ),
+    facts.optional("embedded", PLACED, lambda x: _block(x.l) if x.is_embedded else None),
+    facts.optional("A", PLACED, lambda x: None if x.m is None else _block(x.l, x.m)),
+    facts.maybe("row", kinds.POSITION, lambda x: None if x.i is None else x.i + 1),
+    facts.Row("sum", kinds.EXACT, lambda x: x.total),
+    facts.Row("required", kinds.EXACT, lambda x: x.wanted),
 )
-ROUNDING_HINT: Section[RoundingHint] = Section(
-    Row("of", kinds.choice("order", "embedded-order"), lambda x: x.of),
-    Row("order", kinds.COUNT, lambda x: x.order),
-    optional("line", kinds.TEXT, lambda r: r.line or None),
-    Row("repairs", parts(REPAIR), lambda x: x.repairs),
+ROUNDING_HINT: facts.Section[RoundingHint] = facts.Section(
+    facts.Row("of", kinds.choice("order", "embedded-order"), lambda x: x.of),
+    facts.Row("order", kinds.COUNT, lambda x: x.order),
+    facts.optional("line", kinds.TEXT, lambda r: r.line or None),
+    facts.Row("repairs", parts(REPAIR), lambda x: x.repairs),
 )
 
 
@@ -637,17 +634,17 @@ def _recovered(a: Analysis) -> PrintDistance | None:
     return None if a.nearness is None else PrintDistance(a.nearness, a)
 
 
-ENTRY: Section[EntryPlace] = Section(
-    Row("letter", kinds.choice("a", "b", "c", "embedded", "dense"), lambda x: x.entry.letter),
-    Row("colours", PLACED, lambda x: _block(x.entry.l, x.entry.m)),
-    Row("indices", PLACED, lambda x: _block(x.entry.i, x.entry.j)),
+ENTRY: facts.Section[EntryPlace] = facts.Section(
+    facts.Row("letter", kinds.choice("a", "b", "c", "embedded", "dense"), lambda x: x.entry.letter),
+    facts.Row("colours", PLACED, lambda x: _block(x.entry.l, x.entry.m)),
+    facts.Row("indices", PLACED, lambda x: _block(x.entry.i, x.entry.j)),
 )
-RECOVERED: Section[PrintDistance] = Section(
-    Row("distance", kinds.FLOAT, lambda x: to_float(x.near.distance)),
-    maybe("entry", part(ENTRY), lambda x: x.entry),
-    maybe("suspect", part(ENTRY), lambda x: x.suspect),
-    Row("met_fully", kinds.TRUTH, lambda x: x.near.is_full),
-    Row("proved_to_exist", kinds.TRUTH, lambda x: x.near.is_proved),
+RECOVERED: facts.Section[PrintDistance] = facts.Section(
+    facts.Row("distance", kinds.FLOAT, lambda x: to_float(x.near.distance)),
+    facts.maybe("entry", part(ENTRY), lambda x: x.entry),
+    facts.maybe("suspect", part(ENTRY), lambda x: x.suspect),
+    facts.Row("met_fully", kinds.TRUTH, lambda x: x.near.is_full),
+    facts.Row("proved_to_exist", kinds.TRUTH, lambda x: x.near.is_proved),
 )
 
 
@@ -658,14 +655,16 @@ def _norms_words(n: Norms, d: Plain) -> str:
     )
 
 
-VALUE_TEXT: Kind[Number] = Kind(Json(S.TEXT, lambda x, _: to_text(x)), kinds.EXACT.shown)
-NORMS: Section[Norms] = Section(
-    Row("trees", kinds.COUNT, lambda x: x.trees),
-    maybe("two_norm_squared", VALUE_TEXT, lambda x: x.two_squared, label="sum of squares"),
-    Row("two_norm", kinds.FLOAT, lambda x: x.two, label="2-norm"),
-    Row("inf_norm", kinds.FLOAT, lambda x: x.largest, label="largest"),
-    maybe("worst", kinds.TREE, lambda x: x.worst, label="at"),
-    maybe("worst_value", VALUE_TEXT, lambda x: x.worst_value, label="value there"),
+VALUE_TEXT: facts.Kind[Number] = facts.Kind(
+    facts.Json(S.TEXT, lambda x, _: to_text(x)), kinds.EXACT.shown
+)
+NORMS: facts.Section[Norms] = facts.Section(
+    facts.Row("trees", kinds.COUNT, lambda x: x.trees),
+    facts.maybe("two_norm_squared", VALUE_TEXT, lambda x: x.two_squared, label="sum of squares"),
+    facts.Row("two_norm", kinds.FLOAT, lambda x: x.two, label="2-norm"),
+    facts.Row("inf_norm", kinds.FLOAT, lambda x: x.largest, label="largest"),
+    facts.maybe("worst", kinds.TREE, lambda x: x.worst, label="at"),
+    facts.maybe("worst_value", VALUE_TEXT, lambda x: x.worst_value, label="value there"),
     title=lambda n, d: f"norms over {counted(n.trees, 'tree')}",
 )
 
@@ -682,11 +681,11 @@ def of_fields(c: ErrorConstants) -> bool:
     return c.all.worst is None or c.all.worst.is_of_fields
 
 
-CONSTANTS: Section[ErrorConstants] = Section(
-    Row("order", kinds.POSITION, lambda x: x.order),
-    Row("exact", kinds.TRUTH, lambda x: x.is_exact, DATA),
-    Row("all", part(NORMS), lambda x: x.all),
-    maybe(
+CONSTANTS: facts.Section[ErrorConstants] = facts.Section(
+    facts.Row("order", kinds.POSITION, lambda x: x.order),
+    facts.Row("exact", kinds.TRUTH, lambda x: x.is_exact, DATA),
+    facts.Row("all", part(NORMS), lambda x: x.all),
+    facts.maybe(
         "coupling", part(NORMS), lambda c: c.coupling if c.coupling.trees and of_fields(c) else None
     ),
 )
@@ -708,19 +707,19 @@ def estimate_phrase(e: Estimator, d: Plain) -> str:
     )
 
 
-ESTIMATE: Section[Estimator] = Section(
-    maybe("order", kinds.POSITION, lambda x: x.order),
-    Row("zero", kinds.TRUTH, lambda x: x.is_zero),
-    Row("sums", kinds.EXACTS, lambda x: x.sums),
-    maybe("leading_term", part(CONSTANTS, constants_words), lambda x: x.constants),
+ESTIMATE: facts.Section[Estimator] = facts.Section(
+    facts.maybe("order", kinds.POSITION, lambda x: x.order),
+    facts.Row("zero", kinds.TRUTH, lambda x: x.is_zero),
+    facts.Row("sums", kinds.EXACTS, lambda x: x.sums),
+    facts.maybe("leading_term", part(CONSTANTS, constants_words), lambda x: x.constants),
 )
-DENSE_WITNESS: Section[DenseWitness] = Section(
-    Row("order", kinds.POSITION, lambda x: x.witness.tree.order),
-    Row("tree", kinds.TREE, lambda x: x.witness.tree),
-    Row("power", kinds.POSITION, lambda x: x.power),
-    Row("value", kinds.EXACT, lambda x: x.witness.value),
-    Row("required", kinds.EXACT, lambda x: x.witness.required),
-    Row("residual", kinds.EXACT, lambda x: x.witness.residual),
+DENSE_WITNESS: facts.Section[DenseWitness] = facts.Section(
+    facts.Row("order", kinds.POSITION, lambda x: x.witness.tree.order),
+    facts.Row("tree", kinds.TREE, lambda x: x.witness.tree),
+    facts.Row("power", kinds.POSITION, lambda x: x.power),
+    facts.Row("value", kinds.EXACT, lambda x: x.witness.value),
+    facts.Row("required", kinds.EXACT, lambda x: x.witness.required),
+    facts.Row("residual", kinds.EXACT, lambda x: x.witness.residual),
 )
 
 
@@ -732,33 +731,35 @@ def dense_words(x: DenseFacts, _: Plain) -> str:
     return f"{text}; whether its slope jumps is not decided" if smooth is None else text
 
 
-def dense_order(a: Analysis) -> Answer[int] | None:
+def dense_order(a: Analysis) -> facts.Answer[int] | None:
     return None if a.dense is None else dense_answer(a.dense.order, a.tableau.size > 1)
 
 
-def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer[int]:
+def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> facts.Answer[int]:
     """Trees have colours, or names of these."""
     is_open = Reason(found.undecided) if found.undecided else NO_REASON
     status = Status(found.tolerance, found.is_lower_bound, is_open)
     if found.witness is None:
-        return Answer(found.order, status)
+        return facts.Answer(found.order, status)
     reason = findings.dense_witness_text(found.witness, colours)
-    return Answer(found.order, status, reason, witness=found.witness.witness)
+    return facts.Answer(found.order, status, reason, witness=found.witness.witness)
 
 
-DENSE: Section[DenseFacts] = Section(
-    Row("degree", kinds.POSITION, lambda x: x.degree),
-    maybe("witness", part(DENSE_WITNESS), lambda x: x.order.witness),
-    Row("continuous", kinds.TRUTH, lambda x: x.ends_at_step),
-    maybe("smooth", kinds.TRUTH, lambda x: x.is_smooth),
-    maybe("slope_at_start", kinds.TRUTH, lambda x: x.slopes.at_start),
-    maybe("slope_at_end", kinds.TRUTH, lambda x: x.slopes.at_end),
-    optional("order_is_lower_bound", kinds.TRUE, lambda x: x.order.is_lower_bound or None, DATA),
-    optional("order_undecided", kinds.TRUE, lambda x: bool(x.order.undecided) or None, DATA),
+DENSE: facts.Section[DenseFacts] = facts.Section(
+    facts.Row("degree", kinds.POSITION, lambda x: x.degree),
+    facts.maybe("witness", part(DENSE_WITNESS), lambda x: x.order.witness),
+    facts.Row("continuous", kinds.TRUTH, lambda x: x.ends_at_step),
+    facts.maybe("smooth", kinds.TRUTH, lambda x: x.is_smooth),
+    facts.maybe("slope_at_start", kinds.TRUTH, lambda x: x.slopes.at_start),
+    facts.maybe("slope_at_end", kinds.TRUTH, lambda x: x.slopes.at_end),
+    facts.optional(
+        "order_is_lower_bound", kinds.TRUE, lambda x: x.order.is_lower_bound or None, DATA
+    ),
+    facts.optional("order_undecided", kinds.TRUE, lambda x: bool(x.order.undecided) or None, DATA),
 )
 
 
-def predictor_order(a: Analysis) -> Answer[int] | None:
+def predictor_order(a: Analysis) -> facts.Answer[int] | None:
     """The least order of a predicted stage for every ratio of step sizes, with what fails."""
     found = a.predictor
     if found is None:
@@ -766,9 +767,9 @@ def predictor_order(a: Analysis) -> Answer[int] | None:
     missed = found.first_missed(equal_steps=False)
     status = Status(None, missed is None, NO_REASON)
     if missed is None:
-        return Answer(found.order, status)
+        return facts.Answer(found.order, status)
     reason = findings.predictor_witness_text(found, equal_steps=False)
-    return Answer(found.order, status, reason, witness=missed[1].witness)
+    return facts.Answer(found.order, status, reason, witness=missed[1].witness)
 
 
 def predictor_words(x: PredictorOrders, _: Plain) -> str:
@@ -781,15 +782,15 @@ def predictor_words(x: PredictorOrders, _: Plain) -> str:
     return "; ".join(said)
 
 
-PREDICTED_STAGE: Section[StageOrder] = Section(
-    Row("stage", kinds.POSITION, lambda x: x.stage + 1),
-    Row("order", kinds.COUNT, lambda x: x.order),
-    Row("equal_steps", kinds.COUNT, lambda x: x.equal_steps),
-    optional("order_is_lower_bound", kinds.TRUE, lambda x: x.missed is None or None, DATA),
+PREDICTED_STAGE: facts.Section[StageOrder] = facts.Section(
+    facts.Row("stage", kinds.POSITION, lambda x: x.stage + 1),
+    facts.Row("order", kinds.COUNT, lambda x: x.order),
+    facts.Row("equal_steps", kinds.COUNT, lambda x: x.equal_steps),
+    facts.optional("order_is_lower_bound", kinds.TRUE, lambda x: x.missed is None or None, DATA),
 )
-PREDICTOR: Section[PredictorOrders] = Section(
-    Row("equal_steps", kinds.COUNT, lambda x: x.equal_steps),
-    Row("stages", parts(PREDICTED_STAGE), lambda x: x.stages),
+PREDICTOR: facts.Section[PredictorOrders] = facts.Section(
+    facts.Row("equal_steps", kinds.COUNT, lambda x: x.equal_steps),
+    facts.Row("stages", parts(PREDICTED_STAGE), lambda x: x.stages),
 )
 
 
@@ -798,9 +799,9 @@ class InTableau(NamedTuple):
     tableau: Tableau
 
 
-COLOURS: Section[InTableau] = Section(
-    Row("name", kinds.TEXT, lambda x: x.colour.name),
-    Row("stages", kinds.POSITION, lambda x: x.tableau.spaces[x.colour.space].stages),
+COLOURS: facts.Section[InTableau] = facts.Section(
+    facts.Row("name", kinds.TEXT, lambda x: x.colour.name),
+    facts.Row("stages", kinds.POSITION, lambda x: x.tableau.spaces[x.colour.space].stages),
 )
 
 
@@ -808,34 +809,36 @@ def colours_of(tableau: Tableau) -> list[InTableau]:
     return [InTableau(colour, tableau) for colour in tableau.colours]
 
 
-def _pair_phrase(_: str, order: AnyOrder, answer: Answer[AnyOrder], d: Plain) -> str:
+def _pair_phrase(_: str, order: AnyOrder, answer: facts.Answer[AnyOrder], d: Plain) -> str:
     return f"the symplectic pair has order {kinds.order_cell(order, d)}"
 
 
-OF_ALL_KINDS: Rows[AnyAnalysis] = (
-    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA),
+OF_ALL_KINDS: facts.Rows[AnyAnalysis] = (
+    facts.Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
+    facts.maybe("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA),
 )
-COLOURS_OF: Row[AnyAnalysis] = Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA)
-COUNTED: Kind[int] = told(lambda x, _: str(x))
-ANALYSIS: Rows[Analysis] = [
+COLOURS_OF: facts.Row[AnyAnalysis] = facts.Row(
+    "colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA
+)
+COUNTED: facts.Kind[int] = told(lambda x, _: str(x))
+ANALYSIS: facts.Rows[Analysis] = [
     *OF_ALL_KINDS,
-    Row("recovered_in_words", told(_recovered_words), _recovered, DETAIL, label="recovered"),
-    optional("recovered", part(RECOVERED), _recovered, DATA),
+    facts.Row("recovered_in_words", told(_recovered_words), _recovered, DETAIL, label="recovered"),
+    facts.optional("recovered", part(RECOVERED), _recovered, DATA),
     COLOURS_OF,
-    Row("order", kinds.ORDER, lambda a: kinds.order_answer(a.order), HEADLINE),
-    Row(
+    facts.Row("order", kinds.ORDER, lambda a: kinds.order_answer(a.order), HEADLINE),
+    facts.Row(
         "stage_order",
         COUNTED,
         lambda a: whole_number(a, "stage-order"),
         line="method",
         is_short=True,
     ),
-    itself("simplifying", part(SIMPLIFYING, phrase=_simplifying_phrase), line="method"),
+    facts.itself("simplifying", part(SIMPLIFYING, phrase=_simplifying_phrase), line="method"),
     of_several("conjugate_order", lambda a: a.conjugate_order),
     of_several("pair_order", lambda a: a.pair_order),
     with_time("nonautonomous_order", lambda a: a.nonautonomous_order),
-    maybe(
+    facts.maybe(
         "embedded_order",
         kinds.ORDER,
         lambda a: None if a.embedded is None else kinds.order_answer(a.embedded.order),
@@ -844,61 +847,63 @@ ANALYSIS: Rows[Analysis] = [
         "embedded_nonautonomous_order",
         lambda a: None if a.embedded is None else a.embedded.nonautonomous_order,
     ),
-    maybe(
+    facts.maybe(
         "error_estimate",
         part(ESTIMATE, estimate_words),
         lambda a: None if a.embedded is None else a.embedded.estimator,
     ),
-    maybe("dense_order", kinds.COUNT, dense_order),
-    maybe("dense", part(DENSE, dense_words), lambda a: a.dense, label="dense output"),
-    optional("predictor_order", kinds.COUNT, predictor_order),
-    optional("predictor", part(PREDICTOR, predictor_words), lambda a: a.predictor),
-    maybe("pair_criterion", kinds.COUNT, pair_criterion, DETAIL),
-    Row("pair_criterion_why", kinds.TEXTS, pair_criterion_why, DATA),
-    maybe("pair_bound", kinds.COUNT, lambda a: bound(a, is_sharp=False, is_of_pair=True), DETAIL),
-    Row("sharp_bound", kinds.COUNT, lambda a: bound(a, is_sharp=True), DETAIL),
-    maybe(
+    facts.maybe("dense_order", kinds.COUNT, dense_order),
+    facts.maybe("dense", part(DENSE, dense_words), lambda a: a.dense, label="dense output"),
+    facts.optional("predictor_order", kinds.COUNT, predictor_order),
+    facts.optional("predictor", part(PREDICTOR, predictor_words), lambda a: a.predictor),
+    facts.maybe("pair_criterion", kinds.COUNT, pair_criterion, DETAIL),
+    facts.Row("pair_criterion_why", kinds.TEXTS, pair_criterion_why, DATA),
+    facts.maybe(
+        "pair_bound", kinds.COUNT, lambda a: bound(a, is_sharp=False, is_of_pair=True), DETAIL
+    ),
+    facts.Row("sharp_bound", kinds.COUNT, lambda a: bound(a, is_sharp=True), DETAIL),
+    facts.maybe(
         "pair_sharp_bound", kinds.COUNT, lambda a: bound(a, is_sharp=True, is_of_pair=True), DETAIL
     ),
-    Row("consistent", kinds.TRUTH, consistent),
-    Row("inconsistent_blocks", kinds.BLOCKS, lambda a: a.inconsistent, DATA),
-    Row("wrong_sums", parts(WRONG_SUM), lambda a: [*a.wrong_weights, *a.wrong_rows], DATA),
-    Row(
+    facts.Row("consistent", kinds.TRUTH, consistent),
+    facts.Row("inconsistent_blocks", kinds.BLOCKS, lambda a: a.inconsistent, DATA),
+    facts.Row("wrong_sums", parts(WRONG_SUM), lambda a: [*a.wrong_weights, *a.wrong_rows], DATA),
+    facts.Row(
         "bound_in_brief",
         COUNTED,
-        lambda a: Answer(a.bound, Status(a.tolerance)),
+        lambda a: facts.Answer(a.bound, Status(a.tolerance)),
         DATA,
         label="bound",
     ),
-    maybe("conjugate_consistent", kinds.TRUTH, conjugate_consistent),
-    Row(
+    facts.maybe("conjugate_consistent", kinds.TRUTH, conjugate_consistent),
+    facts.Row(
         "symplectic",
         kinds.TRUTH,
-        lambda a: Answer(a.symplectic, Status(a.tolerance) if a.symplectic else Status()),
+        lambda a: facts.Answer(a.symplectic, Status(a.tolerance) if a.symplectic else Status()),
         line="symplectic",
     ),
-    Row(
+    facts.Row(
         "pair",
         told(lambda x, _: str(x.order), _pair_phrase),
         _pair_in_brief,
         line="symplectic",
         is_short=True,
     ),
-    itself("properties", part(PROPERTIES), line="symplectic"),
-    Row("by_colour", told(_colours_words), colours_apart, label="colours", is_short=True),
-    Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
+    facts.itself("properties", part(PROPERTIES), line="symplectic"),
+    facts.Row("by_colour", told(_colours_words), colours_apart, label="colours", is_short=True),
+    facts.Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
 ]
 
 
 MOST_CLAIMS = 6
 """Further claims that hold are counted."""
-CLAIM: Section[Claim] = Section(
-    Row("claim", kinds.TEXT, lambda x: x.claim),
-    Row("expected", kinds.TEXT, lambda x: x.expected),
-    Row("found", kinds.TEXT, lambda x: x.found),
-    maybe("holds", kinds.TRUTH, lambda x: x.holds),
-    Row("line", kinds.POSITION, lambda x: x.line),
-    optional("why", kinds.TEXT, lambda c: c.why or None),
+CLAIM: facts.Section[Claim] = facts.Section(
+    facts.Row("claim", kinds.TEXT, lambda x: x.claim),
+    facts.Row("expected", kinds.TEXT, lambda x: x.expected),
+    facts.Row("found", kinds.TEXT, lambda x: x.found),
+    facts.maybe("holds", kinds.TRUTH, lambda x: x.holds),
+    facts.Row("line", kinds.POSITION, lambda x: x.line),
+    facts.optional("why", kinds.TEXT, lambda c: c.why or None),
 )
 
 
@@ -933,15 +938,19 @@ def _claims_cell(o: Outcome, d: Plain) -> str:
     return held if o.claims else "none"
 
 
-IN_BRIEF: Row[Outcome] = itself("claims_in_brief", told(_claims_cell), DATA, label="claims")
-CLAIMS_IN_WORDS: Row[Outcome] = Row(
+IN_BRIEF: facts.Row[Outcome] = facts.itself(
+    "claims_in_brief", told(_claims_cell), DATA, label="claims"
+)
+CLAIMS_IN_WORDS: facts.Row[Outcome] = facts.Row(
     "claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None
 )
-FINDINGS: Row[Outcome] = Row("findings", parts(FINDING), findings.remarks, DATA)
-ASIDES: Row[Outcome] = Row("asides", rows_of(remark_rows), lambda o: findings.asides(o) or None)
-CLAIMS: Rows[Outcome] = (
+FINDINGS: facts.Row[Outcome] = facts.Row("findings", parts(FINDING), findings.remarks, DATA)
+ASIDES: facts.Row[Outcome] = facts.Row(
+    "asides", rows_of(remark_rows), lambda o: findings.asides(o) or None
+)
+CLAIMS: facts.Rows[Outcome] = (
     IN_BRIEF,
-    Row("claims", parts(CLAIM), lambda o: o.claims, DATA),
+    facts.Row("claims", parts(CLAIM), lambda o: o.claims, DATA),
     CLAIMS_IN_WORDS,
     FINDINGS,
     ASIDES,
@@ -971,11 +980,11 @@ class PropertyVerdict(NamedTuple):
     tolerance: fmpq | None
 
 
-VERDICT: Section[PropertyVerdict] = Section(
-    Row("property", kinds.choice(*KEYS), lambda x: x.key),
-    Row("value", Kind(Json(VALUE, verdict_data)), lambda x: x.verdict),
-    Row("undecided", kinds.TRUTH, lambda x: x.verdict.is_undecided),
-    Row("why", kinds.TEXT, lambda x: x.verdict.why),
+VERDICT: facts.Section[PropertyVerdict] = facts.Section(
+    facts.Row("property", kinds.choice(*KEYS), lambda x: x.key),
+    facts.Row("value", facts.Kind(facts.Json(VALUE, verdict_data)), lambda x: x.verdict),
+    facts.Row("undecided", kinds.TRUTH, lambda x: x.verdict.is_undecided),
+    facts.Row("why", kinds.TEXT, lambda x: x.verdict.why),
 )
 
 
@@ -997,18 +1006,22 @@ def property_rows_of(found: Sequence[PropertyVerdict], d: Plain) -> list[tuple[s
     return rows
 
 
-IS_OK: Row[Outcome] = Row("ok", kinds.TRUTH, lambda o: o.ok, DATA)
+IS_OK: facts.Row[Outcome] = facts.Row("ok", kinds.TRUTH, lambda o: o.ok, DATA)
 STRUCTURES = kinds.choice("general", "semi-separable", "separable", "nystrom")
-OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, DATA), METHOD)
+OK: facts.Rows[Outcome] = (
+    IS_OK,
+    facts.Row("structure", STRUCTURES, lambda o: o.structure, DATA),
+    METHOD,
+)
 
 
-def transfer(o: Outcome) -> Answer[list[str]] | None:
+def transfer(o: Outcome) -> facts.Answer[list[str]] | None:
     level = DATA if all(map(is_lost, o.about_rules)) else DETAIL
-    return Answer([*o.about_rules], level=level) if o.about_rules else None
+    return facts.Answer([*o.about_rules], level=level) if o.about_rules else None
 
 
-REASONS: Kind[Sequence[str]] = Kind(
-    kinds.TEXTS.what, Words(lambda x, d: d.prose("; ".join(filterfalse(is_lost, x))))
+REASONS: facts.Kind[Sequence[str]] = facts.Kind(
+    kinds.TEXTS.what, facts.Words(lambda x, d: d.prose("; ".join(filterfalse(is_lost, x))))
 )
 
 
@@ -1021,11 +1034,11 @@ def known(o: Outcome, is_same: bool) -> Known | None:
     return found if found and found.is_same is is_same else None
 
 
-def of_catalogue(within: Row[Known]) -> Section[Known]:
-    return Section(
-        Row("method", kinds.TEXT, lambda x: x.method),
+def of_catalogue(within: facts.Row[Known]) -> facts.Section[Known]:
+    return facts.Section(
+        facts.Row("method", kinds.TEXT, lambda x: x.method),
         within,
-        Row("step_only", kinds.TRUTH, lambda x: x.step_only),
+        facts.Row("step_only", kinds.TRUTH, lambda x: x.step_only),
     )
 
 
@@ -1037,50 +1050,56 @@ def _known_words(known: Known, d: Plain) -> str:
     return f"{d.prose(known.method)}{by}{apart}"
 
 
-PARTS: Kind[Sequence[str]] = Kind(
-    Json(S.array(S.TEXT), lambda x, _: list(x)),
-    Words(lambda x, _: f"{' and '.join(x)} of its parts"),
+PARTS: facts.Kind[Sequence[str]] = facts.Kind(
+    facts.Json(S.array(S.TEXT), lambda x, _: list(x)),
+    facts.Words(lambda x, _: f"{' and '.join(x)} of its parts"),
 )
-LEFT_BEHIND: Row[Outcome] = optional("left_behind", PARTS, lambda o: o.left_behind or None)
-IN_FULL: Row[Outcome] = optional(
+LEFT_BEHIND: facts.Row[Outcome] = facts.optional(
+    "left_behind", PARTS, lambda o: o.left_behind or None
+)
+IN_FULL: facts.Row[Outcome] = facts.optional(
     "error_constants", part(CONSTANTS, constants_words), lambda o: o.constants
 )
-SAME_AS = of_catalogue(maybe("within", kinds.TOLERANCE, lambda x: x.within))
-DIFFERS_FROM = of_catalogue(Row("at_most", kinds.TOLERANCE, lambda x: x.within))
+SAME_AS = of_catalogue(facts.maybe("within", kinds.TOLERANCE, lambda x: x.within))
+DIFFERS_FROM = of_catalogue(facts.Row("at_most", kinds.TOLERANCE, lambda x: x.within))
 COLUMNS = (
     *("file", "order", "embedded_order", "conjugate_order", "pair_order"),
     *("bound_in_brief", "symplectic", "claims_in_brief"),
 )
-CHECKED: Section[Outcome] = Section(
+CHECKED: facts.Section[Outcome] = facts.Section(
     kinds.FILE_AND_NAME,
     OK,
-    via(lambda o: o.analysis, ANALYSIS),
-    optional("transfer", REASONS, transfer),
+    facts.via(lambda o: o.analysis, ANALYSIS),
+    facts.optional("transfer", REASONS, transfer),
     LEFT_BEHIND,
-    optional("every_property", parts(VERDICT), every_property, DATA),
-    optional("blame", part(BLAME), lambda o: o.blame, DATA),
+    facts.optional("every_property", parts(VERDICT), every_property, DATA),
+    facts.optional("blame", part(BLAME), lambda o: o.blame, DATA),
     IN_FULL,
-    optional("remark", part(ROUNDING_HINT), lambda o: o.remark, DATA),
-    optional("same_as", part(SAME_AS, _known_words), lambda o: known(o, is_same=True)),
-    optional("differs_from", part(DIFFERS_FROM, _known_words), lambda o: known(o, is_same=False)),
+    facts.optional("remark", part(ROUNDING_HINT), lambda o: o.remark, DATA),
+    facts.optional("same_as", part(SAME_AS, _known_words), lambda o: known(o, is_same=True)),
+    facts.optional(
+        "differs_from", part(DIFFERS_FROM, _known_words), lambda o: known(o, is_same=False)
+    ),
     CLAIMS,
-    Row("properties_in_words", rows_of(property_rows_of), every_property),
+    facts.Row("properties_in_words", rows_of(property_rows_of), every_property),
     title=title,
     columns=COLUMNS,
 )
-UNREADABLE: Section[Outcome] = Section(
+UNREADABLE: facts.Section[Outcome] = facts.Section(
     kinds.FILE_AND_NAME,
-    Row("ok", kinds.constant(value=False), lambda o: o.ok, DATA),
-    Row("errors", Kind(Several(FAULT, is_never_empty=True)), lambda o: o.faults, DATA),
-    Row("errors_in_words", rows_of(fault_rows), lambda o: o.faults),
+    facts.Row("ok", kinds.constant(value=False), lambda o: o.ok, DATA),
+    facts.Row(
+        "errors", facts.Kind(facts.Several(FAULT, is_never_empty=True)), lambda o: o.faults, DATA
+    ),
+    facts.Row("errors_in_words", rows_of(fault_rows), lambda o: o.faults),
     FINDINGS,
     IN_BRIEF,
     title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",
     columns=COLUMNS,
 )
-SUMMARY: Section[Sequence[Outcome]] = Section(
-    Row("files", kinds.COUNT, len),
-    Row("failed", kinds.COUNT, lambda xs: sum(not (x.ok or x.is_open) for x in xs)),
-    Row("undecided", kinds.COUNT, lambda xs: sum(x.is_open for x in xs)),
-    Row("without_claims", kinds.COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
+SUMMARY: facts.Section[Sequence[Outcome]] = facts.Section(
+    facts.Row("files", kinds.COUNT, len),
+    facts.Row("failed", kinds.COUNT, lambda xs: sum(not (x.ok or x.is_open) for x in xs)),
+    facts.Row("undecided", kinds.COUNT, lambda xs: sum(x.is_open for x in xs)),
+    facts.Row("without_claims", kinds.COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
 )

@@ -19,23 +19,8 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.report.design_values import conditions
-from garkcli.tell import kinds
+from garkcli.tell import facts, kinds
 from garkcli.tell.dialect import Plain, Status
-from garkcli.tell.facts import (
-    Answer,
-    Json,
-    Kind,
-    Labels,
-    Level,
-    Row,
-    Rows,
-    Section,
-    Words,
-    itself,
-    maybe,
-    optional,
-    via,
-)
 from garkcli.tell.parts import SAID, part, parts, rows_of
 from garkcli.tell.report import Report
 
@@ -45,7 +30,7 @@ if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
     from garkcli.order.certificate import Witness
 
-HEADLINE, USUAL, DETAIL, DATA = Level
+HEADLINE, USUAL, DETAIL, DATA = facts.Level
 V = TypeVar("V")
 MOST = 8
 VALUE: S.Schema = {
@@ -67,7 +52,7 @@ FACT: S.Schema = kinds.record(
 FACT["required"] = FACT["required"][:-2]
 
 
-def fact_data(f: FamilyFact, inner: Kind[V], d: Plain) -> dict[str, object]:
+def fact_data(f: FamilyFact, inner: facts.Kind[V], d: Plain) -> dict[str, object]:
     """A value for almost all parameters, with exceptions and open cases."""
 
     def data(x: V | None) -> object:
@@ -88,7 +73,7 @@ def fact_data(f: FamilyFact, inner: Kind[V], d: Plain) -> dict[str, object]:
     return {**found, "why": str(f.why)} if f.why else found
 
 
-def lifted(inner: Kind[V]) -> Kind[FamilyFact]:
+def lifted(inner: facts.Kind[V]) -> facts.Kind[FamilyFact]:
     def words(f: FamilyFact, d: Plain) -> str:
         plain, of_value = (
             Plain(colours=d.colours),
@@ -96,21 +81,23 @@ def lifted(inner: Kind[V]) -> Kind[FamilyFact]:
         )
         return d.reason(fact_reason(f, d.parameter, lambda x: of_value(x, plain)))
 
-    return Kind(Json(FACT, lambda f, d: fact_data(f, inner, d)), Words(words))
+    return facts.Kind(facts.Json(FACT, lambda f, d: fact_data(f, inner, d)), facts.Words(words))
 
 
-ANY: Kind[object] = Kind(Json(VALUE), Words(lambda x, d: d.reason(Reason("{}", told_value(x)))))
-
-
-WITNESS: Section[Witness] = Section(
-    *kinds.WITNESS.rows[:2], Row("residual", kinds.TEXT, lambda x: str(x.residual))
+ANY: facts.Kind[object] = facts.Kind(
+    facts.Json(VALUE), facts.Words(lambda x, d: d.reason(Reason("{}", told_value(x))))
 )
-ORDER_PARTS: Section[EveryOrder] = Section(
-    Row("order", kinds.COUNT, lambda x: x.order),
-    maybe("witness", part(WITNESS), lambda x: x.witness),
-    Row("fact", lifted(kinds.COUNT), lambda x: x.fact),
-    maybe("dimension", kinds.INTEGER, lambda x: x.dimension),
-    Row("weights", kinds.TEXTS, lambda o: list(o.poles)),
+
+
+WITNESS: facts.Section[Witness] = facts.Section(
+    *kinds.WITNESS.rows[:2], facts.Row("residual", kinds.TEXT, lambda x: str(x.residual))
+)
+ORDER_PARTS: facts.Section[EveryOrder] = facts.Section(
+    facts.Row("order", kinds.COUNT, lambda x: x.order),
+    facts.maybe("witness", part(WITNESS), lambda x: x.witness),
+    facts.Row("fact", lifted(kinds.COUNT), lambda x: x.fact),
+    facts.maybe("dimension", kinds.INTEGER, lambda x: x.dimension),
+    facts.Row("weights", kinds.TEXTS, lambda o: list(o.poles)),
 )
 
 
@@ -126,7 +113,7 @@ def _higher(o: EveryOrder, name: str) -> Reason:
     return Reason(f"; no real value of the file has order {higher}")
 
 
-def _order_words(o: EveryOrder, _: Answer[EveryOrder], d: Plain) -> str:
+def _order_words(o: EveryOrder, _: facts.Answer[EveryOrder], d: Plain) -> str:
     """``2; order 3 is missed at [[]] by …; order 3 where …``."""
     if o.witness is None:
         return f"{d.known(str(o.order), Status(at_least=True))}; the search stopped here"
@@ -137,58 +124,58 @@ def _order_words(o: EveryOrder, _: Answer[EveryOrder], d: Plain) -> str:
     return text
 
 
-EVERY_ORDER: Kind[EveryOrder] = Kind(
-    ORDER_PARTS, Words(lambda o, _: f"{o.order} for every value", whole=_order_words)
+EVERY_ORDER: facts.Kind[EveryOrder] = facts.Kind(
+    ORDER_PARTS, facts.Words(lambda o, _: f"{o.order} for every value", whole=_order_words)
 )
-BLOCK_LISTS: Kind[Sequence[tuple[int, int]]] = Kind(
+BLOCK_LISTS: facts.Kind[Sequence[tuple[int, int]]] = facts.Kind(
     kinds.BLOCKS.what,
-    Words(lambda x, d: f"no: {d.few([d.block('A', edge) for edge in x])}" if x else "yes"),
+    facts.Words(lambda x, d: f"no: {d.few([d.block('A', edge) for edge in x])}" if x else "yes"),
 )
 
 
-def of_blocks(name: str, kind: Kind[kinds.BlockTable]) -> Row[EveryValue]:
+def of_blocks(name: str, kind: facts.Kind[kinds.BlockTable]) -> facts.Row[EveryValue]:
     def get(e: EveryValue) -> FamilyFact:
         rows = (lambda x: [x]) if name == "B" else (lambda x: x)
         return e.simplifying(name).of(lambda x: kinds.BlockTable(rows(x), e.limit))
 
-    return Row(name, lifted(kind), get)
+    return facts.Row(name, lifted(kind), get)
 
 
-def of_several(key: str, get: Callable[[EveryValue], EveryOrder | None]) -> Row[EveryValue]:
+def of_several(key: str, get: Callable[[EveryValue], EveryOrder | None]) -> facts.Row[EveryValue]:
     """An order of the conjugate or the pair, or why there is none; a detail of one colour."""
 
-    def answer(e: EveryValue) -> Answer[EveryOrder]:
-        answer = Answer(get(e), level=None if e.tableau.size > 1 else DETAIL)
+    def answer(e: EveryValue) -> facts.Answer[EveryOrder]:
+        answer = facts.Answer(get(e), level=None if e.tableau.size > 1 else DETAIL)
         return replace(answer, reason=c.no_order(answer, e.obstacle))
 
-    return maybe(key, EVERY_ORDER, answer)
+    return facts.maybe(key, EVERY_ORDER, answer)
 
 
-RESTRICTIONS: Kind[EveryFamily] = Kind(
-    Json(S.array(S.TEXT), lambda f, _: list(map(str, conditions(f.family, f.poles))))
+RESTRICTIONS: facts.Kind[EveryFamily] = facts.Kind(
+    facts.Json(S.array(S.TEXT), lambda f, _: list(map(str, conditions(f.family, f.poles))))
 )
-TOLD_ORDER: Kind[EveryOrder] = Kind(None, EVERY_ORDER.shown)
+TOLD_ORDER: facts.Kind[EveryOrder] = facts.Kind(None, EVERY_ORDER.shown)
 JUDGED_LATER = "judged for values of the parameters: --set NAME=1/2"
-FAMILY: Rows[EveryValue] = [
-    Row("every_value", kinds.TRUE, lambda _: True, DATA),
-    Row("unknowns", kinds.TEXTS, lambda e: list(e.parameters), DATA),
-    Row("restrictions", RESTRICTIONS, lambda e: e.family, DATA),
-    Row("colours", kinds.TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
-    Row("order", EVERY_ORDER, lambda x: x.order, HEADLINE),
+FAMILY: facts.Rows[EveryValue] = [
+    facts.Row("every_value", kinds.TRUE, lambda _: True, DATA),
+    facts.Row("unknowns", kinds.TEXTS, lambda e: list(e.parameters), DATA),
+    facts.Row("restrictions", RESTRICTIONS, lambda e: e.family, DATA),
+    facts.Row("colours", kinds.TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
+    facts.Row("order", EVERY_ORDER, lambda x: x.order, HEADLINE),
     of_several("conjugate_order", lambda e: e.conjugate_order),
     of_several("pair_order", lambda e: e.pair_order),
-    Row(
+    facts.Row(
         "nonautonomous_order",
         TOLD_ORDER,
         lambda e: None if e.is_consistent else e.nonautonomous_order,
     ),
-    maybe("embedded_order", EVERY_ORDER, lambda x: x.embedded_order),
-    Row(
+    facts.maybe("embedded_order", EVERY_ORDER, lambda x: x.embedded_order),
+    facts.Row(
         "embedded_nonautonomous_order",
         TOLD_ORDER,
         lambda e: None if e.is_consistent else e.embedded_nonautonomous_order,
     ),
-    Row(
+    facts.Row(
         "dense",
         SAID,
         lambda e: JUDGED_LATER if e.file.further.dense else None,
@@ -197,11 +184,15 @@ FAMILY: Rows[EveryValue] = [
     of_blocks("B", kinds.ROW_OF_COUNTS),
     of_blocks("C", kinds.TABLE),
     of_blocks("D", kinds.TABLE),
-    Row("bound", lifted(kinds.COUNT), lambda e: e.simplifying("bound"), DETAIL),
-    Row("sharp_bound", lifted(kinds.COUNT), lambda e: e.simplifying("sharp-bound"), DETAIL),
-    Row("inconsistent_blocks", lifted(BLOCK_LISTS), lambda x: x.inconsistent, label="consistent"),
-    Row("symplectic", lifted(kinds.TRUTH), lambda x: x.symplectic),
-    Row("holding", Kind(None, kinds.TEXTS.shown), lambda x: x.holding, label="properties"),
+    facts.Row("bound", lifted(kinds.COUNT), lambda e: e.simplifying("bound"), DETAIL),
+    facts.Row("sharp_bound", lifted(kinds.COUNT), lambda e: e.simplifying("sharp-bound"), DETAIL),
+    facts.Row(
+        "inconsistent_blocks", lifted(BLOCK_LISTS), lambda x: x.inconsistent, label="consistent"
+    ),
+    facts.Row("symplectic", lifted(kinds.TRUTH), lambda x: x.symplectic),
+    facts.Row(
+        "holding", facts.Kind(None, kinds.TEXTS.shown), lambda x: x.holding, label="properties"
+    ),
 ]
 
 
@@ -211,24 +202,24 @@ def verdicts(o: Outcome) -> dict[str, FamilyFact] | None:
     return {key: o.every.verdict(key) for key in KEYS}
 
 
-VERDICTS: Kind[dict[str, FamilyFact]] = Kind(
-    Json(
+VERDICTS: facts.Kind[dict[str, FamilyFact]] = facts.Kind(
+    facts.Json(
         {"type": "object", "properties": dict.fromkeys(KEYS, FACT), "additionalProperties": False},
         lambda found, d: {key: fact_data(x, ANY, d) for key, x in found.items()},
     ),
-    Labels(
+    facts.Labels(
         lambda found, d: [
             (key, d.reason(fact_reason(x, d.parameter, told_value))) for key, x in found.items()
         ]
     ),
 )
-EVERY: Section[Outcome] = Section(
+EVERY: facts.Section[Outcome] = facts.Section(
     kinds.FILE_AND_NAME,
     c.OK,
-    via(lambda o: o.every, FAMILY),
+    facts.via(lambda o: o.every, FAMILY),
     c.LEFT_BEHIND,
     c.CLAIMS,
-    optional("every_property", VERDICTS, verdicts),
+    facts.optional("every_property", VERDICTS, verdicts),
     title=c.title,
     columns=c.COLUMNS,
 )
@@ -264,19 +255,19 @@ def _latex(coefficients: Coefficients, variable: str) -> str:
     return sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in enumerate(coefficients))
 
 
-def _sum(variable: str) -> Kind[Coefficients]:
-    return Kind(
-        Json(S.array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
-        Words(lambda xs, d: d.formula(_latex(xs, variable), _text(xs, variable))),
+def _sum(variable: str) -> facts.Kind[Coefficients]:
+    return facts.Kind(
+        facts.Json(S.array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
+        facts.Words(lambda xs, d: d.formula(_latex(xs, variable), _text(xs, variable))),
     )
 
 
-FUNCTION: Section[FamilyFunction] = Section(
-    Row("name", kinds.TEXT, lambda x: x.name, DATA),
-    Row("numerator", _sum("z"), lambda x: x.numerator),
-    Row("denominator", _sum("z"), lambda x: x.denominator),
-    maybe("R_infinity", kinds.EXACT, lambda x: x.at_infinity),
-    Row("e_polynomial", _sum("x"), lambda x: x.e_polynomial, DETAIL),
+FUNCTION: facts.Section[FamilyFunction] = facts.Section(
+    facts.Row("name", kinds.TEXT, lambda x: x.name, DATA),
+    facts.Row("numerator", _sum("z"), lambda x: x.numerator),
+    facts.Row("denominator", _sum("z"), lambda x: x.denominator),
+    facts.maybe("R_infinity", kinds.EXACT, lambda x: x.at_infinity),
+    facts.Row("e_polynomial", _sum("x"), lambda x: x.e_polynomial, DETAIL),
 )
 
 
@@ -320,19 +311,19 @@ def _stability_rows(x: EveryStability, d: Plain) -> list[tuple[str, str]]:
     return [*rows, ("intervals, SSP", d.prose(f"numbers: --set {d.parameter}=1/2"))]
 
 
-def _stable(key: str) -> Row[EveryStability]:
-    return Row(key.replace("-", "_"), lifted(ANY), lambda x: x.facts[key])
+def _stable(key: str) -> facts.Row[EveryStability]:
+    return facts.Row(key.replace("-", "_"), lifted(ANY), lambda x: x.facts[key])
 
 
-STABLE = Section(map(_stable, STABILITIES))
-EVERY_STABILITY: Section[EveryStability] = Section(
+STABLE = facts.Section(map(_stable, STABILITIES))
+EVERY_STABILITY: facts.Section[EveryStability] = facts.Section(
     kinds.FILE_AND_NAME,
-    Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
-    Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
-    Row("functions", parts(FUNCTION), lambda x: x.functions, DATA),
-    itself("stability", part(STABLE), DATA),
-    itself("functions_in_words", rows_of(_function_rows)),
-    itself("stability_in_words", rows_of(_stability_rows)),
+    facts.Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
+    facts.Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
+    facts.Row("functions", parts(FUNCTION), lambda x: x.functions, DATA),
+    facts.itself("stability", part(STABLE), DATA),
+    facts.itself("functions_in_words", rows_of(_function_rows)),
+    facts.itself("stability_in_words", rows_of(_stability_rows)),
     title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )
 STABILITY: Report[EveryStability] = Report.only(

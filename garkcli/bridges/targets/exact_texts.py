@@ -15,20 +15,8 @@ from garkcli.bridges.readers.rows import COLUMNS
 from garkcli.bridges.registry import EVERYTHING, PREDICTOR, STEPPED, Bridge
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.record import Field, Record, schema_named
-from garkcli.page.schema import (
-    COUNT,
-    DERIVATION,
-    FLAG,
-    NUMERAL,
-    POSITION,
-    TEXT,
-    Schema,
-    array,
-    nullable,
-    one_of,
-    published,
-)
 from garkcli.tableau.tableau import Colour
 
 DIGITS = 40
@@ -41,8 +29,8 @@ def _json(payload: Payload) -> str:
     return _REPORT.text(payload)
 
 
-def export_schema() -> Schema:
-    return published("method of gark export, with --to json", _REPORT.schema)
+def export_schema() -> S.Schema:
+    return S.published("method of gark export, with --to json", _REPORT.schema)
 
 
 def style_of(payload: Payload) -> Style:
@@ -110,34 +98,34 @@ def _linear(payload: Payload, name: Literal["alpha", "gamma", "d"]) -> Any:
 
 
 _COLOUR: Record[Colour] = Record(
-    Field("name", TEXT, lambda x: x.name),
-    Field("term", POSITION, lambda x: x.term + 1),
-    Field("drives", TEXT, lambda x: x.part),
-    Field("linear", FLAG, lambda x: x.is_linear),
-    Field("space", POSITION, lambda x: x.space + 1),
+    Field("name", S.TEXT, lambda x: x.name),
+    Field("term", S.POSITION, lambda x: x.term + 1),
+    Field("drives", S.TEXT, lambda x: x.part),
+    Field("linear", S.FLAG, lambda x: x.is_linear),
+    Field("space", S.POSITION, lambda x: x.space + 1),
 )
-_NUMBERS = array(NUMERAL)
-_MATRIX = array(_NUMBERS)
-_ONE_ROW = one_of(_NUMBERS, _MATRIX)
-_ONE_BLOCK = one_of(_MATRIX, array(array(_MATRIX)))
-_MATRICES = array(_MATRIX)
-_PREDICTOR: Schema = {
+_NUMBERS = S.array(S.NUMERAL)
+_MATRIX = S.array(_NUMBERS)
+_ONE_ROW = S.one_of(_NUMBERS, _MATRIX)
+_ONE_BLOCK = S.one_of(_MATRIX, S.array(S.array(_MATRIX)))
+_MATRICES = S.array(_MATRIX)
+_PREDICTOR: S.Schema = {
     "type": "object",
     "properties": {"old": _MATRICES, "new": _MATRICES},
     "required": ["old", "new"],
     "additionalProperties": False,
 }
-_MULTIRATE: Schema = {
+_MULTIRATE: S.Schema = {
     "type": "object",
     "properties": {
         "mri": {
             "type": "object",
             "properties": {
-                "restart": TEXT,
+                "restart": S.TEXT,
                 "c": _NUMBERS,
                 "omega": _MATRICES,
                 "gamma": _MATRICES,
-                "embedded": one_of(_MATRIX, {"type": "object", "additionalProperties": _MATRIX}),
+                "embedded": S.one_of(_MATRIX, {"type": "object", "additionalProperties": _MATRIX}),
             },
             "required": ["c"],
             "additionalProperties": False,
@@ -159,29 +147,29 @@ def _decimal(tolerance: fmpq | None) -> str | None:
 
 _REPORT: Record[Payload] = Record(
     schema_named(SCHEMA),
-    Field("written_by", TEXT, lambda x: f"gark {x.version}"),
-    Field("name", TEXT, lambda x: x.name),
-    Field("derivation", DERIVATION, lambda x: x.derivation),
-    Field("kind", TEXT, lambda x: x.kind),
-    Field("structure", TEXT, lambda x: x.structure),
-    Field("problems", TEXT, problem_class),
-    Field("order", COUNT, lambda x: x.orders.order),
-    Field("embedded_order", nullable(COUNT), lambda x: x.orders.embedded),
-    Field("nonautonomous_order", nullable(COUNT), lambda x: x.orders.nonautonomous),
-    Field("w_order", COUNT, lambda x: x.orders.w_order, is_optional=True),
-    Field("tolerance", nullable(TEXT), lambda x: _decimal(x.tolerance)),
-    Field("embedded_tolerance", nullable(TEXT), lambda x: _decimal(x.embedded_tolerance)),
-    Field("dense_tolerance", nullable(TEXT), lambda x: _decimal(x.dense_tolerance)),
-    Field("moved_within", nullable(TEXT), lambda x: _decimal(x.moved_within)),
-    Field("reference", nullable(TEXT), lambda x: x.reference or None),
-    Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
+    Field("written_by", S.TEXT, lambda x: f"gark {x.version}"),
+    Field("name", S.TEXT, lambda x: x.name),
+    Field("derivation", S.DERIVATION, lambda x: x.derivation),
+    Field("kind", S.TEXT, lambda x: x.kind),
+    Field("structure", S.TEXT, lambda x: x.structure),
+    Field("problems", S.TEXT, problem_class),
+    Field("order", S.COUNT, lambda x: x.orders.order),
+    Field("embedded_order", S.nullable(S.COUNT), lambda x: x.orders.embedded),
+    Field("nonautonomous_order", S.nullable(S.COUNT), lambda x: x.orders.nonautonomous),
+    Field("w_order", S.COUNT, lambda x: x.orders.w_order, is_optional=True),
+    Field("tolerance", S.nullable(S.TEXT), lambda x: _decimal(x.tolerance)),
+    Field("embedded_tolerance", S.nullable(S.TEXT), lambda x: _decimal(x.embedded_tolerance)),
+    Field("dense_tolerance", S.nullable(S.TEXT), lambda x: _decimal(x.dense_tolerance)),
+    Field("moved_within", S.nullable(S.TEXT), lambda x: _decimal(x.moved_within)),
+    Field("reference", S.nullable(S.TEXT), lambda x: x.reference or None),
+    Field("exact", S.FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
     Field("c", _ONE_ROW, _nodes),
     Field("Abar", _MATRIX, _own("Abar"), is_optional=True),
     Field("a", _MATRICES, _own("a"), is_optional=True),
     Field(
         "A",
-        one_of(_MATRIX, _MATRICES, array(array(nullable(_MATRIX)))),
+        S.one_of(_MATRIX, _MATRICES, S.array(S.array(S.nullable(_MATRIX)))),
         lambda x: None if x.rosenbrock else _array("A")(x),
         is_optional=True,
     ),
@@ -189,11 +177,11 @@ _REPORT: Record[Payload] = Record(
     Field("gamma", _ONE_BLOCK, lambda x: _linear(x, "gamma"), is_optional=True),
     Field("d", _ONE_ROW, lambda x: _linear(x, "d"), is_optional=True),
     Field("bbar", _NUMBERS, _own("bbar"), is_optional=True),
-    Field("b", nullable(_ONE_ROW), _array("b")),
+    Field("b", S.nullable(_ONE_ROW), _array("b")),
     Field("embedded_bbar", _NUMBERS, _own("embedded_bbar"), is_optional=True),
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense_bbar", _MATRIX, _own("dense_bbar"), is_optional=True),
-    Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
+    Field("dense", S.one_of(_MATRIX, S.array(_MATRIX)), _array("dense"), is_optional=True),
     Field("predictor", _PREDICTOR, _predictor, is_optional=True),
     Field("multirate", _MULTIRATE, _multirate, is_optional=True),
 )
