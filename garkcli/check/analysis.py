@@ -51,8 +51,7 @@ class Analysis(Shown, Frozen):
         order: its order with a witness.
         simplifying: B, C, D and their bounds of the order.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
-        symplectic: whether it is its own conjugate; for a partitioned tableau, whether its two
-            parts are conjugate.
+        symplectic: whether it is its own conjugate, or the two parts of a partitioned one are.
         conjugate: the conjugate, or None if a weight is zero, which ``obstacle`` names.
         conjugate_order: the order of the conjugate.
         conjugate_inconsistent: the blocks with Â^{l,m} 𝟙 ≠ c^{l}.
@@ -65,12 +64,11 @@ class Analysis(Shown, Frozen):
         pair_sharp_bound: the same for the pair.
         obstacle: why there is no conjugate; empty if there is one.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None for exact coefficients.
-        nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None if
-            not applicable.
-        embedded: the facts about its embedded weights, or None.
-        dense: the facts about its dense output, or None.
-        predictor: the orders of its predictor, or None.
+        tolerance: the rounding of all results; None for exact coefficients.
+        nonautonomous_order: on problems ẏ = f(t, y) with printed nodes; None if not applicable.
+        embedded: the facts about embedded weights, or None.
+        dense: the facts about dense output, or None.
+        predictor: the orders of the predictor, or None.
         further: its further weights.
 
     >>> from garkcli import analyse
@@ -114,7 +112,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def nearness(self) -> Nearness | None:
-        """The distance of the method that rounded coefficients stand for from their print."""
+        """The distance of the method that rounded coefficients stand for from the printed one."""
         method = meant(self.tableau, self.tolerance)
         if isinstance(method, Tableau):
             return None
@@ -124,7 +122,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def wrong_rows(self) -> tuple[WrongSum, ...]:
-        """The rows whose sum differs from the node by more than rounding explains."""
+        """The rows whose sum differs from the node by more than rounding."""
         if not self.inconsistent:
             return ()
         from garkcli.order.sums import wrong_rows
@@ -193,8 +191,8 @@ class MethodProof(Shown, Frozen):
         name: the name of the method.
         method: its order.
         conjugate: that of its symplectic conjugate, or None if a weight is zero.
-        pair: that of the symplectic pair, or None if a weight is zero; for a partitioned method
-            only the weights of the positions count.
+        pair: that of the symplectic pair, or None if a weight, of the positions if partitioned, is
+            zero.
         obstacle: why there is no conjugate; empty if there is one.
 
     >>> from garkcli import prove_method
@@ -220,9 +218,7 @@ class MethodProof(Shown, Frozen):
 
 @doing("proof")
 def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
-    """Returns the orders of an exact method, its conjugate and its pair, with spanning trees and
-    witnesses. Raises MethodError for rounded coefficients.
-    """
+    """Proves the orders of a method, its conjugate and its pair; MethodError if it is rounded."""
     if method.tolerance is not None:
         message = "the coefficients are rounded: an order within a tolerance has no exact proof"
         cure = "prove_method_exists proves that a method within it exists"
@@ -280,7 +276,6 @@ def analyse(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> Analysis:
-    """Decides all that ``gark check`` reports; ``tolerance`` is None for exact coefficients."""
     tableau.demand_fields("this analysis")
     if any(isinstance(x, PolynomialSpace) and x.stages > MAX_STAGES for x in tableau.spaces):
         message = f"this analysis of a family is for at most {MAX_STAGES} stages"
@@ -346,9 +341,7 @@ def analyse(
 
 
 def looks_rounded(method: MethodFile, order: AnyOrder | None = None) -> RoundingHint | None:
-    """Returns the remark on the missing tolerance of a file; None if it has one, is exact or has a
-    misprint. ``order`` is that of the method if it is known.
-    """
+    """Returns the remark on a missing tolerance; None if it has one, is exact or has a misprint."""
     if method.tolerance is not None:
         return None
     order = order or order_of(method.tableau)
@@ -361,7 +354,6 @@ def looks_rounded(method: MethodFile, order: AnyOrder | None = None) -> Rounding
 
 
 def remark_of(method: MethodFile, analysis: Analysis) -> RoundingHint | None:
-    """Returns the remark on the digits of a file: on the method or on its embedded weights."""
     asked = [("order", analysis.order)]
     if analysis.embedded is not None:
         asked.append(("embedded-order", analysis.embedded.order))
@@ -387,5 +379,5 @@ def is_doubtful(order: AnyOrder, tolerance: fmpq | None) -> bool:
 def _capped(
     conditions: Simplifying | None, order: AnyOrder | None, bound: Callable[[Simplifying], int]
 ) -> int | None:
-    """Returns a bound, at most the order: within a tolerance it may exceed it."""
+    """Returns a bound, at most the order, which it may exceed within a tolerance."""
     return None if conditions is None or order is None else min(bound(conditions), order.order)

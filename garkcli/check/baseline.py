@@ -1,7 +1,4 @@
-"""The differences from an earlier JSON report that are changes for the worse.
-
-For projects that do not pass yet but must not get worse.
-"""
+"""The changes for the worse since an earlier JSON report."""
 
 from __future__ import annotations
 
@@ -30,8 +27,6 @@ ORDERS = (
 
 
 class Regression(Frozen):
-    """A value that was better in the earlier report."""
-
     file: str
     what: str
     before: str
@@ -39,14 +34,12 @@ class Regression(Frozen):
 
 
 MAX_BYTES = 256 * 2**20
-"""The largest baseline that is read: some hundred thousand files."""
+"""Some hundred thousand files."""
 _CURE = "make one with gark check --format json -o FILE"
 
 
 def read_baseline(path: str) -> Earlier:
-    """Reads the files of an earlier report by path. Raises UsageProblem unless the file is a
-    complete report of ``gark check --format json``.
-    """
+    """Reads the files of a complete JSON report by path, or raises UsageProblem."""
     try:
         report = json.loads(_text(path))
     except (ValueError, RecursionError):
@@ -80,7 +73,7 @@ def _refused(path: str, why: str) -> UsageProblem:
 
 
 def _is_whole(file: object) -> bool:
-    """Returns whether the entry of a file has the compared fields, with the right types."""
+    """Returns whether an entry has the compared fields, with the right types."""
     if not isinstance(file, dict) or not isinstance(file.get("file"), str):
         return False
     if "errors" in file:
@@ -98,7 +91,7 @@ def _is_whole_claim(claim: object) -> bool:
 
 
 def regressions(report: Mapping[str, Any], baseline: Earlier) -> list[Regression]:
-    """Returns all changes for the worse since ``baseline``. A new file has to pass."""
+    """Returns the changes for the worse; a new file has to pass."""
     changes: list[Regression] = []
     for now in report["files"]:
         before = baseline.get(_path_of(now))

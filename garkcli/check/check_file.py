@@ -34,11 +34,7 @@ def check_file(
     want_constants: bool = False,
     settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Outcome:
-    """Checks one method file. A file that cannot be read gives an outcome with its faults.
-
-    ``limit`` is where the search for orders stops, unless a claim is higher; ``settings`` are
-    values of parameters in place of those in the file.
-    """
+    """Checks a file; faults are in the outcome. Orders stop at ``limit``, or at a higher claim."""
     try:
         method = load(path, settings)
     except errors.HasFreeParameters as error:
@@ -49,16 +45,13 @@ def check_file(
 
 
 MOST_PARAMETERS = 30
-"""The largest number of free parameters: 27 take ten seconds, 35 minutes."""
+"""Most free parameters: 27 take ten seconds, 35 minutes."""
 
 
 @doing("what holds for every value of the parameters")
 def check_every(
     file: errors.HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
 ) -> Outcome:
-    """Checks a file with free parameters. ``limit`` is where the search for orders stops, unless a
-    claim reaches further.
-    """
     from garkcli.check.every_value import every_value, verify_every  # most files are methods
     from garkcli.methodfile.family import family_of, refuse_rounded
 
@@ -104,9 +97,7 @@ def _refused(file: errors.HasFreeParameters, message: str, cure: str, code: str)
 def check_method(
     method: MethodFile, limit: int = DEFAULT_LIMIT, want_constants: bool = False
 ) -> Outcome:
-    """Checks a method that was read from a file. ``limit`` is where the search for orders stops,
-    unless a claim is higher.
-    """
+    """Checks a method; orders stop at ``limit``, or at a higher claim."""
     reach = max(limit, highest_order(method.claims) + 1)
     if not method.tableau.is_gark:
         return _check_other_kind(method, reach, want_constants)

@@ -98,11 +98,10 @@ PLACES = {
     "dense-position-order": "dense.position_order",
     "dense-velocity-order": "dense.velocity_order",
 }
-"""The attributes of an analysis for claims whose names differ from them."""
+"""The attributes of an analysis for claims with other names."""
 _OF_DENSE_STEPS = ("dense-position-order", "dense-velocity-order")
 OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth", *_OF_DENSE_STEPS)
 OF_DAE = ("index-1-order", "index-1-y-order", "index-1-z-order", "embedded-index-1-order")
-"""The orders of Rosenbrock methods on differential-algebraic equations."""
 OF_ROSENBROCK = (
     *("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order"),
     *OF_DAE,
@@ -118,7 +117,7 @@ _OF_OTHERS = frozenset({*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL})
 
 
 def found_value(key: str, analysis: AnyAnalysis) -> object:
-    """Returns the value found for an order, orders, or symplecticity; None if not applicable."""
+    """Returns the value for a claim, None if not applicable."""
     value: Any = analysis
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)
@@ -172,9 +171,8 @@ def claim_of(claim: ClaimText, value: str, holds: bool | None, reason: Reason = 
 
 
 def agrees(wanted: object, value: object) -> bool | None:
-    """Returns whether a value from a file, a number or a nested list, agrees with the value found.
-
-    None if a lower bound leaves that open.
+    """Returns whether a claimed value agrees with an actual one; None if a lower bound leaves that
+    open.
 
     >>> agrees(AtLeast(3), 4), agrees(3, AtLeast(4)), agrees(5, AtLeast(4))
     (True, False, None)
@@ -197,7 +195,6 @@ def agrees(wanted: object, value: object) -> bool | None:
 
 
 def capped(value: object, limit: int) -> object:
-    """Returns a number, or AtLeast if the search stopped at it."""
     if isinstance(value, (list, tuple)):
         return [capped(x, limit) for x in value]
     is_number = isinstance(value, int) and not isinstance(value, bool)

@@ -1,6 +1,5 @@
 """The likely cause of an order below the claimed one, or below that of a method with one number
-changed: an entry, or of methods of other kinds, such as Rosenbrock methods, a printed number, which
-their tableaus have in several entries.
+changed: an entry, or for other kinds, whose tableaus repeat it, a printed number.
 """
 
 from __future__ import annotations
@@ -30,13 +29,11 @@ if TYPE_CHECKING:
     from garkcli.order.suspects import SuspectedNumber
 
 WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
-"""The claims that do not depend on nodes: without ``c`` in the file these follow the entries."""
+"""These claims do not depend on nodes, which without ``c`` follow the entries."""
 UNASKED = {"order", "embedded-order"}
 """The orders for which a cause is sought without a claim."""
 FINE = fmpq(1, 10**30)
-"""The radius of numbers that are taken as exact."""
 SHORT = 10**6
-"""Denominators of fractions that stand for a value known to ``FINE``."""
 
 
 def culprit(
@@ -46,7 +43,6 @@ def culprit(
     limit: int,
     remark: RoundingHint | None = None,
 ) -> Blame | None:
-    """Returns the likely cause of the first order below its claim, or of an unclaimed order."""
     blame = _of_claims(method, analysis, remark)
     if blame is None or not blame.repairs:
         claimed = {claim.key for claim in method.claims} - ({blame.of} if blame else set())
@@ -86,7 +82,6 @@ def _is_explained(remark: RoundingHint | None, claimed: int) -> bool:
 
 
 def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Tableau, AnyOrder]]:
-    """Yields the orders that a file may claim, with the tableau whose entries may be wrong."""
     for key, order in (
         ("order", analysis.order),
         ("conjugate-order", analysis.conjugate_order),
@@ -101,9 +96,6 @@ def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Table
 def _unclaimed(
     method: MethodFile, analysis: Analysis, remark: RoundingHint | None, claimed: Collection[str]
 ) -> Blame | None:
-    """Returns the entry that seems wrong in a method, or embedded weights, whose order is not among
-    the claimed ones.
-    """
     is_made = method.form in CONSTRUCTIONS  # no file prints its embedded weights
     for key, tableau, actual in _orders(method, analysis):
         if key in claimed or key not in UNASKED or (is_made and key == "embedded-order"):
@@ -120,9 +112,7 @@ def _unclaimed(
 def _ways(
     method: MethodFile, tableau: Tableau, order: AnyOrder, key: str, remark: RoundingHint | None
 ) -> Iterator[tuple[AnyTableau, AnyOrder]]:
-    """Yields the method and its order: exactly or within the tolerance of the file; for decimals
-    declared exact also as if they were rounded, within the tolerance of the remark on them if any.
-    """
+    """Yields the method and its order; for decimals declared exact also as if they were rounded."""
     if not isinstance(order, Order):
         yield meant(method.tableau, method.tolerance, method.further), order
         return
@@ -182,10 +172,7 @@ def misprints(
     declared: int | None = None,
     remark: RoundingHint | None = None,
 ) -> tuple[SuspectedNumber, ...]:
-    """Returns the numbers of which one seems wrong: another value gives the claimed or declared
-    order or, without one, two orders more. Only those that give the highest order are returned;
-    none if the tolerance of the remark yields that order.
-    """
+    """Returns numbers with values for the claimed order, or for two more; the highest alone."""
     claimed = declared or highest_order(method.claims, ["order"])
     goal = claimed or order.order + GAIN
     if _is_explained(remark, goal):

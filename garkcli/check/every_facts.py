@@ -1,9 +1,8 @@
 """Facts about a family for all values of its parameters, and the exceptional values.
 
-A question about coefficients that are rational functions is answered once, with the parameters as
-unknowns. The polynomials that were taken as different from zero on the way are recorded: where none
-of them is zero, the answer is the same. The answer is confirmed at some rational values there. With
-one parameter, the finitely many other values are examined one by one.
+A question is answered once, with the parameters as unknowns. Where no polynomial vanishes that was
+taken as nonzero on the way, the answer is the same; rational values there confirm it. With one
+parameter, the finitely many other values are examined one by one.
 """
 
 from __future__ import annotations
@@ -28,28 +27,28 @@ from garkcli.tableau.tableau import Tableau
 
 Worded: TypeAlias = "Value | str"
 MOST_SPECIAL = 60
-"""The largest number of exceptional values that are examined."""
 
 
 MOST_ASKED = 60
-"""The number of times that a question is asked where polynomials are zero."""
+"""The most answers to a question at zeros of polynomials."""
 
 
 class FamilyFact(Frozen):
-    """An answer for a family.
+    """An answer for a family; ``special``, ``unknown`` and ``where`` are for a single parameter.
 
     Attributes:
         value: for all values except those below; None if the question does not apply.
-        special: exceptional values of a single parameter, with their answers.
-        open: several parameters: polynomials at whose zeros the answer may differ.
-        zeros: several parameters: polynomials at whose common zeros, real ones if there are any,
-            and only there, an order is higher or a property holds.
-        elsewhere: several parameters: polynomials, with the answer at their zeros.
-        unknown: undecided values of a single parameter.
-        where: the intervals of a single parameter on which a property holds; otherwise None.
+        special: exceptional values with their answers.
+        open: polynomials at whose zeros the answer may differ.
+        zeros: polynomials at whose common zeros, real ones if there are any, and only there, an
+            order
+            is higher or a property holds.
+        elsewhere: polynomials, with the answer at their zeros.
+        unknown: undecided values.
+        where: the intervals on which a property holds; otherwise None.
         is_undecided: whether no answer for almost all values is known.
         differs: whether two values with different answers are known.
-        why: these two values, or the reason why it is undecided.
+        why: these two values, or why it is undecided.
     """
 
     value: Any
@@ -65,7 +64,6 @@ class FamilyFact(Frozen):
 
     @property
     def is_everywhere(self) -> bool:
-        """Whether the answer is the same for all values."""
         others = (*self.special, *self.elsewhere, *self.open, *self.zeros, *self.unknown)
         is_one = self.where is None and not self.is_undecided
         return is_one and not others
@@ -92,13 +90,12 @@ class Budget(Mutable):
 
 
 Question: TypeAlias = Callable[[Tableau], Any]
-"""A question about a tableau with any coefficients; its answers are compared."""
+"""A question about a tableau with any coefficients."""
 UNDECIDED = object()
-"""The answer to a question that is not decided for a tableau."""
 
 
 def answer(ask: Question, tableau: Tableau) -> Any:
-    """Returns the answer to a question; None if the question does not apply."""
+    """Returns the answer to a question; None if it does not apply."""
     try:
         return ask(tableau)
     except (GarkError, ZeroDivisionError):
@@ -108,9 +105,7 @@ def answer(ask: Question, tableau: Tableau) -> Any:
 def find(
     family: EveryFamily, ask: Question, is_of_stages: bool = False, budget: Budget | None = None
 ) -> FamilyFact:
-    """Returns the answer to a question that only compares coefficients. ``is_of_stages`` says that
-    the question compares entries stage by stage; ``budget`` limits how often it is asked.
-    """
+    """Returns the answer to a question that only compares coefficients."""
     budget = budget or Budget(MOST_ASKED)
     budget.left -= 1
     try:
@@ -163,9 +158,7 @@ def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list
 
 
 def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
-    """Returns the answer and the polynomials, with one coordinate for each stage. Raises TypeError
-    unless there are simple nodes, or one parameter.
-    """
+    """Returns the answer on point stages; TypeError without simple nodes or one parameter."""
     tableau = family.in_points
     if tableau is family.tableau:
         return _asked(ask, tableau, family.ring)
@@ -206,15 +199,12 @@ def told(value: object) -> Worded:
 
 
 DIGITS = 12
-"""Digits of values without simple radicals."""
 MOST = 4
-"""The number of exceptional values and polynomials that are listed; the rest is counted."""
+"""The most exceptional values and polynomials that are listed."""
 
 
 def fact_reason(fact: FamilyFact, name: str, text: Callable[[object], Worded] = told) -> Reason:
-    """Returns an answer with its exceptions. ``name`` is that of the parameter if there is only
-    one.
-    """
+    """Returns an answer with its exceptions; ``name`` is that of a single parameter."""
     if fact.where is not None:
         where = joined(" or ", [_interval(x, name) for x in fact.where])
         return Reason("{} for {} alone{}", text(True), where, _unknown(fact, name))
@@ -228,7 +218,6 @@ def fact_reason(fact: FamilyFact, name: str, text: Callable[[object], Worded] = 
 
 
 def exceptions(fact: FamilyFact, name: str, text: Callable[[object], Worded] = told) -> Reason:
-    """Returns the exceptional values and their answers, each after a semicolon."""
     groups: dict[str, tuple[object, list[RealRoot]]] = {}
     for root, value in fact.special:
         groups.setdefault(repr(value), (value, []))[1].append(root)
@@ -266,7 +255,6 @@ def _unknown(fact: FamilyFact, name: str) -> Reason:
 
 
 def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:
-    """Returns values of the parameter as text, grouped by their polynomials."""
     groups: dict[str, list[RealRoot]] = {}
     for root in roots:
         groups.setdefault(str(root.polynomial), []).append(root)
@@ -275,7 +263,7 @@ def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:
 
 
 def _roots(same: Sequence[RealRoot], name: str) -> Reason:
-    """Returns roots of a polynomial, with the polynomial unless they have a simple form."""
+    """Returns roots of a polynomial, with it unless they have a simple form."""
     first = same[0]
     values = Reason("{} = {}", Formula(name), joined(" or ", [_number(x) for x in same]))
     if first.exact is not None:
@@ -285,7 +273,6 @@ def _roots(same: Sequence[RealRoot], name: str) -> Reason:
 
 
 def _others(everything: Sized) -> str:
-    """Returns the number of values that are not listed, in words; empty for none."""
     more = len(everything) - MOST
     return f" and {more} more" if more > 0 else ""
 
@@ -295,7 +282,6 @@ def _zero(polynomial: str) -> Reason:
 
 
 def zeros_reason(polynomials: Sequence[str]) -> Reason:
-    """Returns the text for the vanishing of all polynomials."""
     return Reason("{}{}", joined(", ", [*map(_zero, polynomials[:MOST])]), _others(polynomials))
 
 

@@ -37,17 +37,15 @@ from garkcli.tableau.tableau import Tableau
 Range: TypeAlias = tuple[fmpq | None, fmpq | None]
 """The ends of a range; None for infinity."""
 _Chart: TypeAlias = Callable[[fmpq_mpoly], tuple[fmpq_mpoly, fmpq_mpoly]]
-"""A parameter in u: numerator and denominator."""
+"""A parameter as a function of u: numerator and denominator."""
 
 FREE: Range = (None, None)
 MOST_TERMS = 300
-"""A polynomial with more terms in u than this counts as one that may be zero."""
+"""A polynomial with more terms in u counts as one that may be zero."""
 
 
 def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
-    """Returns False only if a polynomial certainly has no real zero within the ranges. Unknowns
-    that stand for roots of numbers have no range.
-    """
+    """Returns False only if a polynomial certainly has no real zero within the ranges."""
     if not p:
         return True
     _, factors = p.factor()
@@ -133,10 +131,11 @@ def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fm
 def carried(
     fixed: Mapping[str, object], ranges: Mapping[str, Range], left: Sequence[str]
 ) -> dict[str, Range]:
-    """Returns the ranges of the parameters that are left, cut by the ranges of the fixed ones.
+    """Returns the ranges of the parameters left, cut by those of the fixed ones.
 
-    ``fixed`` has the values of the other parameters: numbers, or polynomials in those left. Raises
-    MethodError if no value is left, or a range does not become one of a single parameter.
+    ``fixed`` has numbers, or polynomials in those left. Raises MethodError if no value is left, or
+    a
+    range does not become one of a single parameter.
     """
     left_ranges = {name: ranges[name] for name in left}
     for name, value in fixed.items():
@@ -235,9 +234,7 @@ def value_of(p: fmpq_mpoly, ring: Parameters, values: dict[str, object]) -> obje
 
 
 def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly, ...]:
-    """Returns the polynomials that a family divides by, at values of its unknowns. Raises
-    MethodError if one is zero there.
-    """
+    """Returns the divisors of a family at values of its unknowns; MethodError if one is zero."""
     polynomials = []
     for p in family.nonzero:
         value = value_of(p, family.ring, values)
@@ -280,9 +277,7 @@ MOST_SAMPLES = 40
 
 
 class EveryFamily(Frozen):
-    """A family whose only relations are those of its roots. The tableau of ``family`` has entries
-    in ``family.parameters``, which are the remaining ones, and in roots of numbers.
-    """
+    """A family whose only relations are those of its roots of numbers."""
 
     family: Family
 
@@ -307,9 +302,7 @@ class EveryFamily(Frozen):
 
     @cached_property
     def in_points(self) -> Tableau | None:
-        """The tableau with one coordinate for each stage, the roots of its nodes as unknowns with
-        rules. None if the nodes have no simple radicals, or there are roots among the coefficients.
-        """
+        """The tableau on point stages, with roots as unknowns; None without simple radicals."""
         return self.printed(self.tableau)
 
     def printed(self, tableau: Tableau) -> Tableau | None:
@@ -370,7 +363,7 @@ class EveryFamily(Frozen):
 
     @cached_property
     def ends(self) -> tuple[RealRoot | None, RealRoot | None]:
-        """The least and the greatest value of the parameter; None if unbounded."""
+        """The least and the greatest value of a single parameter; None if unbounded."""
         [name] = self.family.parameters
         [inside] = admitted(self.family, name)
         return inside.start, inside.end
@@ -382,27 +375,23 @@ class EveryFamily(Frozen):
         return can_vanish(p, self.ring, self.family.ranges)
 
     def is_number(self, p: fmpq_mpoly) -> bool:
-        """Returns whether a polynomial contains roots of numbers at most."""
+        """Returns whether a polynomial contains at most roots of numbers."""
         roots = {rule.index for rule in self.ring.rules}
         return {*unknowns_of(p)} <= roots
 
     def norm(self, p: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
-        """Returns a polynomial in the parameter that is zero where a polynomial with roots of nodes
-        is. The first unknown of ``ring`` is the parameter.
-        """
+        """Returns the norm over roots of nodes, in the parameter, the first unknown of ``ring``."""
         for rule in reversed(ring.rules):
             relation = ring.context.gen(rule.index) ** rule.degree
             p = p.resultant(relation - rule.instead, ring.names[rule.index])
         return p.project_to_context(self.ring.context, {0: 0})
 
     def roots(self, polynomials: Sequence[fmpq_mpoly]) -> list[RealRoot]:
-        """The values of the parameter at which one of the polynomials is zero, ascending."""
+        """The admitted parameter values at which a polynomial is zero, ascending."""
         return [root for root in roots_of(map(in_one, polynomials)) if self.is_inside(root)]
 
     def where_zero(self, p: fmpq_mpoly) -> EveryFamily | None:
-        """Returns the family of the methods with a zero of a polynomial; None if the polynomial
-        determines no parameter, or its range does not become that of another one.
-        """
+        """Returns the subfamily where p is zero; None if p or its range determines no parameter."""
         names = ranged_last(self.family)
         if not any(is_linear(p, self.ring, name) for name in names):
             return None
@@ -459,7 +448,6 @@ class EveryFamily(Frozen):
                 yield named, member(self.tableau, self.ring, named)
 
     def _tried(self, name: str) -> Iterator[fmpq]:
-        """Yields sample values of a parameter within its range."""
         least, greatest = self.family.ranges[name]
         for x in _SAMPLES:
             share = (x + 2) / 6
@@ -474,7 +462,7 @@ class EveryFamily(Frozen):
 
 
 def ranged_last(family: Family) -> list[str]:
-    """Returns the parameters, those without a range first, in the order of elimination."""
+    """Returns the parameters in the order of elimination, those without a range first."""
     ranges = family.ranges
     return sorted(family.parameters, key=lambda name: ranges[name] != FREE)
 
@@ -484,9 +472,7 @@ def exact_value(root: RealRoot) -> Number | None:
 
 
 def every_family(family: Family) -> EveryFamily:
-    """Returns the family with the values that its relations fix. Raises MethodError if a relation
-    does not determine an unknown, or a root depends on parameters.
-    """
+    """Returns the family with its relations solved; MethodError if one is not linear."""
     relations = [*family.relations]
     for name, (least, greatest) in family.ranges.items():
         if least is not None and least == greatest:
@@ -526,9 +512,7 @@ def every_family(family: Family) -> EveryFamily:
 def _moved_bounds(
     family: Family, values: dict[str, object], left: Sequence[str]
 ) -> tuple[fmpq_mpoly, ...]:
-    """Returns the polynomials of algebraic ends of ranges at values of the unknowns. Raises
-    MethodError if several parameters are left or a value is out of its range.
-    """
+    """Returns ``not_negative`` for the values of unknowns; MethodError if one is out of range."""
     polynomials = []
     for p in family.not_negative:
         name = family.ring.names[unknowns_of(p)[0]]

@@ -22,20 +22,12 @@ from garkcli.order.certificate import Witness
 from garkcli.tableau.tableau import Tableau
 
 SECONDS = 10.0
-"""Time for the values with the next order; after it they are undecided."""
+"""Seconds for the values with the next order; then they are undecided."""
 
 
 class EveryOrder(Frozen):
-    """An order of a family.
-
-    Attributes:
-        fact: the order, with the exceptional values; ``zeros`` are the polynomials at whose common
-            zeros it is higher.
-        witness: a tree whose condition fails for some values, its elementary weight a rational
-            function of the parameters; None if the limit was reached.
-        dimension: the dimension of the set of values, real and complex, with the next order; −1 if
-            it is empty, None if undecided.
-        poles: polynomials at whose zeros a weight is zero, so that there is no conjugate.
+    """An order of a family, higher at the common zeros of ``fact.zeros``. The complex values for
+    the next order have ``dimension``: −1 if there are none, None if undecided.
     """
 
     tableau: Tableau
@@ -52,9 +44,7 @@ class EveryOrder(Frozen):
 
 
 def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
-    """Returns the order for all values, of the method, its conjugate or its pair. Raises ZeroWeight
-    if a weight is zero for all values, so that there is no conjugate.
-    """
+    """Returns the order for all values; ZeroWeight if no value has a conjugate."""
     ring = family.ring
     tableau = TABLEAUS[whose](family.tableau)
     conditions = FamilyConditions(tableau, ring)

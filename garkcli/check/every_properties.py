@@ -34,15 +34,13 @@ STABLE: dict[str, Wanted] = {
     "p-stable": "p-stable",
     "i-stable": "i-stable",
 }
-"""The properties whose values are found by a decomposition of the plane."""
+"""The properties decided by a decomposition of the plane."""
 
 
 _NOTHING = Simplifying((), (), ())
 
 
 class OrMore(int):
-    """A number at which a search stopped."""
-
     def __str__(self) -> str:
         return f"at least {int(self)}"
 
@@ -111,7 +109,6 @@ def _is_all(family: EveryFamily, values: tuple[Interval, ...]) -> bool:
 
 
 def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> FamilyFact:
-    """Returns the fact for a question about signs of rational functions of the parameter."""
     critical: list[Polynomial] = []
     critical += [in_one(p) for p in family.poles]
     for x in numbers:
@@ -136,9 +133,7 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fami
 
 
 def _weights(tableau: Tableau) -> list[object]:
-    """Returns numbers whose signs decide whether all weights are positive: the coefficients of
-    det(1 − z G), G the diagonal form of the weights.
-    """
+    """Returns the coefficients of det(1 − z G), G the diagonal form of the weights."""
     numbers: list[object] = []
     for l, colour in enumerate(tableau.colours):
         gram = tableau.space(l).form(colour.b, identity(len(colour.b)))
@@ -163,9 +158,9 @@ SIGNS: dict[str, Callable[[Tableau], list[object]]] = {
     "nodes-in-unit-interval": _nodes,
     "algebraically-stable": _algebraic,
 }
-"""For properties that depend on signs: the numbers."""
+"""The numbers whose signs decide a property."""
 ROWS: dict[str, Callable[[Tableau], Iterator[Number]]] = {
     "positive-weights": lambda tableau: chain.from_iterable(x.b for x in tableau.colours),
     "nodes-in-unit-interval": lambda tableau: chain.from_iterable(x.c for x in tableau.colours),
 }
-"""For properties that depend on a part of the tableau: the entries."""
+"""The entries that decide a property."""

@@ -31,14 +31,7 @@ TOLD = ("stiffly-accurate", "fsal", "symmetric")
 
 
 class EveryValue(Frozen):
-    """The facts about a family for all values of its parameters.
-
-    Attributes:
-        family: its family, with the fixed values substituted.
-        limit: where the searches for orders and for B, C and D stop.
-        inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
-        embedded_order: the order with the embedded weights in place of b; None without.
-    """
+    """The facts about a family for all parameters; ``inconsistent`` is as in ``Analysis``."""
 
     file: FamilyFile
     family: EveryFamily
@@ -63,7 +56,6 @@ class EveryValue(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """The method, whose entries are rational functions."""
         return self.family.tableau
 
     @property
@@ -78,7 +70,6 @@ class EveryValue(Frozen):
 
     @cached_property
     def embedded_nonautonomous_order(self) -> EveryOrder | None:
-        """The order on problems ẏ = f(t, y) with the embedded weights in place of b, if any."""
         rows = self.file.further.embedded
         if rows is None or self.embedded_order is None:
             return None
@@ -99,16 +90,13 @@ class EveryValue(Frozen):
         return every_family(replace(self.file, tableau=whole))
 
     def verdict(self, key: str) -> FamilyFact:
-        """Returns the fact about a property, decided once."""
         if key not in self._known:
             family = self._with_further if key == "reducible" else self.family
             self._known[key] = find_property(family, key, self.limit)
         return self._known[key]
 
     def simplifying(self, key: str) -> FamilyFact:
-        """Returns B, C, D or a bound from them; with the prefix ``pair-`` that of the pair. B is
-        decided by itself, as it does not involve blocks.
-        """
+        """Returns B, C, D or a bound, after ``pair-`` of the pair; B involves no blocks."""
         if key not in self._known:
             limit, name = self.limit, key.removeprefix("pair-")
             letters = name if name in "BCD" else "BCD"
@@ -127,11 +115,7 @@ class EveryValue(Frozen):
 
 
 def every_value(file: FamilyFile, limit: int) -> EveryValue:
-    """Returns the facts for all values of the parameters of a file.
-
-    The demands under ``design`` are ignored. Raises MethodError if a relation does not determine a
-    parameter, or a root depends on them.
-    """
+    """Returns the facts for all values; MethodError as of ``every_family``."""
     family = every_family(file)
     conjugate, both, obstacle = None, None, NO_REASON
     order = every_order(family, "method", limit)

@@ -22,12 +22,13 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 MOST_PARTS = 100_000
-"""The largest number of operations in the entries that are made of printed numbers."""
+"""Most operations in the entries that are made of printed numbers."""
 
 
 class PrintedNumber(Frozen):
-    """A number of a rounded method. ``radius`` is its largest error, ``centre`` its value in the
-    approximate method around which an exact one exists, ``width`` the largest distance from it.
+    """A number of a rounded method: its largest error, its value ``centre`` in the approximate
+    method
+    around which an exact one exists, and the largest distance ``width`` from that.
     """
 
     printed: fmpq
@@ -43,7 +44,7 @@ class ExistenceProof(Shown, Frozen):
         tableau: its entries say how: traces and exact numbers.
         conditions: all trees up to the order, each with its column of W (``order.existence``).
         witness: trees with factors whose sum of conditions vanishes for no method within the radii;
-            None if no such sum is known, or the search stopped at its limit.
+            None if unknown.
     """
 
     name: str
@@ -59,9 +60,7 @@ class ExistenceProof(Shown, Frozen):
 
 @doing("proof")
 def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> ExistenceProof:
-    """Proves that a method within the rounding of a printed one has its order, and none a higher
-    one. Raises MethodError for exact coefficients, and without a proof.
-    """
+    """Proves the order of a method within the rounding, and none higher, or raises MethodError."""
     rounded = meant(method.tableau, method.tolerance, method.further)
     if isinstance(rounded, Tableau):
         message = "the coefficients are exact: there is nothing within a rounding to prove"

@@ -1,4 +1,4 @@
-"""The findings in checked files, as text and as values for machine formats."""
+"""The findings in checked files."""
 
 from __future__ import annotations
 
@@ -37,15 +37,13 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
-"""The bound of ``Simplifying.bound``."""
 SHARP_BOUND = "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
-"""The bound of ``Simplifying.sharp_bound``."""
 NEAR = 1e-3
 """Row sums and nodes that differ by less are taken to be meant equal."""
 _SHORT = 20
-"""Length beyond which an exact entry is shown in decimals."""
+"""The longest exact entry that is shown."""
 _LONG = 60
-"""Length of value and residual beyond which a witness is shown in decimals."""
+"""The longest value and residual of a witness that are shown exactly."""
 _MOST = 3
 
 
@@ -64,14 +62,12 @@ PREDICTOR_ORDERS = ("predictor-order", "predictor-order-equal-steps")
 
 
 def dense_witness_text(dense: DenseWitness, colours: bool | Sequence[str]) -> Reason:
-    """Returns the tree and the power of θ whose condition fails, and the residual."""
     tree = Code(format_tree(dense.witness.tree, colours))
     power = Formula(f"θ^{dense.power}", rf"\theta^{{{dense.power}}}")
     return _told(dense.witness, Reason("{}, at {}", tree, power))
 
 
 def predictor_witness_text(orders: PredictorOrders, *, equal_steps: bool) -> Reason:
-    """The condition that the first stage of least order misses; empty if nothing fails."""
     missed = orders.first_missed(equal_steps=equal_steps)
     if missed is None:
         return NO_REASON
@@ -108,9 +104,7 @@ def bound_numbers(conditions: Simplifying) -> str:
 
 
 def claim_witness(outcome: Outcome, claim: str) -> Reason:
-    """Returns the reason against a claim: the witness of an order, the numbers of a bound, the
-    reason for a property. Empty if there is none.
-    """
+    """Returns the reason against a claim; empty if there is none."""
     for made in outcome.claims:
         if made.claim == claim and made.holds is not True and made.reason:
             return made.reason
@@ -147,7 +141,6 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
 
 
 def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau | None]:
-    """Returns the order that a claim is about, and its tableau."""
     embedded = analysis.embedded
     if embedded is not None and claim == "embedded-order":
         return embedded.order, embedded.tableau
@@ -190,7 +183,6 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
 
 
 def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
-    """Returns an entry with its new and its old value."""
     colours = [repair.l] if repair.i is None or repair.m is None else [repair.l, repair.m]
     letter = "b" if len(colours) == 1 else "a"
     indices = (repair.j,) if repair.i is None or repair.m is None else (repair.i, repair.j)
@@ -201,7 +193,6 @@ def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
 
 
 def sum_text(wrong: WrongSum, names: Sequence[str]) -> Reason:
-    """Returns a sum of weights or of a row with its actual and its expected value."""
     if wrong.m is None or wrong.i is None:
         kind = "embedded weights" if wrong.is_embedded else "weights"
         whose = [Place("b", names_of([wrong.l], names))] if len(names) > 1 else []
@@ -231,7 +222,6 @@ def _short(number: Number) -> Formula | str:
 
 
 def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
-    """Returns the names of colours, or none if there is only one colour."""
     return tuple(names[l] for l in colours) if len(names) > 1 else ()
 
 
@@ -244,7 +234,7 @@ def value_text(number: Number, digits: int = 17) -> Formula | str:
 
 
 def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
-    """The conditions that fail, the block in all of them, and repairs, with names of colours."""
+    """Returns the conditions that fail, the block in all of them, and repairs."""
     is_known = blame.order == 1 or blame.restored is not None or blame.within is not None
     texts = [] if is_known else _conditions(blame, own)
     if blame.repairs:
@@ -300,7 +290,7 @@ def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
 
 
 def rounding_text(found: RoundingHint, names: Sequence[str], tolerance: fmpq | None) -> Reason:
-    """The digits of the numbers, the order with these, and the entry that is off."""
+    """Returns the digits of the numbers, the order with these, and the entry that is off."""
     order = f"{found.of.replace('-', ' ')} {found.order}"
     if found.repairs:
         mended = _repairs(found.repairs, names)
@@ -317,27 +307,19 @@ def rounding_text(found: RoundingHint, names: Sequence[str], tolerance: fmpq | N
 
 
 def misprint_text(numbers: Sequence[SuspectedNumber]) -> Reason:
-    """The numbers of which one seems wrong, with their right values and the order with these."""
     values = [(value_text(x.new), value_text(x.old)) for x in numbers[:_MOST]]
     mended = joined(", or ", [Reason("{} instead of {}", *pair) for pair in values])
     return Reason(f"order {numbers[0].order} would hold with {{}}", mended)
 
 
 class Aside(Remark):
-    """A remark that is about no claim; it fails nothing. ``reason`` is the message with values that
-    each output words in its own notation.
-    """
+    """A remark that is about no claim and fails nothing; outputs word its ``reason``."""
 
     reason: Reason = NO_REASON
 
 
 class Finding(Frozen):
-    """A remark on a file, as formats for machines have it.
-
-    ``rule`` is the code of a kind of finding in ``glossary/data/findings.toml``. ``remark`` is on
-    line 1 and column 1 if the place is unknown. ``file`` is the path as given, with forward
-    slashes. ``fingerprint`` does not depend on the place in the file.
-    """
+    """A remark for machine formats; ``fingerprint`` does not depend on the place in the file."""
 
     remark: Remark
     rule: str
@@ -356,7 +338,7 @@ def _unmet(outcome: Outcome, claim: Claim) -> Remark:
 
 
 def cure_of_lacks(outcome: Outcome) -> str:
-    """Returns the command that writes the missing claims, by their keys if some are there."""
+    """Returns the command that writes the missing claims."""
     keys = (f" --key {key}" for key in outcome.keys_lacking)
     return cure_of("check", "no-claim") + "".join(keys)
 
@@ -382,13 +364,11 @@ def asides(outcome: Outcome) -> list[Aside]:
 
 
 def warnings(outcome: Outcome) -> Iterator[Aside]:
-    """Yields the remarks on what a method loses by its own choices."""
     for text in filter(is_lost, outcome.about_rules):
         yield _aside("loses-pair-order", "warning", Reason("{}", text))
 
 
 def hints(outcome: Outcome) -> Iterator[Aside]:
-    """Yields what sums, digits and failing conditions tell about wrong numbers."""
     if outcome.misprints:
         yield _aside("misprint", "hint", misprint_text(outcome.misprints))
     analysis, rounding, blame = outcome.analysis, outcome.remark, outcome.blame
@@ -434,12 +414,10 @@ def entry_node(text: str, repair: Repair) -> Node | None:
 
 
 def remarks(outcome: Outcome) -> list[Remark]:
-    """Returns the remarks on a file, kind by kind in the order of the file."""
     return [remark for _, remark, _ in _remarks(outcome)]
 
 
 def findings(outcome: Outcome) -> Iterator[Finding]:
-    """Yields the remarks on a file as formats for machines have them."""
     file = PurePath(outcome.file).as_posix()
     for rule, remark, key in _remarks(outcome):
         known = remark.message, remark.help, remark.line or 1, remark.column or 1

@@ -56,7 +56,6 @@ class Sense(Frozen):
 
 
 def every_sense() -> Iterator[Sense]:
-    """Yields the kinds of words in the order in which meanings are reported."""
     yield Sense(_plainly(by_word()), lambda word: term_meaning(by_word()[word]))
     from garkcli.methodfile.expectations import CLAIMS
 
@@ -81,7 +80,6 @@ def term_meaning(term: Term) -> Meaning:
 
 
 def claim_meaning(key: str) -> Meaning:
-    """Returns the meaning of a claim of a method file. Raises UsageProblem for an unknown claim."""
     from garkcli.properties.definitions import definition
 
     meaning = definition(key)
@@ -96,7 +94,6 @@ def claim_meaning(key: str) -> Meaning:
 
 
 def _keys(kind: str) -> Sense:
-    """Returns the keys of a kind of files, found by their paths and their own names."""
     keys = keys_of(kind)
 
     def mean(path: str) -> Meaning:
@@ -137,7 +134,6 @@ def _choices() -> Iterator[Sense]:
 
 
 def _order(order: str) -> str:
-    """Returns the order of a family: a number, a formula, or the key that gives it."""
     return f"The key {order} sets the order." if order.isalpha() else f"Order {order}."
 
 
@@ -185,8 +181,8 @@ def field_meanings(word: str) -> list[Meaning]:
 def sentence(text: str) -> str:
     """Returns a remark as a sentence; a formula at its start keeps its case.
 
-    >>> sentence("zero above the diagonal"), sentence("s = n^2; strong-stability-preserving")
-    ('Zero above the diagonal.', 's = n^2; strong-stability-preserving.')
+    >>> sentence("zero above the diagonal"), sentence("s = n^2; optimal")
+    ('Zero above the diagonal.', 's = n^2; optimal.')
     """
     begun = text[:1].upper() + text[1:] if re.match(r"[a-z]+\b(?! =)", text) else text
     return begun if begun.endswith(".") else f"{begun}."
@@ -196,7 +192,7 @@ __all__ = ["Meaning", "claim_meaning", "explain", "known_words", "term_meaning"]
 _FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")
 """The end of the label of a line: a number or a tree follows."""
 _SURELY = 8
-"""The number of letters that a pasted message shares with one of the program."""
+"""Letters that a pasted message shares with one of the program."""
 
 
 LETTERS = {"γ": ("gamma", "density")}
@@ -207,17 +203,15 @@ GENERAL = {
     re.compile(r"^d ?\(\d+\)$"): "d(ζ)",
     re.compile(r"\bstability$"): "stable",
 }
-"""Words of reports with a number or an ending of their own, and the words that are known."""
+"""Words with a number or an ending of their own, and their entries."""
 
 
 def explain(word: str) -> list[Meaning]:
     """The meanings of a word, as in ``gark explain``.
 
     Args:
-        word: a term, a label of a report, a claim, a key of a file with or without those above it,
-            a family, a transfer rule, a scheme, a shape, a problem, the code of an error or of a
-            finding, the message of an error, or a field of JSON reports; in any case, with hyphens
-            or blanks.
+        word: a term, label, claim, key, family, rule, scheme, shape, problem, code, message of an
+            error, or JSON field; in any case, with hyphens or blanks.
 
     Raises:
         UsageProblem: nobody knows it.
@@ -253,7 +247,6 @@ def _known(word: str) -> list[tuple[Sense, str]]:
 
 
 def _of_message(text: str) -> Meaning:
-    """Returns the meaning of an error message. Raises UsageProblem if it is unknown."""
     code = code_of(text.removeprefix("gark: "), _SURELY)
     if code == UNKNOWN:
         raise UsageProblem(f"no word {text!r}", _near(text), code="unknown-word")
@@ -261,7 +254,6 @@ def _of_message(text: str) -> Meaning:
 
 
 def _near(text: str) -> str:
-    """Returns a cure with similar words, or with the command that lists them."""
     words = known_words()
     cure = did_you_mean(text, words)
     if not cure.startswith("one of"):

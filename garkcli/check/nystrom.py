@@ -19,12 +19,11 @@ from garkcli.tableau.tableau import Tableau
 
 VIEWS: dict[str, Which] = {"position-order": "in_positions", "velocity-order": "in_velocities"}
 OF_OSCILLATOR = frozenset({"p-stable", "i-stable"})
-"""Properties of the partitioned method with the same steps."""
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Nyström method is not")
 
 
 class NystromOrders(ClaimedOrders):
-    """The orders of weights at the stages of a Nyström method; ``order`` is the smaller one."""
+    """The orders of weights at the stages; ``order`` is the smaller one."""
 
     tableau: Tableau
     position_order: AnyOrder
@@ -37,7 +36,6 @@ class NystromOrders(ClaimedOrders):
         return cls(order, printed(method), q, v)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau]:
-        """Returns the order that a claim is about and its tableau."""
         order: AnyOrder = getattr(self, claim.replace("-", "_"))
         if claim == "order":
             return order, self.tableau
@@ -103,7 +101,6 @@ def analyse_nystrom(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NystromAnalysis:
-    """Decides all that ``gark check`` reports of a Nyström method, with orders up to ``limit``."""
     return NystromAnalysis.analysed(
         NystromOrders, NystromDense.of, tableau, limit, tolerance, further
     )

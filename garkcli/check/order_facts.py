@@ -1,5 +1,5 @@
 """The facts about further weights, and common parts of the analyses of methods that are not GARK
-methods: their orders, and the properties that R(z) decides.
+methods.
 """
 
 from __future__ import annotations
@@ -29,11 +29,7 @@ from garkcli.upward import Shown
 
 
 class EmbeddedFacts(Frozen):
-    """The orders of embedded weights, and their error estimate.
-
-    ``tableau`` is the method with them in place of b; ``nonautonomous_order``, on problems ẏ = f(t,
-    y) with the nodes as printed, is None if not applicable.
-    """
+    """Embedded weights in place of b; ``nonautonomous_order`` is None if not applicable."""
 
     tableau: Tableau
     order: AnyOrder
@@ -42,9 +38,7 @@ class EmbeddedFacts(Frozen):
 
 
 class DenseFacts(Frozen):
-    """The order, for all θ, and the continuity of dense output. ``ends_at_step`` says that b(1) =
-    b.
-    """
+    """The order, for all θ, and the continuity of dense output; ``ends_at_step`` says b(1) = b."""
 
     order: DenseOrder
     degree: int
@@ -53,7 +47,6 @@ class DenseFacts(Frozen):
 
     @property
     def is_smooth(self) -> bool | None:
-        """Whether the output and its slope are continuous from step to step; None if undecided."""
         return self.ends_at_step and self.slopes.are_continuous
 
 
@@ -65,12 +58,7 @@ def further_facts(
     limit: int,
     spans: StageSpans | None = None,
 ) -> tuple[EmbeddedFacts | None, DenseFacts | None]:
-    """Returns the facts about embedded weights and about dense output, each None if the method has
-    none.
-
-    ``order`` is that of the method, ``inconsistent`` the blocks whose row sums are not the nodes,
-    ``spans`` the stage vectors known already.
-    """
+    """Returns the facts about embedded weights and dense output, each None without."""
     embedded, facts = None, None
     weights, dense = further.embedded, further.dense
     if weights is not None:
@@ -91,9 +79,7 @@ def estimate(
     limit: int,
     spans: StageSpans | None = None,
 ) -> Estimator:
-    """Returns the error estimate of embedded weights. ``orders`` are those of the method and with
-    these weights.
-    """
+    """Returns the error estimate; ``orders`` are those of the method and with these weights."""
     order, other = orders
     smaller = other if other.order < order.order else order
     differ = other.order != order.order and not smaller.is_lower_bound
@@ -114,11 +100,7 @@ def dense_facts(
 
 
 class LinearSubject(Frozen):
-    """The properties of a method that depend on linear problems only, decided for a method with the
-    same steps there.
-
-    That is a Runge–Kutta method with the same R(z), or a partitioned method on the oscillator.
-    """
+    """The properties that linear problems decide, from a method with the same steps there."""
 
     on_linear_problems: Subject
     keys: frozenset[str]
@@ -133,7 +115,6 @@ class LinearSubject(Frozen):
 
     @property
     def rounding(self) -> fmpq:
-        """The largest error of the printed coefficients."""
         return self.on_linear_problems.rounding
 
     @cached_property
@@ -168,8 +149,6 @@ D = TypeVar("D", bound=DenseFacts)
 
 
 class EmbeddedOrders(Frozen, Generic[O]):
-    """The orders of embedded weights in place of b, and their error estimate."""
-
     orders: O
     estimator: Estimator
 
@@ -179,11 +158,7 @@ class EmbeddedOrders(Frozen, Generic[O]):
 
 
 class SeveralOrders(Shown, Frozen, Generic[O, D]):
-    """The orders of a method that has several kinds of them.
-
-    Attributes:
-        limit: where the search for orders stopped.
-    """
+    """The orders of a method that has several kinds of them."""
 
     tableau: Tableau
     orders: O
@@ -233,12 +208,7 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
 
 
 class OrderFacts(Shown, Frozen):
-    """The orders of a method that is not a GARK method.
-
-    Attributes:
-        limit: where the search for orders stopped.
-        nonautonomous_order: the order on problems ẏ = f(t, y), with the nodes of the file.
-    """
+    """The orders of a method that is not a GARK method."""
 
     tableau: Tableau
     order: AnyOrder

@@ -39,10 +39,10 @@ class Outcome(Shown, Frozen):
         file: its path as given, or ``<stdin>``.
         name: the name in the file, or its path.
         structure: the structure of the vector fields.
-        analysis: the analysis; None if the file cannot be read as a method.
+        analysis: None if the file cannot be read as a method.
         claims: every claim of the file.
         faults: why the file cannot be read; empty if it can.
-        text: the text of the file, for showing lines of it.
+        text: of the file, for showing lines of it.
         blame: the likely cause of an order below its claim, or None.
         remark: the remark on its digits, or None.
         misprints: numbers of a method of another kind of which one seems wrong.
@@ -57,7 +57,7 @@ class Outcome(Shown, Frozen):
         nprk: the analysis of a nonlinearly partitioned method.
         derivatives: the analysis of a multiderivative method.
         infinitesimal: the analysis of a multirate method with exact fast solutions.
-        left_behind: further weights of the underlying methods that it lacks, as text.
+        left_behind: further weights of the underlying methods that it lacks.
         rules: the rules of blocks between diagonal methods.
 
     >>> from garkcli import check_file

@@ -1,6 +1,4 @@
-"""The reason for the order of a pair, and whether block rules preserve it, by the criteria of
-docs/pair-order.md.
-"""
+"""The reason for the order of a pair, and whether rules preserve it, by docs/pair-order.md."""
 
 from __future__ import annotations
 
@@ -24,11 +22,7 @@ if TYPE_CHECKING:
 
 
 class PairReason(Frozen):
-    """The consequences of B, C, D and the even condition for the order of the pair.
-
-    ``order`` is a lower bound, sharp if ``is_sharp``, None if the theorem does not apply; ``parts``
-    are the reason, and the conditions missing for the next order.
-    """
+    """The consequences of B, C, D and the even condition for the order of the pair."""
 
     order: int | None
     parts: tuple[str, ...]
@@ -40,9 +34,7 @@ class PairReason(Frozen):
 
 
 def pair_reason(analysis: Analysis) -> PairReason | None:
-    """Returns the reason for the order of the pair; None if there is no pair. If a hypothesis of
-    the theorem fails, the text says which one.
-    """
+    """Returns the reason for the order of the pair, or why the theorem does not apply."""
     if analysis.pair is None or analysis.pair_order is None:
         return None
     tableau = analysis.pair if analysis.tableau.is_partitioned else analysis.tableau
@@ -142,13 +134,11 @@ def _on(places: Sequence[str], every: int, noun: str) -> str:
 
 
 MOST_RULES = 150
-"""The largest number of blocks by rules that are examined."""
+"""Most blocks by rules that are examined."""
 
 
 def rule_reasons(analysis: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
-    """Yields for each block made by a rule whether it preserves the least pair order of the
-    diagonal methods; nothing if the theorem does not apply.
-    """
+    """Yields whether rules preserve the least pair order of the diagonal methods."""
     tableau = analysis.tableau
     if len(rules) > MOST_RULES:
         yield f"{len(rules)} blocks were not examined for the order (limit {MOST_RULES})"
@@ -178,14 +168,11 @@ def rule_reasons(analysis: Analysis, rules: Sequence[BlockRule]) -> Iterator[str
 
 
 def is_lost(reason: str) -> bool:
-    """Returns whether the degree of a rule loses pair order, which another degree keeps."""
     return reason.startswith("legendre") and " loses " in reason
 
 
 class Fit(Frozen):
-    """Whether a block by a rule preserves the least pair order of the diagonal methods. ``keeps``
-    is None if that depends on the entries; ``numbers`` are those that decide it, as text.
-    """
+    """Whether a rule preserves the least pair order; None if that depends on the entries."""
 
     keeps: bool | None
     numbers: str
@@ -203,9 +190,7 @@ def _by_block(by_numbers: Fit, missing: Sequence[SimplifyingCondition]) -> Fit:
 
 
 def fit(x: BlockRule, methods: Sequence[Method], p: int) -> Fit | None:
-    """Returns whether a block by a rule preserves pair order p of the diagonal methods; None for
-    rules and methods that the theorems do not cover.
-    """
+    """Returns whether a rule preserves pair order p; None if the theorems do not cover it."""
     match x.rule:
         case "legendre":
             return _legendre(x.degree, methods, p)
@@ -270,7 +255,6 @@ def _interpolation(l: Method, m: Method, p: int) -> Fit | None:
 
 
 def _degree(columns: Matrix) -> int:
-    """Returns the largest degree of the polynomials whose coefficients are the columns."""
     return max((i for i, row in enumerate(columns) if any(row)), default=0)
 
 

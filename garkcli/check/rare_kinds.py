@@ -23,11 +23,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class InfinitesimalAnalysis(OrderFacts, kw_only=True):
-    """The orders of a multirate infinitesimal method whose fast problems are solved exactly; its
-    tableau has collocation in their place.
-
-    ``slow_order`` is that of the slow method, for a fast part 0.
-    """
+    """The fast part is solved exactly, by collocation in the tableau; 0 for ``slow_order``."""
 
     slow_order: AnyOrder
 
@@ -57,9 +53,7 @@ def _among_all(order: AnyOrder, tableau: Tableau) -> AnyOrder:
 
 
 class NprkAnalysis(OrderFacts):
-    """The orders of a nonlinearly partitioned method. The colours of its tableau are the arguments
-    of F, its stages the pairs at which F is evaluated.
-    """
+    """A method whose colours are arguments of F, its stages the pairs at which F is taken."""
 
     form = "nprk"
     kind = "a nonlinearly partitioned method"
@@ -74,7 +68,6 @@ def analyse_nprk(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NprkAnalysis:
-    """Decides all that ``gark check`` reports of a nonlinearly partitioned method."""
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if further and method is tableau else None
     order = order_of(method, limit, spans)
@@ -88,9 +81,7 @@ def analyse_nprk(
 
 
 class DerivativesAnalysis(OrderFacts):
-    """The orders of a multiderivative method. Its tableau has stages along the exact solutions
-    whose derivatives it uses.
-    """
+    """Orders of a multiderivative method, with stages along exact solutions for its derivatives."""
 
     form = "derivatives"
     kind = "a multiderivative method"

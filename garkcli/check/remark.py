@@ -1,8 +1,7 @@
 """A remark on rounding: the precision of the numbers, the order within it, and the wrong entry.
 
 The error of each number is taken from its last digits. If a method within these errors has a higher
-order than the file gives, the remark states the tolerance to write; if there is none and a single
-entry is the cause, the remark states that entry.
+order than the file gives, the remark states the tolerance to write, or else the one wrong entry.
 """
 
 from __future__ import annotations
@@ -28,12 +27,10 @@ COARSEST = -1
 
 
 class RoundingHint(Frozen):
-    """A remark on the digits of a file: its missing tolerance, or its wrong entry.
-
-    ``order`` is that which the method would have, ``of`` says whether with b or the embedded
-    weights. The tolerance to write is 10 to the power ``exponent``, None if an entry is wrong;
-    ``repairs`` are the entries of which one is wrong, with their correct values, the smallest
-    changes first.
+    """A remark on the digits of a file: its missing tolerance, 10 to the power ``exponent``, or its
+    wrong
+    entry. ``order`` is that which ``of``, b or embedded weights, would have; ``repairs`` are the
+    entries of which one is wrong, with correct values, the smallest changes first.
     """
 
     order: int
@@ -54,11 +51,7 @@ def remark_on(
     of: str = "order",
     limit: int = DEFAULT_LIMIT,
 ) -> RoundingHint | None:
-    """Returns the remark on the digits of a method; None if they add nothing to the file.
-
-    ``actual`` is its order, or that of its embedded weights, as ``of`` says, with the tolerance of
-    the file or exactly.
-    """
+    """Returns the remark on the digits of a method, b or embedded weights as ``of`` says."""
     if not _is_within(actual, small):
         return None
     full, own = within_digits(tableau, at_full_length), within_digits(tableau, as_typed)
@@ -96,9 +89,7 @@ def remark_on(
 
 
 def _is_within(order: AnyOrder, bound: Callable[[int], fmpq]) -> bool:
-    """Returns whether the residual of an order that is missed is within the bound for it, so that
-    rounding, or a wrong digit, may explain it.
-    """
+    """Returns whether the residual of the missed order is within the bound for it."""
     missed = order.witness
     return missed is not None and within(missed.residual, bound(order.order + 1))
 
@@ -106,7 +97,7 @@ def _is_within(order: AnyOrder, bound: Callable[[int], fmpq]) -> bool:
 def _judged(
     rounded: RoundedTableau, of: str, order: AnyOrder, limit: int
 ) -> tuple[RoundedTableau, AnyOrder]:
-    """Returns the method within its digits and its order, ``actual`` if these do not explain it."""
+    """Returns the method within its digits and its order, ``order`` if these do not explain it."""
     judged = derived(rounded, of)
     assert isinstance(judged, RoundedTableau)
     assert order.witness is not None
@@ -117,9 +108,7 @@ def _judged(
 def _off(
     judged: RoundedTableau, order: int, limit: int, units: Mapping[Number, fmpq]
 ) -> dict[Repair, int]:
-    """Returns the entries that may be wrong, with the order after repair. An entry with fewer
-    digits than the others is left out if its digits explain the deviation.
-    """
+    """Returns entries that may be wrong, beyond their digits, with the order after repair."""
     reached = suspects(judged, order, limit)
     return {
         x: n
@@ -133,9 +122,7 @@ def _most(reached: Mapping[Repair, int]) -> tuple[Repair, ...]:
 
 
 def enough(least: fmpq, order: int, within: Callable[[fmpq], AnyTableau]) -> int | None:
-    """Returns the exponent of the smallest power of ten from ``least`` on within which a method of
-    the order is found; None if that is too coarse. ``within`` is the method with a tolerance.
-    """
+    """Returns the exponent of the least power of ten within which the order is reached, or None."""
     exponent = 0
     while fmpq(10) ** (exponent - 1) >= least:
         exponent -= 1

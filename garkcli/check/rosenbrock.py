@@ -20,8 +20,8 @@ from garkcli.tableau.tableau import Tableau
 
 class RosenbrockOrders(order_facts.ClaimedOrders):
     """The orders of weights at the stages of a Rosenbrock method: with the Jacobian, with any
-    matrix, with a matrix that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the
-    file.
+    matrix,
+    with one that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the file.
 
     A rounded ``method`` has a search of its own, refined by each order on DAEs, so that the results
     are consistent.
@@ -44,7 +44,8 @@ class RosenbrockOrders(order_facts.ClaimedOrders):
     @cached_property
     def index_1_order(self) -> AnyOrder | None:
         """The order on ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1))
-        of a step in y and O(h^p) in z. None if α + γ is singular.
+        of a step
+        in y and O(h^p) in z. None if α + γ is singular.
         """
         return self._on_dae("on_dae", self.order)
 
@@ -63,9 +64,7 @@ class RosenbrockOrders(order_facts.ClaimedOrders):
         return both and self._on_dae("on_dae_in_z", both)
 
     def _on_dae(self, which: Which, most: AnyOrder) -> AnyOrder | None:
-        """Returns an order on DAEs, at most ``most``, whose trees are among its own: the trees of
-        the method are those without g.
-        """
+        """Returns an order on DAEs, at most ``most``: its trees without g are the method's."""
         if printed(self.method).size > 2:
             return None  # y and z would be of several colours
         try:
@@ -97,32 +96,26 @@ class RosenbrockAnalysis(order_facts.SeveralOrders[RosenbrockOrders, order_facts
 
     @property
     def w_order(self) -> AnyOrder:
-        """The order with any matrix in place of the Jacobian."""
         return self.orders.w_order
 
     @property
     def old_jacobian_order(self) -> AnyOrder:
-        """The order with a matrix that differs from the Jacobian by O(h)."""
         return self.orders.old_jacobian_order
 
     @property
     def nonautonomous_order(self) -> AnyOrder:
-        """The order on problems ẏ = f(t, y), with the c and d of the file."""
         return self.orders.nonautonomous_order
 
     @property
     def index_1_order(self) -> AnyOrder | None:
-        """The order on DAEs of index 1: errors O(h^(p+1)) of a step in y, and O(h^p) in z."""
         return self.orders.index_1_order
 
     @property
     def index_1_y_order(self) -> AnyOrder | None:
-        """The largest p with O(h^(p+1)) in y."""
         return self.orders.index_1_y_order
 
     @property
     def index_1_z_order(self) -> AnyOrder | None:
-        """The largest p with O(h^(p+1)) in z."""
         return self.orders.index_1_z_order
 
     @cached_property
@@ -134,7 +127,6 @@ class RosenbrockAnalysis(order_facts.SeveralOrders[RosenbrockOrders, order_facts
 
     @property
     def at_infinity(self) -> Number | None:
-        """R(∞); None if R is unbounded or the rounding leaves it open."""
         return self.subject.at_infinity
 
     def __repr__(self) -> str:
@@ -148,7 +140,6 @@ def analyse_rosenbrock(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> RosenbrockAnalysis:
-    """Decides all that ``gark check`` reports of a Rosenbrock method."""
     return RosenbrockAnalysis.analysed(
         RosenbrockOrders, order_facts.dense_facts, tableau, limit, tolerance, further
     )

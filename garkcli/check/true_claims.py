@@ -17,13 +17,11 @@ ORDERS = (
     *("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order"),
     *("predictor-order", "predictor-order-equal-steps"),
 )
-"""The claims that are always written."""
 OF_ROSENBROCK = (
     *("order", "w-order", "old-jacobian-order", "nonautonomous-order", "index-1-order"),
     *("embedded-order", "embedded-w-order", "dense-order"),
     *("a-stable", "l-stable"),
 )
-"""The claims that are always written for Rosenbrock methods."""
 OF_NYSTROM = (
     *("order", "position-order", "velocity-order"),
     *("embedded-order", "embedded-position-order", "embedded-velocity-order"),
@@ -39,13 +37,11 @@ OF_OTHER_KINDS = {
     "a multirate method with the exact fast part": OF_INFINITESIMAL,
 }
 DIGITS = 12
-"""Digits of numbers without simple radicals; a decimal claims these digits only."""
+"""A decimal claims these digits only."""
 
 
 class TrueClaims(Frozen):
-    """True claims of one method. ``claims`` has the values in YAML by key; requested claims that do
-    not apply or are undecided are ``left``.
-    """
+    """True claims in YAML by key; ``left`` do not apply or are undecided."""
 
     file: str
     claims: Mapping[str, str]
@@ -54,9 +50,7 @@ class TrueClaims(Frozen):
 
 
 def usual_keys(analysis: AnyAnalysis) -> list[str]:
-    """Returns the claims that a file without any is given: orders, symplecticity, stage order, and
-    the properties that a plain check decides and the method has.
-    """
+    """Returns the claims that a file without any is given: orders, and properties that it has."""
     if not isinstance(analysis, Analysis):
         return [*true_claims(analysis, OF_OTHER_KINDS[analysis.kind])]
     keys = [*true_claims(analysis, ORDERS)]
@@ -71,9 +65,7 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
 
 
 def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
-    """Returns the true claims among ``keys`` in YAML, in the order of the documentation. Claims
-    that do not apply or are undecided are left out.
-    """
+    """Returns the true claims among ``keys`` in YAML, in the order of the documentation."""
     wanted = set(keys)
     claims = {}
     for key in CLAIMS:
