@@ -14,7 +14,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 def cell_text(cell: Cell, digits: int) -> str:
-    """Returns an entry, exact or rounded to ``digits`` significant digits."""
     if not isinstance(cell, arb):
         return shortest(cell)
     if cell.contains(0):
@@ -35,7 +34,7 @@ def without_zeros(decimal: str) -> str:
 
 
 def remark(entries: Entries) -> str:
-    """Returns why the entries are decimals; empty if they are exact."""
+    """Returns why entries are decimals; empty if all are exact."""
     decimals = f"decimals, {entries.digits} digits"
     if not entries.have_radicals:
         return f"the nodes have no simple radicals: {decimals}"
@@ -51,7 +50,7 @@ def remark(entries: Entries) -> str:
 
 
 def distinct_rows(tableau: Tableau) -> list[int]:
-    """Returns one colour for each stage space, as colours that share stages share rows."""
+    """Returns one colour for each stage space."""
     seen: dict[int, int] = {}
     for l, colour in enumerate(tableau.colours):
         seen.setdefault(colour.space, l)
@@ -59,9 +58,7 @@ def distinct_rows(tableau: Tableau) -> list[int]:
 
 
 def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
-    """Yields the tables in which a tableau is printed: a letter or none, one colour for each group
-    of rows, and the colours of the columns.
-    """
+    """Yields the tables of a tableau: a letter or none, the colours of rows and of columns."""
     shown = distinct_rows(tableau)
     if not tableau.is_partitioned:
         yield "", shown, range(tableau.size)
@@ -73,12 +70,7 @@ def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[in
 
 
 class TableauLine(NamedTuple):
-    """A row of a printed tableau.
-
-    ``place`` is its number among the stages of its colour, or among the rows of weights, from 0;
-    ``colour`` and ``node`` are those of its stage, None for weights; ``groups`` has a row for each
-    colour, None without a block.
-    """
+    """A row of a printed tableau; counted from 0, with None for weights and missing blocks."""
 
     place: int
     colour: int | None
@@ -93,7 +85,6 @@ class TableauLine(NamedTuple):
 def lines_of(
     entries: Entries, stages: Sequence[int], colours: Sequence[int]
 ) -> Iterator[TableauLine]:
-    """Yields the stages of each colour, then the weights, with columns of ``colours``."""
     for l in stages:
         blocks = [entries.A[l][m] for m in colours]
         for i, node in enumerate(entries.c[l]):

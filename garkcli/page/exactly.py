@@ -34,7 +34,6 @@ ROOT_OF: Schema = {
 """An algebraic number without simple radicals: a polynomial in x and a decimal."""
 ALGEBRAIC: Schema = one_of(TEXT, ROOT_OF)
 DIGITS = 12
-"""Digits of the decimal behind a letter."""
 
 
 def polynomial_latex(p: Polynomial, variable: str) -> str:
@@ -48,12 +47,6 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
 
 
 def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
-    r"""Returns a polynomial in several variables in LaTeX.
-
-    >>> from flint import fmpq
-    >>> print(multivariate_latex(Multivariate.of(2, {(1, 2): fmpq(1)}), ["z_{1}", "z_{2}"]))
-    z_{1}z_{2}^{2}
-    """
     terms = []
     for exponents, a in p.terms:
         named = zip(variables, exponents, strict=True)
@@ -62,7 +55,7 @@ def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
 
 
 def quotient_latex(p: Polynomial, q: Polynomial, variable: str) -> str:
-    """Returns a rational function in LaTeX with integer coefficients."""
+    """Returns p/q in LaTeX with integer coefficients."""
     over, under = (polynomial_latex(x, variable) for x in integral([p, q]))
     return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
 
@@ -70,7 +63,7 @@ def quotient_latex(p: Polynomial, q: Polynomial, variable: str) -> str:
 def sum_latex(
     terms: Iterable[tuple[Number | Parametric | arb, str]], latex: Callable[[Any], str] = to_latex
 ) -> str:
-    """Returns a sum of terms in LaTeX, without zero coefficients."""
+    """Returns a sum in LaTeX without zero terms."""
     text = ""
     for a, power in terms:
         factor = latex(a)

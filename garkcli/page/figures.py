@@ -1,8 +1,7 @@
-"""Positive numbers of any size as short text with certain digits only.
+"""Positive numbers of any size as short text.
 
 A measured number is a ball whose radius is the effect of rounding. Digits within the radius depend
-on the processor and are not shown. For a ball that contains 0 only a bound is shown. A ball that is
-not finite has no digits: there is no value, or rounding makes every value possible.
+on the processor and are not shown; a ball around 0 shows a bound only.
 """
 
 from __future__ import annotations
@@ -20,12 +19,7 @@ UNKNOWN = "unknown"
 
 
 def log10(x: Any) -> float:
-    """Returns the decimal logarithm of a positive number of any size.
-
-    >>> from flint import fmpq
-    >>> log10(fmpq(1, 10**400))
-    -400.0
-    """
+    """Returns the decimal logarithm of a positive number of any size."""
     return float(arb(x).log() / arb(10).log())
 
 
@@ -35,7 +29,6 @@ def order_text(order: float | None) -> str:
 
 
 def _without_digits(ball: arb) -> str:
-    """Returns the text of a ball that is not finite or contains 0; empty for others."""
     if not ball.is_finite():
         return UNKNOWN
     if ball.is_zero():
@@ -58,7 +51,7 @@ def rounded(ball: Any, digits: int = 4) -> str:
 
 
 def scientific(ball: Any, digits: int = 3) -> str:
-    """Returns a few digits, always with an exponent, so that columns are compared by their ends.
+    """Returns a few digits with an exponent, so that columns are compared by their ends.
 
     >>> scientific(arb(2) / 300), scientific(arb(12)), scientific(arb(0))
     ('6.67e-3', '1.20e1', '0')
@@ -83,8 +76,7 @@ def scientific(ball: Any, digits: int = 3) -> str:
 
 
 def for_programs(ball: Any, digits: int = 6) -> str:
-    """Returns a few digits that programs can read: a bound becomes its power of ten, and an
-    infinite number is empty.
+    """Returns a few digits for programs: a bound is its power of ten, an infinite number is empty.
 
     >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15)), for_programs(arb(-1).sqrt())
     ('6.66667e-1', '1e-14', '')
@@ -98,7 +90,6 @@ def bound(ball: Any) -> int:
 
 
 def certain_digits(ball: Any) -> int:
-    """Returns the number of certain digits of a ball, at least one."""
     bits = min(arb(ball).rel_accuracy_bits(), 10**6)
     digits = floor(bits * _DIGITS_PER_BIT)
     return min(max(digits, 1), _ALL)

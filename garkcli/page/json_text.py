@@ -8,9 +8,7 @@ from typing import Any
 
 
 def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
-    """Returns plain data as JSON, without a final newline.
-
-    Infinite floats become null; their exact form is beside them as text.
+    """Returns JSON without a final newline; infinite floats become null.
 
     >>> to_json({"float": float("inf"), "exact": "10**400"}, indent=None)
     '{"float": null, "exact": "10**400"}'

@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterable, Sequence
 
 _STYLE = "\x1b\\[[0-9;]*m"
-"""The start or end of a style."""
 
 
 def numbered(names: Sequence[str]) -> str:
@@ -20,11 +19,6 @@ def numbered(names: Sequence[str]) -> str:
 
 
 def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
-    """Returns lines with the same margin.
-
-    >>> indented(["a", "b"])
-    ['  a', '  b']
-    """
     return [indent + line for line in lines]
 
 
@@ -40,35 +34,25 @@ def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) 
 
 
 def _widths(rows: Sequence[Sequence[str]]) -> list[int]:
-    """Returns the longest cell of each column; all rows have as many cells."""
     return [max(map(len, column)) for column in zip(*rows, strict=True)]
 
 
 _JOINTS = r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)"
-"""Pieces of a formula or tree, each up to a place where a line may end."""
+"""Pieces of a formula or tree, each up to a possible end of line."""
 
 
 def joints(text: str) -> list[int]:
-    """Returns the places where pieces of a formula or tree begin.
-
-    >>> joints("b{l}A{l,m} = 1/6")
-    [0, 4, 11]
-    """
+    """Returns the places where pieces of a formula or tree begin."""
     return [piece.start() for piece in re.finditer(_JOINTS, text)]
 
 
 def shown_width(text: str) -> int:
-    r"""Returns the width of a text in columns, without colour codes.
-
-    >>> shown_width("\x1b[32myes\x1b[0m")
-    3
-    """
+    r"""Returns the width in columns, without colour codes."""
     return len(re.sub(_STYLE, "", text)) if "\x1b" in text else len(text)
 
 
 def folded(text: str, width: int, indent: str = "      ") -> list[str]:
-    """Returns a formula or tree in lines of at most ``width``, if it has places to break; later
-    lines are indented.
+    """Returns a formula or tree in lines of ``width``, if it has places to break.
 
     >>> folded("b{l}A{l,m}A{m,n} = 1/24", 16, "  ")
     ['b{l}A{l,m}A{m,n}', '  = 1/24']

@@ -4,13 +4,7 @@ from garkcli.frozen import Frozen
 
 
 class Look(Frozen):
-    """The signs and marks that a text may have.
-
-    Attributes:
-        has_colour: whether styles are marked by colours, which are never the only information.
-        encoding: of the stream; characters that it lacks are replaced before columns are aligned.
-        is_drawn: whether a terminal shows the text, with tables and links.
-    """
+    """The signs that a text may have; ``is_drawn`` if a terminal shows tables and links of it."""
 
     has_colour: bool = False
     encoding: str = "utf-8"
@@ -18,4 +12,3 @@ class Look(Frozen):
 
 
 PLAIN = Look()
-"""A file or a pipe."""

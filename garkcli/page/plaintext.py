@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 PHRASES = {" · ": " * ", "·10": "*10", "½": "1/2 "}
-"""Phrases whose form differs from that of their characters; they are replaced first."""
+"""Phrases with a form of their own; they are replaced first."""
 SIGNS = {
     # letters and operators; A^ would look like a power
     "Â": "Ahat", "Ā": "Abar", "ℚ": "Q", "𝟙": " 1", "ᵀ": "^T", "∀": "for all", "∂": "d", "∫": "int ",
@@ -33,16 +33,15 @@ SIGNS = {
     "●": "o", "○": "o", "─": "-", "│": "|", "█": "#", "▒": "%", "░": "=", "└": "`", "┘": "'",
     "┌": ".", "┐": ".", "├": "+", "┤": "+", "┬": "+", "┴": "+", "┼": "+", "╯": "'", "╰": "`",
 }  # fmt: skip
-"""The ASCII form of each character other than accented letters."""
 DRAWN = frozenset("●○─│└┘┌┐├┤┬┴┼╯╰")
-"""The characters of drawn trees and plots, which are aligned vertically."""
+"""The characters of drawings, which are aligned vertically."""
 EVERYTHING = "¹⁴γ𝟙●"
 """An encoding with these characters is one of Unicode."""
 _GREEK = r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)"
 _BLANKS = re.compile(" +")
 _COLOURS = r"\x1b\[[0-9;]*m"
 HANGING = 4
-"""The indentation of the rest of a broken line, relative to its beginning."""
+"""The indentation of the rest of a broken line."""
 _SCRIPT = r"(SUPERSCRIPT|SUBSCRIPT) "
 
 
@@ -74,16 +73,10 @@ def ascii_form(sign: str) -> str:
 def plain_line(line: str, encoding: str = "ascii") -> str:
     """Returns a line with an ASCII form for every character that ``encoding`` lacks.
 
-    The next gap of more than two blanks is shortened by the additional length, so that columns
-    further right stay in place. In front of a drawing, one blank is enough.
+    Later gaps of more than two blanks, one in front of a drawing, shrink to keep columns in place.
 
-    >>> plain_line("10¹² trees, σ = 2   in all"), plain_line("10¹² trees, σ = 2      ●1 ●1")
-    ('10^12 trees, sigma = 2  in all', '10^12 trees, sigma = 2 o1 o1')
-
-    Spelled letters and exponents are separated from adjacent letters.
-
-    >>> plain_line("z = hω, ω²q"), plain_line("bᵀA")
-    ('z = h omega, omega^2 q', 'b^T A')
+    >>> plain_line("10¹² trees, σ = 2   in all"), plain_line("z = hω, ω²q")
+    ('10^12 trees, sigma = 2  in all', 'z = h omega, omega^2 q')
     """
     if line.isascii():
         return line
@@ -104,14 +97,13 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
 
 
 def _spare_blanks(line: str) -> Iterator[int]:
-    """Yields the positions of blanks that can be dropped from gaps."""
     for gap in _BLANKS.finditer(line):
         needed = 1 if line[gap.end() : gap.end() + 1] in DRAWN else 2
         yield from range(gap.start() + needed, gap.end())
 
 
 def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
-    """Yields each character and its form, with spaces between spelled letters and adjacent ones."""
+    """Yields characters and forms, with spaces between spelled letters and adjacent ones."""
     # the sign of a running exponent or index, which is written once
     raised = ""
     # whether a spelled letter or an exponent ends here: a letter needs a gap
@@ -139,9 +131,7 @@ def _script_mark(sign: str, form: str) -> str:
 
 
 def plain_text(text: str, encoding: str, width: int | None = None) -> str:
-    """Returns a text for a stream of this encoding. Lines that fit ``width`` columns only before
-    their characters are replaced are broken.
-    """
+    """Returns a text for a stream; lines that outgrow ``width`` columns thereby are broken."""
     if text.isascii() or _has(encoding, EVERYTHING):
         return text
     made: list[str] = []
@@ -153,8 +143,7 @@ def plain_text(text: str, encoding: str, width: int | None = None) -> str:
 
 
 def broken(line: str, width: int) -> list[str]:
-    r"""Returns a line in lines of ``width`` columns, broken at a gap of two blanks in the right
-    half, or at any blank; whole if there is none.
+    r"""Returns a line broken at a gap of two blanks in the right half, or at any blank, or whole.
 
     >>> print("\n".join(broken("  bound  4 = min{r, 2eta+2}  r = 4, eta = 1", 34)))
       bound  4 = min{r, 2eta+2}
@@ -173,7 +162,6 @@ def broken(line: str, width: int) -> list[str]:
 
 
 def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
-    """Returns the blanks after ``start`` at which to break a line, or None."""
     blanks = list(_BLANKS.finditer(line, start, len(line.rstrip())))
     fitting = [m for m in blanks if _columns(line[: m.start()]) <= width]
     gaps = [m for m in fitting if len(m[0]) > 1 and m.start() > width // 2]
@@ -186,9 +174,7 @@ def _columns(line: str) -> int:
 
 @lru_cache(4096)
 def _has(encoding: str, text: str) -> bool:
-    """Returns whether a stream of this encoding accepts the text. An exponent of two digits must
-    not be partly ASCII: an encoding without fourth powers is treated as one without powers.
-    """
+    """Returns whether a stream accepts a text; with exponents only if it has a raised 4."""
     if re.match(_SCRIPT, unicodedata.name(text, "") if len(text) == 1 else ""):
         text = "⁴"
     try:
@@ -199,9 +185,7 @@ def _has(encoding: str, text: str) -> bool:
 
 
 def handled(error: UnicodeError) -> tuple[str, int]:
-    """Returns the replacement from the first character that cannot be encoded to the end of its
-    line. This catches what others write to the stream, without ``plain_text``.
-    """
+    """Replaces text from the first unencodable character to the end of its line."""
     assert isinstance(error, UnicodeEncodeError)
     end = error.object.find("\n", error.start)
     end = len(error.object) if end < 0 else end

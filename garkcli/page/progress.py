@@ -1,7 +1,4 @@
-"""Long work on a terminal, drawn by rich on stderr: what is done, how much of it, the time left.
-
-It appears once a command has run for two seconds, and is erased before anything else is written
-there, and at the end.
+"""Long work on a terminal, drawn by rich on stderr from two seconds on: work done, time left.
 
 Exact arithmetic may stay in one library call for minutes, during which no thread of Python runs.
 Therefore a separate process draws, and it alone imports rich; where the system cannot fork, the
@@ -28,19 +25,16 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 PATIENCE = 2.0
-"""The time before anything appears, in seconds."""
+"""Seconds before anything appears."""
 EVERY = 0.25
-"""The time between updates, in seconds."""
+"""Seconds between updates."""
 BAR = 20
-"""Columns of a bar."""
 _ASIDE, _END = b"\0", b"\1"  # texts have no such signs
 
 
 @contextmanager
 def watching(what: str) -> Iterator[None]:
-    """Shows what is being done while it is open: the tasks that ``garkcli.doing`` reports, or else
-    ``what``. A terminal that cannot move its cursor shows nothing.
-    """
+    """Shows the tasks that ``garkcli.doing`` reports, or else ``what``, while it is open."""
     if not is_drawn_on(sys.stderr):
         yield
         return
@@ -61,7 +55,7 @@ def _bars() -> Draws:
 
 @contextmanager
 def aside() -> Iterator[None]:
-    """Removes what is drawn while it is open, for other output on the terminal."""
+    """Removes the drawing while it is open, for other output."""
     tasks = doing.listener()
     if not isinstance(tasks, Tasks):
         yield
@@ -72,8 +66,6 @@ def aside() -> Iterator[None]:
 
 
 class Task(NamedTuple):
-    """A task at work, with a number that no other has."""
-
     number: int
     what: str
     done: int
@@ -90,13 +82,11 @@ class Task(NamedTuple):
 
 
 _BETWEEN = "\x1f"
-"""Between tasks on their way to another process; printable texts have no such sign."""
 Draws: TypeAlias = "Bars | Process"
-"""Draws the tasks, erases them until the next update, and ends."""
 
 
 class Tasks:
-    """The tasks at work, the outermost first. ``what`` is shown while there is none."""
+    """The tasks at work, the outermost first; ``what`` if there is none."""
 
     def __init__(self, what: str, bars: Draws) -> None:
         self.bars = bars
@@ -127,7 +117,6 @@ class Tasks:
             self.bars.end()
 
     def make_room(self) -> None:
-        """Erases what is drawn until the next update."""
         if not self._is_hushed:
             self.bars.wipe()
 
@@ -143,9 +132,7 @@ class Tasks:
 
 
 class Bars:
-    """Draws the tasks every ``EVERY`` seconds, after ``PATIENCE``: a line each, with a bar and the
-    time left where the amount of work is known.
-    """
+    """A line for each task, with a bar and the time left where the amount of work is known."""
 
     def __init__(self) -> None:
         self._start = monotonic()
@@ -191,7 +178,7 @@ class Bars:
         return table
 
     def _words(self, task: Task, now: float) -> str:
-        """Returns how much is done, and the time left at the pace so far."""
+        """Returns the work done, and the time left at the pace so far."""
         if task.total is None or task.total <= 1:
             return str(task.done or "")
         began, before = self._begun[task.number]
@@ -202,7 +189,6 @@ class Bars:
         return f"{words}, {duration(left)} left"
 
     def wipe(self) -> None:
-        """Erases the tasks until the next update."""
         if self._live is not None:
             with suppress(OSError):
                 self._live.stop()
@@ -213,7 +199,6 @@ class Bars:
 
 
 def _live() -> Live:
-    """Returns a place on stderr that is drawn over, and erased at its end."""
     from rich.console import Console
     from rich.live import Live
 
@@ -234,19 +219,12 @@ def _live() -> Live:
 
 
 def duration(seconds: float) -> str:
-    """Returns a time in its largest unit.
-
-    >>> duration(12.3), duration(150), duration(7300)
-    ('12 s', '2 min', '2 h')
-    """
     if seconds < 100:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.0f} h"
 
 
 class Process:
-    """A process that draws ``Bars``, independent of this one."""
-
     def __init__(self) -> None:
         commands, self._commands = os.pipe()
         self._answers, answers = os.pipe()
@@ -261,7 +239,7 @@ class Process:
         self._send(_BETWEEN.join(x.written() for x in tasks).encode("utf-8", "replace"))
 
     def wipe(self) -> None:
-        """Erases the tasks until the next update, and waits until that is done."""
+        """Waits until the tasks are erased."""
         if self._send(_ASIDE):
             os.read(self._answers, 1)
 

@@ -14,9 +14,7 @@ Owner = TypeVar("Owner")
 
 
 class Field(Frozen, Generic[Whole]):
-    """A field of a JSON object that describes a ``Whole``. ``value`` computes it as plain data; if
-    it is None, an optional field is left out, and another one is null.
-    """
+    """A field of a JSON object; a ``value`` None is left out if optional, null otherwise."""
 
     name: str
     schema: Schema
@@ -25,7 +23,6 @@ class Field(Frozen, Generic[Whole]):
 
 
 def schema_named(name: str) -> Field[Any]:
-    """Returns the first field of a report: the name of its schema."""
     return Field("schema", {"const": name}, lambda _: name)
 
 
@@ -43,7 +40,6 @@ class Record(Generic[Whole]):
     """
 
     def __init__(self, *fields: Field[Whole], is_open: bool = False) -> None:
-        """With ``is_open`` the schema allows further fields."""
         self.fields = fields
         self.is_open = is_open
 
@@ -60,7 +56,6 @@ class Record(Generic[Whole]):
 
     @property
     def schema(self) -> Schema:
-        """The JSON Schema (draft-07) of such objects."""
         schema: Schema = {
             "type": "object",
             "required": [field.name for field in self.fields if not field.is_optional],

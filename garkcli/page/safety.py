@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 
 _COMMAND = r"^([^\S\n]*):(?=:)"
-"""A line that GitHub Actions takes for a workflow command: it begins with two colons."""
+"""A workflow command of GitHub Actions begins with two colons."""
 _OLD_COMMAND = r"##(?=\[)"
-"""The older form of these commands, which may be anywhere in a line."""
+"""The older form, anywhere in a line."""
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""The characters that start a formula in spreadsheets."""
+"""Characters that start a formula in spreadsheets."""
 
 
 def inert(text: str) -> str:
@@ -37,12 +37,10 @@ def csv_cell(text: str) -> str:
 
 
 JSON = frozenset({"json", "ndjson", "sarif"})
-"""Formats that are JSON, where any character may be written as ``\\u1234``."""
 YAML = frozenset({"yaml"})
 XML = frozenset({"junit", "html"})
-"""Formats in which a character may be written as a numeric reference."""
 TABBED = frozenset({"rungekutta-jl"})
-"""Tables with columns separated by tabs, which are harmless."""
+"""Tables with columns separated by tabs."""
 _COLOUR = r"\x1b\[(?:[012]|3[1-6])(?:;(?:[12]|3[1-6]))*m"
 _LINK = (
     r"\x1b\]8;;(?P<site>https?://[!-~]*)\x1b\\"
@@ -52,11 +50,11 @@ _LINK = (
 
 
 def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
-    r"""Returns a report with every nonprintable character escaped.
+    r"""Returns a report with nonprintable characters escaped.
 
-    Control characters could command a terminal, bidirectional ones could disguise the text, and
-    lone surrogates cannot be encoded. If ``coloured``, colours are kept, and links that
-    show a part of their site.
+    Control characters could command a terminal, bidirectional ones disguise the text; lone
+    surrogates
+    cannot be encoded. ``coloured`` keeps colours, and links that show a part of their site.
 
     >>> print(written_out("a\x1b[2Jb \u202ec\n"), end="")
     a\x1b[2Jb \u202ec
@@ -69,7 +67,7 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
 
 
 def colours_alone(text: str) -> str:
-    r"""Returns a text with every nonprintable character escaped but those of its colours.
+    r"""Returns a text with nonprintable characters escaped except its colours.
 
     >>> colours_alone("\x1b[1m\x1b[2J\x1b[0m").replace("\x1b", "ESC")
     'ESC[1m\\x1b[2JESC[0m'
@@ -78,7 +76,6 @@ def colours_alone(text: str) -> str:
 
 
 def _kept(pattern: str, text: str, format: str) -> str:
-    """Escapes nonprintable characters where the pattern does not match, and false links."""
     made: list[str] = []
     end = 0
     for found in re.finditer(pattern, text):
@@ -122,13 +119,11 @@ def escaped(sign: str, format: str = "text") -> str:
 
 
 def without_commands(text: str, format: str = "text") -> str:
-    r"""Returns a text without lines that GitHub Actions takes for commands of the job.
+    r"""Returns a text without lines that GitHub Actions takes for commands.
 
     >>> print(without_commands("  ::error::no\nsee ##[group]"))
       \x3a:error::no
     see #\x23[group]
-    >>> print(without_commands('{"name": "##[group]"}', "json"))
-    {"name": "#\u0023[group]"}
     """
     if format in JSON:  # where strings have no lines of their own
         hash_sign = escaped("#", format)

@@ -16,7 +16,6 @@ NULL: Schema = {"type": "null"}
 TRUE: Schema = {"const": True}
 COUNT: Schema = {"type": "integer", "minimum": 0}
 POSITION: Schema = {"type": "integer", "minimum": 1}
-"""The number of a line, a stage or an order, from 1."""
 NUMERAL: Schema = {
     "type": "string",
     "description": "An exact number, or a decimal if the call asks for digits.",
@@ -58,7 +57,7 @@ def counts_of(what: str) -> Schema:
 
 
 def one_of(*schemas: Schema) -> Schema:
-    """One of several schemas; of equal ones two would match."""
+    """Returns a choice of schemas; of equal ones two would match."""
     return {"oneOf": [x for k, x in enumerate(schemas) if x not in schemas[:k]]}
 
 

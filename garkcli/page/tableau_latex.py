@@ -1,4 +1,4 @@
-"""A tableau as LaTeX arrays in the layout of the paper; needs amsmath only.
+"""A tableau as LaTeX arrays in the layout of the paper.
 
 A partitioned method has two arrays, Q and P, as in eq. (psymplecticGARK), each with the stages at
 which its part is computed and the weights that update it.
@@ -19,18 +19,16 @@ from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
 MAX_BESIDE = 8
-"""The largest number of columns for two arrays side by side."""
+"""The most columns of two arrays side by side."""
 
 
 def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
-    """The arrays, the polynomials of dense output, and the matrices of a predictor."""
     return [*displays(tableau, entries), *_dense(entries), *_predictor(entries)]
 
 
 def displays(
     tableau: Tableau, entries: Entries, text: Callable[[Cell], str] | None = None
 ) -> Iterator[str]:
-    """Yields the lines of the arrays. ``text`` writes an entry in LaTeX."""
     arrays = [
         [*([f"{letter}: \\quad"] if letter else []), *_array(entries, text, stages, driven)]
         for letter, stages, driven in parts_of(tableau)
@@ -55,8 +53,6 @@ def _array(
     stages: Sequence[int],
     colours: Sequence[int],
 ) -> Iterator[str]:
-    """Yields the lines of an array: c, the blocks, and b below."""
-
     def usual(cell: Cell) -> str:
         return _cell(cell, entries)
 
@@ -87,7 +83,6 @@ def _dense(entries: Entries) -> Iterator[str]:
 
 
 def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
-    """Yields the weights of dense output and their polynomials in θ."""
     found = entries.dense or ()
     for l, rows in enumerate(found, start=1):
         letter = f"b^{{[{l}]}}" if len(found) > 1 else "b"
@@ -97,7 +92,6 @@ def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
 
 
 def _predictor(entries: Entries) -> Iterator[str]:
-    """P(r) and Q(r) of a predictor, as sums of matrices."""
     for name, matrices in entries.predictor:
         letter = {"old": "P", "new": "Q"}[name]
         yield r"\["

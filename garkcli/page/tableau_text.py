@@ -56,8 +56,6 @@ def shortened(entries: Entries, longest: int, spelt: Callable[[str], str] = str)
 def tableau_lines(
     tableau: Tableau, entries: Entries, width: int = 80, spelt: Callable[[str], str] = str
 ) -> list[str]:
-    """Returns the lines of a tableau; ``spelt`` writes entries in the signs of the output."""
-
     def text(cell: Cell) -> str:
         return spelt(cell_text(cell, entries.digits))
 
@@ -68,7 +66,6 @@ def tableau_lines(
 
 
 def _grid(tableau: Tableau, entries: Entries, text: Text) -> list[str]:
-    """Returns the lines with all blocks side by side, and b and embedded weights below."""
     lines = list(lines_of(entries, distinct_rows(tableau), range(tableau.size)))
     heads = [text(x.node) for x in lines if x.node is not None]
     heads += [""] if entries.embedded is None else ["b", "embedded"]
@@ -105,7 +102,7 @@ def _listing(tableau: Tableau, entries: Entries, width: int, text: Text) -> list
 
 
 def _shared_rows(tableau: Tableau, width: int) -> list[str]:
-    """Returns whose rows are those of an earlier colour, with which a colour shares its stages."""
+    """Says whose stages a colour shares."""
     shown = {tableau.colours[l].space: tableau.colours[l].name for l in distinct_rows(tableau)}
     same = [
         f"{_named('A', tableau, colour.name, '·')} = "
@@ -142,13 +139,10 @@ def _predictor(entries: Entries, width: int, text: Text) -> list[str]:
 
 
 _SLOPES = {"old": "the slopes of the last step", "new": "the slopes of earlier stages"}
-"""By the part of a predictor that weighs them."""
 
 
 def block_lines(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
-    """Returns a block below its name, with as many columns at a time as fit. Entries longer than
-    ``width`` have lines of their own.
-    """
+    """Returns a block below its name, as many columns at a time as fit."""
     count = len(cells[0])
     groups = _columns_that_fit(cells, width)
     lines = []
@@ -189,7 +183,6 @@ def _numbers(columns: range) -> str:
 
 
 def vector_lines(name: str, texts: Sequence[str], width: int) -> list[str]:
-    """Returns nodes or weights in as many lines as needed."""
     lines = [f"{name} ="]
     margin = " " * (len(name) + 2)
     for text, end in zip(texts, [","] * (len(texts) - 1) + [""], strict=True):

@@ -15,26 +15,17 @@ from garkcli.errors import UsageProblem
 from garkcli.files import is_input, note_input, own_stream
 
 _MOST_LINKS = 40
-"""The length of chains of links that Linux follows."""
+"""As on Linux."""
 
 
 def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> bool:
-    """Writes a file beside its place, then renames it into place.
+    """Writes a file beside its place, then renames it into place; False for devices and streams.
 
-    A link stays a link, and its target is written; an existing file keeps its permissions, owner
-    and group. Devices, pipes, streams of this process, and files with several names or another
-    owner are written in place.
-
-    Args:
-        path: the file.
-        pieces: text, which is written as UTF-8, or bytes.
-        is_renewed: whether it may be a file that the command has read.
-
-    Returns:
-        Whether there is a file now; False for a device, a pipe or a stream of this process.
-
-    Raises:
-        UsageProblem: the file cannot be written, or is an input; then nothing changes.
+    A link stays a link; an existing file keeps its permissions, owner and group. Devices, pipes,
+    streams of this process, and files with several names or another owner are written in place.
+    With
+    ``is_renewed`` it may be a file that the command has read. Raises UsageProblem, with nothing
+    changed, if the file cannot be written or is an input.
     """
     with _told(path), undone():
         target = _without_links(path)
@@ -59,9 +50,7 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
 
 
 def refuse_unwritable(path: str) -> None:
-    """Raises UsageProblem, before any work, if a file cannot be written: its name is empty, the
-    folder does not exist, it is protected, or it is a folder or an input.
-    """
+    """Raises UsageProblem, before any work, for a file that cannot be written or is an input."""
     if not path:
         message = "the name of the file to be written is empty"
         raise UsageProblem(message, "name a file", code="cannot-write")
@@ -84,7 +73,6 @@ def refuse_unwritable(path: str) -> None:
 
 @contextmanager
 def _told(path: str) -> Iterator[None]:
-    """Raises errors of the system as UsageProblem about the option."""
     try:
         yield
     except BrokenPipeError:
