@@ -21,8 +21,6 @@ TERMS = (1, 2, 3)
 
 
 def answers(name: str, terms: int) -> Record:
-    """Answers to the questions of steps and reports about a built-in problem."""
-
     def work() -> None:
         code_of.cache_clear()
         split = problem(name, terms)
@@ -81,7 +79,6 @@ def _write(name: str, records: Iterable[Record]) -> None:
 
 
 def main() -> None:
-    """Writes one file for each problem, and one for the clock."""
     for name in PROBLEMS:
         _write(name, [answers(name, terms) for terms in TERMS])
     _write("clock", [answers_of_clock()])

@@ -1,8 +1,4 @@
-"""The list of built-in problems, from which the choices of ``--problem``, ``gark list`` and
-docs/problems.md are made.
-
-To add a problem, add an entry here, and a test.
-"""
+"""The built-in problems; an entry and a test add one."""
 
 from __future__ import annotations
 
@@ -25,14 +21,7 @@ StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
 
 
 class BuiltIn(Frozen):
-    """A built-in problem.
-
-    Attributes:
-        formula: H, or the sum of the right-hand sides, for people.
-        sees: the trees that it sees, for people.
-        takes_seed: whether its coefficients depend on the seed.
-        stiff: makes the problem with a stiffness, if it has one.
-    """
+    """A built-in problem; ``formula`` and ``sees`` are for people, ``stiff`` makes it stiff."""
 
     name: str
     summary: str
@@ -46,8 +35,6 @@ class BuiltIn(Frozen):
 def mechanical(
     name: str, summary: str, formula: str, sees: str, made: systems.Mechanical
 ) -> BuiltIn:
-    """An entry for H = T + V, without a seed."""
-
     def make(terms: int, _: int) -> Hamiltonian:
         return made.problem(name, terms)
 
@@ -55,8 +42,6 @@ def mechanical(
 
 
 def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker) -> BuiltIn:
-    """An entry for stiff right-hand sides, with stiffness 1 by default."""
-
     def make(terms: int, _: int) -> RightHandSide:
         return made(terms, fmpq(1))
 
@@ -64,10 +49,9 @@ def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker
 
 
 def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
-    """Returns the problem called ``name``, of either kind, split into ``terms`` terms.
-
-    The stiffness is 1 by default. Raises UsageProblem if there is no such problem, or it has no
-    stiffness.
+    """Returns a problem split into ``terms`` terms, with stiffness 1 by default. Raises
+    UsageProblem if it
+    is unknown or has no stiffness.
 
     >>> problem("van-der-pol", 2, stiffness=fmpq(1000)).terms[0]
     (z, 0)
@@ -81,9 +65,7 @@ def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None)
 
 
 def check_stiffness(name: str) -> None:
-    """Refuses a stiffness for a built-in problem without one. Raises UsageProblem if the problem
-    has no stiffness.
-    """
+    """Raises UsageProblem for a built-in problem without a stiffness."""
     if built_in(name).stiff is None:
         takers = ", ".join(x.name for x in PROBLEMS.values() if x.stiff is not None)
         message = f"--stiffness is for the problems {takers}, not for {name}"
@@ -91,10 +73,9 @@ def check_stiffness(name: str) -> None:
 
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
-    """The Hamiltonian problem called ``name``, split into ``terms`` terms; ``seed`` is for random
+    """Returns a Hamiltonian problem split into ``terms`` terms; ``seed`` is for random
     coefficients.
-
-    Raises ``UsageProblem`` if there is no such problem, or it is not Hamiltonian.
+    Raises UsageProblem if it is unknown or not Hamiltonian.
 
     >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
     ['px**2/2', '1 - cos(x)']
@@ -107,7 +88,7 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
 
 
 def built_in(name: str) -> BuiltIn:
-    """The entry called ``name``. Raises UsageProblem if there is no such problem."""
+    """Raises UsageProblem if there is no such problem."""
     if name not in PROBLEMS:
         message = f"no problem {name!r}"
         raise UsageProblem(message, did_you_mean(name, tuple(PROBLEMS)), code="unknown-word")
@@ -120,9 +101,7 @@ def is_path(text: str) -> bool:
 
 
 def check_seed(name: str, seed: int | None) -> None:
-    """Refuses a seed for a problem without random coefficients, also one from a file. Raises
-    UsageProblem if ``seed`` is given and would change nothing.
-    """
+    """Raises UsageProblem if a seed is given that would change nothing."""
     takers = [x.name for x in PROBLEMS.values() if x.takes_seed]
     if seed is not None and name not in takers:
         plural = "s" if len(takers) > 1 else ""

@@ -1,7 +1,6 @@
-"""Expressions of built-in problems, made by sympy on first use; files in ``known/`` answer most
-questions without sympy.
-
-``make known`` writes these files. sympy computes an answer that they lack.
+"""Expressions of built-in problems, made by sympy on first use; files in ``known/``, written by
+``make
+known``, answer most questions without sympy.
 """
 
 from __future__ import annotations
@@ -19,18 +18,16 @@ from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
 
 T = TypeVar("T")
 Answer: TypeAlias = Any
-"""A value of JSON."""
 Record: TypeAlias = dict["Deferred", dict[str, Answer]]
 KNOWN = Path(__file__).resolve().parent / "known"
-"""The folder with one file per problem: answers by names of expressions and questions."""
+"""Answers by names of expressions and questions, a file for each problem."""
 _record: ContextVar[Record | None] = ContextVar("record", default=None)
 
 
 class Deferred(Sequence[Expr]):
-    """Several sympy expressions, made on first use.
-
-    ``name`` identifies them; equal names mean equal expressions. It begins with the name of the
-    built-in problem and a blank. ``total`` is their sum, if it has a name of its own.
+    """Several sympy expressions, made on first use. Equal names mean equal expressions; a name
+    begins with
+    that of the problem and a blank. ``total`` is their sum, if it has a name.
     """
 
     def __init__(
@@ -54,7 +51,6 @@ class Deferred(Sequence[Expr]):
             raise UsageProblem(message, cure, code="missing-package") from None
 
     def derived(self, what: str, make: Callable[[], Vector], count: int | None = None) -> Deferred:
-        """Expressions derived from these, such as derivatives."""
         return Deferred(f"{self.name}, {what}", make, count)
 
     @overload
@@ -90,7 +86,7 @@ class Deferred(Sequence[Expr]):
 
 
 def ask(of: Vector, question: str, compute: Callable[[], T]) -> T:
-    """The answer to a question about expressions, known or computed."""
+    """Returns the answer to a question about expressions, known or computed."""
     if not isinstance(of, Deferred):
         return compute()
     record = _record.get()
@@ -105,7 +101,6 @@ def ask(of: Vector, question: str, compute: Callable[[], T]) -> T:
 
 @cache
 def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
-    """The known answers on a built-in problem, by names of expressions and questions."""
     path = KNOWN / f"{problem}.json"
     if not path.exists():
         return {}
@@ -114,7 +109,7 @@ def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
 
 
 def recorded(work: Callable[[], object]) -> Record:
-    """All questions of ``work``, with new answers by sympy."""
+    """Returns all questions of ``work``, with new answers by sympy."""
     record: Record = {}
     token = _record.set(record)
     try:

@@ -1,6 +1,4 @@
-"""Pseudorandom integers that are the same on every machine and with every version of Python:
-``random.Random`` promises that for ``random()`` only, not for ``choice`` and ``randint``.
-"""
+"""Pseudorandom integers, the same with every version of Python, unlike ``random.randint``."""
 
 from __future__ import annotations
 
@@ -13,9 +11,7 @@ _SECOND_FACTOR = 0x94D049BB133111EB
 
 
 class Draw:
-    """A sequence of integers determined by ``seed``: SplitMix64.
-
-    The seed is taken modulo 2^64.
+    """A sequence of integers determined by ``seed`` modulo 2^64: SplitMix64.
 
     >>> draw = Draw(1234567)
     >>> draw.word(), draw.word()
@@ -34,7 +30,6 @@ class Draw:
         return z ^ (z >> 31)
 
     def between(self, low: int, high: int) -> int:
-        """An integer from ``low`` to ``high``, inclusive."""
         return low + self.word() * (high - low + 1) // _WORD
 
     def sign(self) -> int:

@@ -1,7 +1,4 @@
-"""Types of sympy expressions, numbers, and sums of products; sympy is imported on first use.
-
-sympy is imported when the first one is made.
-"""
+"""Types of sympy expressions, numbers, and sums of products; sympy is imported on first use."""
 
 from __future__ import annotations
 

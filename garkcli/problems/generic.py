@@ -16,7 +16,7 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import symbols
 
 DEGREE = 8
-"""The degree of the terms, for all trees of order 8."""
+"""For all trees of order 8."""
 VARIABLES = ("x", "y")
 UNKNOWNS = ("x", "y", "z")
 _FORMS = 3  # powers of linear forms in each term
@@ -25,9 +25,7 @@ _LONG_RUN = (fmpq(1, 100), fmpq(1))
 
 
 def generic(terms: int, seed: int) -> Hamiltonian:
-    """H^{l} = Σ_k c_k (1 + a_k·(q, p))^8, with random rational c_k and a_k: every term has every
-    derivative. The terms are small, so solutions exist to the final time.
-    """
+    """H^{l} = Σ_k c_k (1 + a_k·(q, p))^8, with every derivative; small, so that solutions exist."""
     draw = Draw(seed)
     split = [_polynomial(draw, "qp", terms) for _ in range(terms)]
     return _problem("generic", seed, split, draw)
@@ -56,7 +54,8 @@ def nystrom(terms: int, seed: int) -> Hamiltonian:
 
 def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
     """f^{l} = Σ_k v_k (1 + a_k·y)^7, with random rational v_k and a_k: every component of every
-    term has every derivative. The terms in ``linear`` are Σ_k v_k (1 + a_k·y).
+    term has
+    every derivative. The terms in ``linear`` are Σ_k v_k (1 + a_k·y).
     """
     draw = Draw(seed)
     split = [_forms(draw, len(UNKNOWNS), len(UNKNOWNS), 100 * terms) for _ in range(terms)]
@@ -110,10 +109,9 @@ _Term = Callable[[Exprs, Exprs], Expr]  # of positions and momenta
 
 
 def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
-    """Σ_k c_k (1 + a_k·y)^8 in q, p, or both, one of ``terms`` terms of a Hamiltonian.
-
-    Powers of linear forms span all polynomials; with three per term no derivative vanishes, and
-    they are cheap to evaluate.
+    """Σ_k c_k (1 + a_k·y)^8 in q, p, or both. Powers of linear forms span all polynomials; with
+    three no
+    derivative vanishes, and they are cheap to evaluate.
     """
     forms = _forms(draw, len(groups) * len(VARIABLES), 1, 1600 * terms)
 
@@ -125,7 +123,6 @@ def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
 
 
 def _separated(name: str, seed: int, kinetic: _Term, terms: int, draw: Draw) -> Hamiltonian:
-    """T + Σ U, in one term if only one is requested."""
     if terms == 1:
         U = _polynomial(draw, "q", terms)
         return _problem(name, seed, [lambda q, p: kinetic(q, p) + U(q, p)], draw)

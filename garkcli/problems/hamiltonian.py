@@ -1,9 +1,6 @@
-"""Split Hamiltonians H = Σ_l H^{l}(q, p), differentiated by sympy and compiled to functions of
-numbers.
-
-The vector fields are V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q. The expressions are sympy objects
-built by ``garkcli.problems.builtin``; no text is ever evaluated. The first use of an expression
-imports sympy.
+"""Split Hamiltonians H = Σ_l H^{l}(q, p): V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q by sympy,
+compiled
+to functions of numbers. No text is ever evaluated.
 """
 
 from __future__ import annotations
@@ -20,7 +17,7 @@ from garkcli.problems.deferred import Deferred
 from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
 
 FLOAT_DIGITS = 15
-"""Most digits of floats; with more, numbers are the midpoints of balls."""
+"""With more digits than floats have, numbers are the midpoints of balls."""
 
 
 class Hamiltonian(Frozen):
@@ -31,10 +28,9 @@ class Hamiltonian(Frozen):
         variables: d names of positions; the momentum of ``x`` is ``px``.
         terms: H^{l}, sympy expressions in ``symbols``.
         initial: q(0), then p(0), shape (2d,).
-        t_end: the default final time of a convergence test, in units of time.
+        t_end: the default final time of a convergence test.
         invariants: first integrals besides H, pairs of name and expression.
-        is_generic: whether it sees every tree, so that no order above that of the method is
-            observed.
+        is_generic: whether it sees every tree, so that the observed order is that of the method.
         long_run: a step size and a time for long runs, if known.
 
     >>> from garkcli import hamiltonian
@@ -64,7 +60,6 @@ class Hamiltonian(Frozen):
 
     @property
     def layout(self) -> vectorfield.StateLayout:
-        """The groups q and p."""
         return vectorfield.StateLayout(vectorfield.GROUPS, self.dimension)
 
     @property
@@ -73,7 +68,6 @@ class Hamiltonian(Frozen):
         return (("energy", self.energy), *self.invariants)
 
     def unsplit(self) -> Hamiltonian:
-        """The problem in one term."""
         return replace(self, terms=summed(self.terms, lambda: self.energy))
 
     def __repr__(self) -> str:
@@ -93,7 +87,7 @@ def summed(terms: Vector, total: Callable[[], Expr]) -> Vector:
 def vector_field(
     problem: Hamiltonian, term: int, drives: vectorfield.Group
 ) -> vectorfield.VectorField:
-    """V^{l} for ``drives`` q, F^{l} for p."""
+    """Returns V^{l} for ``drives`` q, F^{l} for p."""
     terms, variables = problem.terms, problem.variables
     if not isinstance(terms, Deferred):
         return vectorfield.field_of_components(
@@ -106,7 +100,7 @@ def vector_field(
 
 @cache
 def _moved(H: Expr, variables: tuple[str, ...], drives: vectorfield.Group) -> Exprs:
-    """∂H/∂p or −∂H/∂q; cached, as problems share terms."""
+    """Returns ∂H/∂p or −∂H/∂q; cached, as problems share terms."""
     import sympy
 
     if drives == "q":

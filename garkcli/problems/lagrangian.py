@@ -1,5 +1,4 @@
-"""The Legendre transform of a Lagrangian L(q, q̇) in closed form: H(q, p) = p·v − L(q, v) with p =
-∂L/∂q̇(q, v).
+"""The Legendre transform H(q, p) = p·v − L(q, v), p = ∂L/∂q̇(q, v), in closed form.
 
 In the paper each term of a split Lagrangian has a velocity of its own: the stages Q̇^{l} belong to
 P^{l} = ∂L^{l}/∂q̇(Q^{l}, Q̇^{l}), and q̇ = Σ_l V^{l}. So the terms are transformed one by one to
@@ -23,16 +22,12 @@ from garkcli.problems.vectorfield import symbols
 
 
 class SolvedVelocities(Frozen):
-    """Velocities as functions of positions and momenta."""
-
     velocities: Substitution
     forms: Substitution
 
 
 class Equations(Frozen):
-    """p = ∂L/∂v for velocities that only depend on each other. ``v`` are the velocities,
-    ``gradient`` is ∂L/∂v, ``M`` ∂²L/∂v², ``start`` has the known values at the start.
-    """
+    """p = ∂L/∂v for coupled velocities: ``gradient`` is ∂L/∂v, ``M`` ∂²L/∂v²."""
 
     v: Vector
     p: Vector
@@ -58,7 +53,7 @@ class Equations(Frozen):
 
 
 def candidates(L: Expr, equations: Equations) -> list[SolvedVelocities]:
-    """Candidates for solutions of the equations, some of which are wrong."""
+    """Returns candidates for solutions of the equations, some of which are wrong."""
     if equations.are_linear:
         return [_by_elimination(equations)]
     solved = _by_form(L, equations)
@@ -71,7 +66,7 @@ def candidates(L: Expr, equations: Equations) -> list[SolvedVelocities]:
 
 
 def _by_elimination(equations: Equations) -> SolvedVelocities:
-    """The solution of linear equations: v = M⁻¹(p − ∂L/∂v at v = 0)."""
+    """Solves linear equations: v = M⁻¹(p − ∂L/∂v at v = 0)."""
     at_rest = dict.fromkeys(equations.v, 0)
     inverse, divisor = mass.inverse_of(equations.M, equations.v, equations.start)
     pairs = zip(equations.p, equations.gradient, strict=True)
@@ -86,9 +81,7 @@ def _times(matrix: ExprMatrix, vector: Vector) -> list[Expr]:
 
 
 class _QuadraticForm(Frozen):
-    """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v. ``a`` is the form as it occurs in
-    L, ``symbol`` its symbol in φ, ``slope`` φ'(a), ``at_rest`` a_0.
-    """
+    """L = φ(q, a) + b(q)·v with a = a_0(q) + ½ v·G(q)v; ``slope`` is φ'(a), ``at_rest`` a_0."""
 
     a: Expr
     symbol: Expr
@@ -99,8 +92,9 @@ class _QuadraticForm(Frozen):
 
 
 def _by_form(L: Expr, equations: Equations) -> list[SolvedVelocities]:
-    """The velocities if L depends on them by one quadratic form, and linearly otherwise. Then p − b
-    = φ'(a) G v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
+    """Solves for v if L depends on it by one quadratic form, and linearly otherwise. Then p − b =
+    φ'(a) G
+    v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
     """
     import sympy
 
@@ -120,7 +114,7 @@ def _by_form(L: Expr, equations: Equations) -> list[SolvedVelocities]:
 def _of_form(
     form: _QuadraticForm, v: Vector, shifted: Vector, raised: Vector
 ) -> list[SolvedVelocities]:
-    """The velocities G⁻¹(p − b)/φ'(a) for the possible a, from p − b and G⁻¹(p − b)."""
+    """Returns v = G⁻¹(p − b)/φ'(a) for the possible a, from p − b and G⁻¹(p − b)."""
     import sympy
 
     # a symbol for the square of the momenta keeps sympy from mixing it up with the rest
@@ -137,9 +131,7 @@ def _of_form(
 
 
 def _form(L: Expr, a: Expr, v: Vector) -> _QuadraticForm | None:
-    """L as a function of its part ``a`` and linear terms in the velocities; None if ``a`` is not a
-    quadratic form in all velocities, or L has other terms with them.
-    """
+    """Returns L as a function of its part ``a`` and linear terms in all velocities, or None."""
     import sympy
 
     moving = set(v)
@@ -168,7 +160,6 @@ _GOOD = 1e-40  # what enclosures have to be good to, to tell that two numbers ar
 
 
 def by_solving(lagrangian: mass.Lagrangian) -> Expr:
-    """The transform of a Lagrangian that is not quadratic; see ``legendre_transform``."""
     L, gradient, M = lagrangian.L, lagrangian.gradient, lagrangian.M
     variables = lagrangian.variables
     v, p = velocities(variables), symbols(variables, "p")
@@ -193,9 +184,7 @@ def by_solving(lagrangian: mass.Lagrangian) -> Expr:
 
 
 def _solution(L: Expr, equations: Equations, p: Vector) -> SolvedVelocities:
-    """The unique right solution. Raises NoLegendreTransform if none was found, or several fit the
-    start.
-    """
+    """Returns the right solution; NoLegendreTransform without any, or if several fit the start."""
     right: list[SolvedVelocities] = []
     for candidate in candidates(L, equations):
         right += [x for x in _smooth(candidate, p) if _is_right(x.velocities, equations)]
@@ -213,10 +202,9 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> SolvedVelocities:
 
 
 def _smooth(solved: SolvedVelocities, p: Vector) -> list[SolvedVelocities]:
-    """A candidate without |y|: replaced by those with y and −y if y is made of momenta only.
-
-    An analytic velocity that is right near the start is right as far as it is analytic. Empty if a
-    value is not real or has kinks at some positions.
+    """Replaces |y| by y and by −y if y is made of momenta only: an analytic velocity that is right
+    near
+    the start is right as far as it is analytic. Empty if a value is not real or has other kinks.
     """
     import sympy
 
@@ -290,15 +278,16 @@ def _are_one(x: arb, y: arb) -> bool:
 def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Expr:
     """Returns the Hamiltonian of a Lagrangian, sympy expressions both.
 
-    Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
-    + c, H = ½ (p − b)·M⁻¹(p − b) − c, where M, b and c may depend on the positions. Other equations
-    are solved for velocities one by one, or together if they occur in one quadratic form only, as
-    in √(1 − v·v); such solutions are tested at the start and at random places near it, with 90
-    digits.
+    With L = ½ v·Mv + b·v + c, H = ½ (p − b)·M⁻¹(p − b) − c exactly, where M, b and c may depend on
+    the
+    positions. Other equations are solved for velocities one by one, or together if they occur in
+    one
+    quadratic form only, as in √(1 − v·v); such solutions are tested at the start and at random
+    places
+    near it, with 90 digits.
 
-    ``start`` has q(0), and the known velocities or momenta at the start, which select one of
-    several solutions. Raises NoLegendreTransform if the mass matrix is singular, or no solution was
-    found.
+    ``start`` has q(0), and known velocities or momenta, which select one of several solutions;
+    NoLegendreTransform if the mass matrix is singular, or no solution was found.
 
     >>> from flint import arb
     >>> from sympy import cos
@@ -349,11 +338,10 @@ def _of_quadratic(lagrangian: mass.Lagrangian) -> Expr:
 def initial_momenta(
     lagrangians: Vector, hamiltonians: Vector, variables: tuple[str, ...], start: Place
 ) -> list[arb]:
-    """Returns the p(0) for which q̇(0) is the given velocity, shape (d,).
-
-    If one term has velocities, p = ∂L/∂q̇. If several have, each with its own, q̇ = Σ_l ∂H^{l}/∂p
-    is solved for p. ``hamiltonians`` are the transforms of ``lagrangians``. Raises
-    NoLegendreTransform if several terms have velocities, and not all are quadratic in them.
+    """Returns the p(0) for which q̇(0) is the given velocity, shape (d,): ∂L/∂q̇ for one term with
+    velocities, else the solution of q̇ = Σ_l ∂H^{l}/∂p. Raises NoLegendreTransform if several terms
+    have
+    velocities, and not all are quadratic in them.
     """
     v, p = velocities(variables), symbols(variables, "p")
     moving = [L for L in lagrangians if L.free_symbols & set(v)]
@@ -387,9 +375,7 @@ def initial_momenta(
 
 
 def missing_derivative(made: Expr, by: Vector, start: Place) -> tuple[str, str] | None:
-    """The fault of a derivative of an expression at the start, and the cure; None if all
-    derivatives exist. A derivative with |x| counts as missing, as it is not differentiable.
-    """
+    """Returns the fault of a derivative at the start and its cure, or None; |x| has kinks."""
     gradient = [made.diff(x) for x in by]
     for x, g in zip(by, gradient, strict=True):
         if not mass.is_smooth(g):

@@ -23,16 +23,14 @@ BITS = 300
 
 @cache
 def velocities(variables: tuple[str, ...]) -> Exprs:
-    """The sympy symbols of the velocities, shape (d,): that of ``x`` is ``vx``."""
+    """The symbols of the velocities, shape (d,): that of ``x`` is ``vx``."""
     import sympy
 
     return tuple(sympy.Symbol(f"v{x}", real=True) for x in variables)
 
 
 class Lagrangian(Frozen):
-    """A Lagrangian L of d velocities v with ``gradient`` ∂L/∂v, shape (d,), and ``M`` = ∂²L/∂v²,
-    shape (d, d), as sympy expressions. ``start`` has the known values at the start.
-    """
+    """L of d velocities v, ``gradient`` ∂L/∂v, shape (d,), ``M`` ∂²L/∂v², shape (d, d)."""
 
     L: Expr
     gradient: Vector
@@ -66,10 +64,8 @@ def coupled(M: ExprMatrix) -> list[list[int]]:
 
 
 def inverse_of(M: ExprMatrix, names: Vector, start: Place) -> tuple[list[list[Expr]], Expr]:
-    """The inverse of a symmetric matrix as a matrix and a divisor: adjugate and determinant, or
-    inverse and 1.
-
-    Raises ``NoLegendreTransform`` if the determinant is zero, or may be zero at the start.
+    """The inverse of a symmetric matrix as adjugate and determinant, or inverse and 1. Raises
+    NoLegendreTransform if the determinant is zero, or may be zero at the start.
     """
     import sympy
 
@@ -106,12 +102,9 @@ def _inverse_of_numbers(M: ExprMatrix) -> list[list[Expr]] | None:
 
 
 _Places: TypeAlias = tuple[int, ...]
-"""Indices of rows or columns, in order."""
 
 
 class _Minors:
-    """The minors of a symmetric matrix, cached."""
-
     def __init__(self, M: ExprMatrix) -> None:
         self._M = M
         self._every = tuple(range(len(M)))
@@ -170,7 +163,7 @@ def enclosed_at(expressions: Vector, names: Vector, numbers: Sequence[arb]) -> l
 
 
 def is_smooth(expression: Expr) -> bool:
-    """Whether a sympy expression is real and without |x|, which sympy makes of roots of squares."""
+    """Whether an expression is real and without |x|, which sympy makes of roots of squares."""
     import sympy
 
     return not expression.has(sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo)

@@ -1,7 +1,6 @@
-"""Problems H = T + V, split for the number of terms of a method.
-
-The kinetic energy is the first term; the others get one part of the potential each if the numbers
-fit, otherwise equal shares.
+"""Problems H = T + V, split into terms: the kinetic energy first, then a part of the potential each
+if
+the numbers fit, otherwise equal shares.
 """
 
 from __future__ import annotations
@@ -25,11 +24,7 @@ def half_square(_: Exprs, p: Exprs) -> Expr:
 
 
 class Mechanical(Frozen):
-    """H = T + Σ potentials(q).
-
-    Attributes:
-        invariants: first integrals besides H: names, and expressions in positions and momenta.
-    """
+    """H = T + Σ potentials(q); ``invariants`` are first integrals besides H."""
 
     variables: tuple[str, ...]
     potentials: Callable[..., Exprs]
@@ -61,7 +56,6 @@ class Mechanical(Frozen):
         return [(name, of(*q, *p)) for name, of in self.invariants]
 
     def _split(self, terms: int) -> Exprs:
-        """T, and the parts of V or equal shares of it."""
         import sympy
 
         q, p = symbols(self.variables, "q"), symbols(self.variables, "p")
@@ -77,11 +71,6 @@ class Mechanical(Frozen):
 
 
 def numbers(text: str) -> tuple[fmpq, ...]:
-    """Rational numbers separated by blanks.
-
-    >>> numbers("1 -1/2")
-    (1, -1/2)
-    """
     return tuple(map(fmpq, text.split()))
 
 
@@ -120,7 +109,6 @@ def kepler_potential(x: Expr, y: Expr) -> Exprs:
 
 
 def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Expr:
-    """The angular momentum of a mass in the plane, about the origin."""
     return x * py - y * px
 
 

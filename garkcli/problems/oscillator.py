@@ -1,8 +1,8 @@
 """The harmonic oscillator q̈ = −ω²q, split among the vector fields of a tableau.
 
-H = ½p² + ½ω²q² is divided into one Hamiltonian H^{l} = ½ k_l p² + ½ ω² v_l q² for each term of the
-split, with Σ k_l = Σ v_l = 1. A colour drives the whole field of its term, or its position or
-momentum part only.
+H = ½p² + ½ω²q² is the sum of H^{l} = ½ k_l p² + ½ ω² v_l q², with Σ k_l = Σ v_l = 1. A colour
+drives
+the whole field of its term, or its position or momentum part only.
 """
 
 from __future__ import annotations
@@ -30,14 +30,12 @@ def _is_pair(given: object) -> bool:
 
 
 class Oscillator(Frozen):
-    """q̇ = p, ṗ = −ω²q, divided among the terms of a split.
-
-    Numbers of any kind are accepted.
+    """q̇ = p, ṗ = −ω²q, divided among the terms of a split, with numbers of any kind.
 
     Attributes:
         omega: ω > 0, in radians per unit of time.
-        shares: ``(k_l, v_l)`` for each term, its shares of the kinetic and of the potential energy;
-            both columns sum to 1.
+        shares: ``(k_l, v_l)`` for each term, of kinetic and potential energy; both columns sum to
+            1.
 
     Errors:
         UsageProblem: ω is not positive, or a column does not sum to 1.
@@ -109,16 +107,13 @@ class Oscillator(Frozen):
 
 
 def terms_of(tableau: Tableau) -> int:
-    """The number of terms of the split that suits ``tableau``."""
     return 1 + max(colour.term for colour in tableau.colours)
 
 
 def parse_shares(text: str, terms: int) -> Shares:
-    """Parses ``kinetic:potential`` for each term, separated by commas.
-
-    Raises:
-        UsageProblem: a wrong number of pairs, numbers that are not rational, or a column that does
-            not sum to 1.
+    """Parses ``kinetic:potential`` for each term, separated by commas. Raises UsageProblem for a
+    wrong
+    number of pairs, numbers that are not rational, or a column that does not sum to 1.
 
     >>> parse_shares("1:0, 0:1/2, 0:1/2", 3)
     ((1, 0), (0, 1/2), (0, 1/2))
@@ -139,11 +134,7 @@ def parse_shares(text: str, terms: int) -> Shares:
 
 
 def example_shares(terms: int) -> str:
-    """The default split in the notation of ``parse_shares``.
-
-    >>> example_shares(2)
-    '1:0,0:1'
-    """
+    """The default split in the notation of ``parse_shares``."""
     return ",".join(f"{k}:{v}" for k, v in Oscillator.default(terms, ONE).shares)
 
 
@@ -164,13 +155,9 @@ def _share(text: str) -> fmpq:
 
 
 def check_structure(tableau: Tableau, problem: Oscillator) -> None:
-    """Checks that the vector fields of the split suit the colours and edges of ``tableau``.
-
-    A share needs a colour that drives it, and if L^l L^m ≠ 0 the stages of colour l have to see
-    colour m.
-
-    Raises:
-        UsageProblem: they do not.
+    """Raises UsageProblem unless each share has a colour that drives it, and the stages of colour l
+    see
+    colour m if L^l L^m ≠ 0.
     """
     terms = terms_of(tableau)
     if len(problem.shares) != terms:
@@ -190,7 +177,7 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
 
 
 def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
-    """The error if colour l depends on what colour m drives, and its stages do not see m."""
+    """Returns the error if colour l depends on what m drives, and its stages do not see m."""
     one = tableau.colours[l].name
     other = tableau.colours[m].name
     example = example_shares(terms_of(tableau))

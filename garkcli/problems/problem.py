@@ -70,20 +70,12 @@ def texts_of(problem: Problem) -> Any:
 
 
 def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:
-    """The conserved quantities, the energy first if there is one, as a function of the unknowns: in
-    floats, or in balls for more ``digits``, with rational constants enclosed at the current
-    precision.
-    """
+    """Returns the conserved quantities as a function, in balls beyond ``FLOAT_DIGITS``."""
     return function(conserved(problem), unknowns(problem), digits > FLOAT_DIGITS)
 
 
 def merge_terms(problem: Problem, terms: int) -> Problem:
-    """The problem in fewer terms, with the remaining ones summed in the last.
-
-    >>> from garkcli.problems.builtin import hamiltonian
-    >>> [str(x) for x in merge_terms(hamiltonian("pendulum", 2), 1).terms]
-    ['px**2/2 - cos(x) + 1']
-    """
+    """Returns the problem with the last terms summed."""
     if len(problem.terms) == terms:
         return problem
     last = terms - 1

@@ -1,7 +1,6 @@
 """Right-hand sides ẏ = Σ_l f^{l}(t, y), one for each colour: problems that need not be Hamiltonian.
-
-The expressions are sympy objects built by ``garkcli.problems.builtin`` or translated node by node;
-no text is ever evaluated.
+No
+text is ever evaluated.
 """
 
 from __future__ import annotations
@@ -34,10 +33,9 @@ class RightHandSide(Frozen):
         t_end: the default final time of a convergence test.
         invariants: first integrals, pairs of name and expression in the variables.
         exact: y(t), d expressions in time, if known.
-        is_generic: whether it sees every tree, so that no order above that of the method is
-            observed.
+        is_generic: whether it sees every tree, so that the observed order is that of the method.
         long_run: a step size and a time for long runs, if known.
-        stiffness: the value of its stiffness parameter, if it has one.
+        stiffness: the value of its stiffness parameter, if any.
     """
 
     name: str
@@ -53,12 +51,10 @@ class RightHandSide(Frozen):
 
     @property
     def dimension(self) -> int:
-        """The number d of unknowns."""
         return len(self.variables)
 
     @property
     def has_time(self) -> bool:
-        """Whether a right-hand side depends on t."""
         return ask(self.terms, "time", self._has_time)
 
     def _has_time(self) -> bool:
@@ -70,13 +66,11 @@ class RightHandSide(Frozen):
 
     @property
     def layout(self) -> vectorfield.StateLayout:
-        """y, and t if it occurs."""
         groups: tuple[vectorfield.Group, ...] = ("y", vectorfield.TIME) if self.has_time else ("y",)
         return vectorfield.StateLayout(groups, self.dimension)
 
     @property
     def quantities(self) -> Invariants:
-        """The conserved quantities: pairs of name and expression."""
         return self.invariants
 
     @property
@@ -85,7 +79,6 @@ class RightHandSide(Frozen):
         return tuple(map(sum, zip(*self.terms, strict=True)))
 
     def unsplit(self) -> RightHandSide:
-        """Returns the problem in one term."""
         return replace(self, terms=summed(self.terms, lambda: self.total))
 
     def __repr__(self) -> str:

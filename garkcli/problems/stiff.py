@@ -1,7 +1,7 @@
 """Problems that are not Hamiltonian, with a stiffness to choose.
 
-Right-hand sides are split into parts, the stiff one last. The parts become the terms of a method in
-this order; for more terms than parts, the last ones have equal shares of the last part.
+Right-hand sides are split into parts, the stiff one last, which are the terms of a method; for more
+terms, the last ones have equal shares of the last part.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import TIME, symbols
 
 CELLS = 8
-"""Number of cells of the reaction–diffusion line."""
 
 
 def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
     """ẏ = φ'(t) − λ (y − φ(t)) with φ(t) = cos t and λ the stiffness; y = φ(t). Source: Prothero
-    and Robinson, Math. Comp. 28 (1974), 145–162.
+    and
+    Robinson, Math. Comp. 28 (1974), 145–162.
     """
     variables = ("y",)
 
@@ -50,10 +50,11 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
 
 
 def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
-    """ẏ = z, ż = ((1 − y²) z − y)/ε with 1/ε the stiffness, from a point of the smooth solution.
-
-    Source: Hairer and Wanner, Solving Ordinary Differential Equations II, section VI.3; the start
-    is the asymptotic expansion of the smooth solution at y = 2 up to ε³.
+    """ẏ = z, ż = ((1 − y²) z − y)/ε with 1/ε the stiffness. Source: Hairer and Wanner, Solving
+    Ordinary
+    Differential Equations II, section VI.3; the start is the expansion of the smooth solution at y
+    = 2
+    up to ε³.
     """
     variables = ("y", "z")
     small = 1 / stiffness
@@ -83,10 +84,10 @@ _SMOOTH_START = (fmpq(10, 81), fmpq(-292, 2187), fmpq(15266, 59049))
 
 
 def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
-    """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a closed line of cells, with the
-    stiffness k, and r_i growing along the line.
-
-    It starts near the limit of fast diffusion: 1/4 everywhere, plus w/k, which balances the
+    """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a closed line of cells, with k
+    the
+    stiffness, r_i growing. It starts near the limit of fast diffusion: at 1/4 + w/k, which balances
+    the
     reaction.
     """
     cells = range(CELLS)
@@ -129,10 +130,9 @@ def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
 
 
 def robertson(terms: int, stiffness: fmpq) -> RightHandSide:
-    """Three reactions of very different speeds, the fast ones times the stiffness.
-
-    Source: Robertson 1966; Hairer and Wanner, Solving Ordinary Differential Equations II,
-    equation (IV.1.4).
+    """Three reactions of very different speeds, the fast ones times the stiffness. Source:
+    Robertson 1966;
+    Hairer and Wanner, Solving Ordinary Differential Equations II, equation (IV.1.4).
     """
     variables = ("y1", "y2", "y3")
 
@@ -163,9 +163,7 @@ def _mean(numbers: Sequence[fmpq]) -> fmpq:
 
 
 def shared(name: str, parts: Callable[[], Sequence[Exprs]], terms: int) -> Deferred:
-    """The parts of the problem called ``name`` in ``terms`` terms: with fewer parts the last one in
-    equal shares, with more the last ones added up.
-    """
+    """The parts in ``terms`` terms: the last one in equal shares, or the last ones added up."""
     whole = Deferred(f"{name} terms=1", lambda: _shared(parts(), 1), 1)
     return Deferred(f"{name} terms={terms}", lambda: _shared(parts(), terms), terms, total=whole)
 

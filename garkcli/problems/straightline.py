@@ -1,7 +1,7 @@
-"""Straight-line Python for sympy expressions, evaluated in floats or in balls of any precision.
+"""Straight-line Python for sympy expressions, in floats or in balls of any precision.
 
-An expression is written as text node by node, common subexpressions once. The names in the text are
-made here (arguments, temporaries, constants), so that no text of a file is part of a program.
+An expression is written node by node, common subexpressions once. All names in the text are made
+here, so that no text of a file is part of a program.
 """
 
 from __future__ import annotations
@@ -30,7 +30,6 @@ FLOATS: Mapping[str, Any] = {
     "inf": math.inf,
     "isfinite": math.isfinite,
 }
-"""The names in programs for floats."""
 BALLS: Mapping[str, Any] = {
     **{f"ball_{name}": getattr(arb, name) for name in _NAMES},
     "ball_power": pow,
@@ -41,15 +40,11 @@ BALLS: Mapping[str, Any] = {
 
 
 class StraightLineCode(Frozen):
-    """Straight-line code for several expressions of the same arguments.
-
-    The texts have ``{a0}``, ``{a1}``, … for the arguments, ``{t0}``, … for the temporaries, and
-    ``{k0}``, … for the constants.
-
-    Attributes:
-        temporaries: the texts of the temporaries, each in terms of those before.
-        results: the texts of the expressions; "0" for those that are zero.
-        constants: rational numbers, and None for π.
+    """Straight-line code for several expressions of the same arguments: texts with ``{a0}``, … for
+    these,
+    ``{t0}``, … for temporaries in terms of earlier ones, and ``{k0}``, … for constants, rational or
+    None
+    for π.
     """
 
     arguments: int
@@ -88,7 +83,6 @@ class StraightLineCode(Frozen):
 
 
 def _is_one_name(text: str) -> bool:
-    """Whether a text is zero, or a single argument, temporary or constant."""
     if text == "0":
         return True
     is_enclosed = text.startswith("{") and text.endswith("}")
@@ -112,9 +106,7 @@ def constant_name(x: fmpq) -> str:
 
 @cache
 def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> StraightLineCode:
-    """The code of sympy expressions in the symbols ``arguments``. Raises TypeError if an expression
-    has a function outside of ``FUNCTIONS``, or another symbol.
-    """
+    """Raises TypeError for a function outside of ``FUNCTIONS`` or another symbol."""
     if not (isinstance(expressions, Deferred) and isinstance(arguments, Deferred)):
         return _written(expressions, arguments, is_for_balls)
     kind = "balls" if is_for_balls else "floats"
@@ -159,8 +151,6 @@ def _written(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Stra
 
 
 class _Writer:
-    """Writes expressions and collects their constants."""
-
     def __init__(self, symbols: dict[Expr, str], is_for_balls: bool) -> None:
         self.symbols = symbols
         self.constants: dict[fmpq | None, str] = {}
@@ -175,7 +165,6 @@ class _Writer:
         return f"{{t{len(self.temporaries) - 1}}}"
 
     def text(self, x: Expr) -> str:
-        """The text of ``x``, in parentheses or as a temporary unless it is a name."""
         text = self._text(x)
         if len(text) < _LONG:
             return text
@@ -279,9 +268,7 @@ def _is_negative(exponent: Expr) -> bool:
 def function(
     expressions: Vector, arguments: Vector, is_for_balls: bool
 ) -> Callable[..., list[Any]]:
-    """Compiles the expressions to one function of numbers that returns a list. For balls the
-    rational constants are enclosed once, at the current precision.
-    """
+    """Compiles expressions to a function; its constants are enclosed at the current precision."""
     code = code_of(expressions, arguments, is_for_balls)
     names = [f"a{i}" for i in range(len(arguments))]
     lines, results = code.lines(names, "r")
@@ -295,7 +282,6 @@ def function(
 
 
 def enclosed(codes: Sequence[StraightLineCode]) -> dict[str, arb]:
-    """The rational constants of programs for balls, at the current precision."""
     balls = {}
     for code in codes:
         for x in code.constants:

@@ -1,7 +1,5 @@
-"""Translates formulas to sympy expressions node by node: text from a file never reaches sympy.
-
-A translated expression is real and differentiable: its functions are those of
-``garkcli.exact.formula``.
+"""Translates formulas to sympy expressions node by node: text from a file never reaches sympy. The
+results are real and differentiable.
 """
 
 from __future__ import annotations
@@ -23,20 +21,13 @@ MAX_SIZE = 100_000
 
 
 class Translator(Frozen):
-    """Makes sympy expressions of formulas. ``symbols`` has the value of each name: the symbol of a
-    variable, or the expression of a parameter; ``values`` those of the parameters, for exponents.
-    """
+    """Makes sympy expressions of formulas; ``symbols`` has those of names, ``values`` exponents."""
 
     symbols: Mapping[str, Any]
     values: Mapping[str, Value]
 
     def check_constants(self, expression: nodes.Expression) -> None:
-        """Refuses constants beyond the limits before sympy computes with them.
-
-        Raises:
-            UndefinedValue: a part without variables has no value.
-            LimitExceeded: a number is too large or too small.
-        """
+        """Raises UndefinedValue or LimitExceeded for constants before sympy computes with them."""
         if all(map(self._is_constant, names_in(expression))):
             value_of(expression, self.values)
             return
@@ -56,12 +47,7 @@ class Translator(Frozen):
                 raise UndefinedValue(message, cure, name.start, name.end, code="not-real")
 
     def translate(self, expression: nodes.Expression) -> Expr:
-        """The sympy expression of a formula whose names are all known.
-
-        Raises:
-            UndefinedValue: it has no real value, or contains |x|, which has no derivative.
-            LimitExceeded: a number or an exponent in it is too large.
-        """
+        """Raises UndefinedValue unless it is real, or for |x|; LimitExceeded for large numbers."""
         import sympy
 
         self.check_constants(expression)
@@ -172,10 +158,9 @@ def _bits(x: Expr) -> int:
 
 
 def size_of_derivatives(expression: Expr) -> int:
-    """An estimate of the operations in all expanded second derivatives of a sympy expression.
-
-    Nothing is differentiated. A product of n factors has n (n − 1) products in its second
-    derivative, so the length can grow like the cube of that of the text.
+    """Returns an estimate of the operations in all second derivatives, without differentiating. A
+    product
+    of n factors has n (n − 1) products there, so the length can grow like the cube of the text.
 
     >>> from sympy.abc import x, y
     >>> size_of_derivatives(x + y), size_of_derivatives(x * y)
@@ -224,9 +209,7 @@ def _sizes_of(x: Expr, known: dict[Expr, _Sizes]) -> _Sizes:
 
 
 def _sizes_of_product(n: int, factors: list[_Sizes]) -> _Sizes:
-    """The sizes of a product with n symbols: its second derivatives have a term for each pair of
-    differentiated factors, or one factor twice.
-    """
+    """The second derivatives of a product differentiate each pair of factors, or one twice."""
     size = 1 + sum(y.own for y in factors)
     symbols = sum(y.symbols for y in factors)
     slopes = sum(y.first for y in factors)

@@ -1,8 +1,4 @@
-"""Vector fields of groups of numbers: positions, momenta, all unknowns, or time.
-
-The expressions are sympy objects; no text is ever evaluated. sympy is imported when the first field
-is derived.
-"""
+"""Vector fields of positions, momenta, all unknowns, or time. No text is ever evaluated."""
 
 from __future__ import annotations
 
@@ -22,13 +18,10 @@ Group: TypeAlias = Literal["q", "p", "y", "t"]
 """Positions, momenta, all unknowns of a problem that is not Hamiltonian, or time."""
 GROUPS: tuple[Group, Group] = ("q", "p")
 TIME: Final = "t"
-"""The name of time in formulas, and of its group."""
 
 
 class StateLayout(Frozen):
-    """The numbers of a state, group by group, time last. ``dimension`` d is the size of every group
-    except time, which has size 1.
-    """
+    """The groups of a state, time last with size 1, the others with size ``dimension`` d."""
 
     groups: tuple[Group, ...]
     dimension: int
@@ -41,12 +34,10 @@ class StateLayout(Frozen):
 
     @property
     def total(self) -> int:
-        """The number of numbers in a state, with time."""
         return sum(map(self.size, self.groups))
 
     @property
     def unknowns(self) -> int:
-        """The number of numbers in a state, without time."""
         return sum(self.dimension for group in self.groups if group != TIME)
 
 
@@ -65,11 +56,7 @@ def _names(variables: tuple[str, ...], group: Group) -> tuple[str, ...]:
 
 
 class VectorField(Frozen):
-    """V^{l}, F^{l} or f^{l}, with its Jacobians.
-
-    ``components`` are d sympy expressions, one for time; ``depends`` are the groups that occur in
-    it, in order, which are the arguments of its functions.
-    """
+    """V^{l}, F^{l} or f^{l}: d ``components``, one for time; ``depends`` has the groups in them."""
 
     components: Vector
     variables: tuple[str, ...]
@@ -105,7 +92,7 @@ class VectorField(Frozen):
         return largest
 
     def derivative(self, group: Group) -> tuple[Exprs, ...]:
-        """The Jacobian by a group, sympy expressions, shape (d, size of the group)."""
+        """The Jacobian by a group, shape (d, size of the group)."""
         return _derivative(self, group)
 
     def slopes(self, by: Sequence[tuple[Group, int]]) -> Vector:
@@ -148,7 +135,6 @@ def occurring(
 def field_of_components(
     components: Vector, variables: tuple[str, ...], groups: Sequence[Group]
 ) -> VectorField:
-    """The field with these components, depending on those of ``groups`` that occur."""
     depends = ask(components, "depends", lambda: list(occurring(components, variables, groups)))
     return VectorField(components, variables, tuple(depends))
 
@@ -175,9 +161,7 @@ def is_constant(x: Expr) -> bool:
 
 
 def _is_simple(x: Expr) -> bool:
-    """Whether sympy simplifies an expression quickly: it expands powers, and sin(2a) as 2 sin(a)
-    cos(a) as long as a has a factor 2.
-    """
+    """Whether sympy simplifies x quickly: it expands powers, and sin(2a) as 2 sin(a) cos(a)."""
     import sympy
 
     numbers = x.atoms(sympy.Rational)

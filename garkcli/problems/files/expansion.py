@@ -10,19 +10,11 @@ from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, Vector
 
 MAX_TERMS = 3_000
-"""The largest number of terms of an equation for a velocity, over its common denominator."""
+"""Most terms of an equation for a velocity, over its common denominator."""
 
 
 def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
-    """Returns the first velocity whose equation p = ∂L/∂v is too long to be solved, or None.
-
-    Equations linear in the velocities are solved by elimination and are never too long.
-
-    >>> from sympy.abc import u, x
-    >>> too_long((1 + x + u**2) ** 4, [u])
-    >>> too_long((1 + x + u + u**2) ** 64, [u])
-    u
-    """
+    """Returns the first velocity, not linear, whose equation p = ∂L/∂v is too long, or None."""
     for v in velocities:
         slope = lagrangian.diff(v)
         is_linear = slope.diff(v).free_symbols.isdisjoint(velocities)
@@ -32,7 +24,7 @@ def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
 
 
 def _undone(f: Expr, v: Expr) -> Expr:
-    """Returns what remains of f(v) = c after inverting the functions that only hold v."""
+    """Returns the rest of f(v) = c after inverting the functions that only hold v."""
     while f != v:
         if f.is_Add or f.is_Mul:
             is_sum = f.is_Add
@@ -65,9 +57,7 @@ Factors: TypeAlias = Mapping[Expr, Size]
 
 
 class _Fraction(Frozen):
-    """The size of an expression written as one fraction: the terms of the multiplied-out numerator,
-    the factors of the denominator, and the most terms within functions and roots.
-    """
+    """The terms of a multiplied-out numerator, the denominator, and the most terms in functions."""
 
     terms: int
     factors: Factors
@@ -90,7 +80,6 @@ def _fraction(f: Expr) -> _Fraction:
 
 
 def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
-    """Returns the size of a sum over the least common denominator."""
     common: dict[Expr, Size] = {}
     for part in parts:
         for base, (size, power) in part.factors.items():

@@ -22,15 +22,12 @@ from garkcli.problems.files.keys import ProblemText
 from garkcli.problems.translate import MAX_SIZE, Translator, size_of_derivatives
 
 BITS = 320
-"""The precision of the values of formulas."""
 PLACES = 60
-"""The number of decimals of an irrational initial value."""
+"""Decimals of an irrational initial value."""
 
 
 class FormulaReader(Mutable):
-    """Reads the formulas of one file. ``given`` has values for parameters in place of those in the
-    file, ``values`` the parameters read so far, ``made`` their sympy expressions.
-    """
+    """Reads the formulas of a file; ``given`` has values for parameters in place of those there."""
 
     source: Source
     given: Mapping[str, fmpq] = field(default_factory=dict)
@@ -41,10 +38,9 @@ class FormulaReader(Mutable):
     def parsed(
         self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
-        """Returns the expression of a text; None after a fault.
-
-        ``names`` maps names to the cure if they are not allowed here, or to "" if they are; None
-        allows all. Parameters are always allowed. ``noun`` is the kind of name that is expected.
+        """Returns the expression of a text; None after a fault. ``names`` maps names to "", or to
+        the cure if
+        they are not allowed here; None allows all, and parameters always are.
         """
         if is_null(node):
             message = f"{where}: nothing is here"
@@ -130,13 +126,7 @@ def bad_name(name: str) -> str:
 
 
 def nearby(value: Value) -> fmpq:
-    """Returns the simplest fraction within 10^(−``PLACES``) of a number, which is the number itself
-    if it is a short fraction.
-
-    >>> with ctx.workprec(BITS):
-    ...     nearby(arb(1) / 3)
-    1/3
-    """
+    """Returns the simplest fraction within 10^(−``PLACES``) of a number."""
     if isinstance(value, fmpq):
         return value
     middle, reach = midpoint(value), fmpq(1, 10**PLACES)
@@ -161,12 +151,10 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
 
 _SHOWN = 8  # most missing names that are reported
 MAX_BITS = 4_000
-"""The longest numerator or denominator: its cube stays below the 4300 digits that Python prints."""
+"""The cube of a longest numerator stays below the 4300 digits that Python prints."""
 
 
 class FormulaTerm(Frozen):
-    """A formula of the file and its sympy expression."""
-
     node: Node
     where: str
     expression: Expression
@@ -174,7 +162,7 @@ class FormulaTerm(Frozen):
 
 
 class Maker:
-    """Makes the problem of one file; faults are reported to its source."""
+    """Makes the problem of a file; faults go to its source."""
 
     def __init__(self, formulas: FormulaReader, text: ProblemText, symbols: Iterable[Any]) -> None:
         self.source = formulas.source
@@ -185,9 +173,7 @@ class Maker:
     def terms(
         self, items: Iterable[tuple[Node, str]], names: Mapping[str, str], noun: str
     ) -> list[FormulaTerm]:
-        """Returns the formulas without faults; none if the variables have faults. ``names`` and
-        ``noun`` are those of ``Formulas.parsed``.
-        """
+        """Returns the formulas without faults; none if the variables have faults."""
         known = names if self.text.are_named else None
         allowed = [name for name, cure in (known or {}).items() if not cure]
         translator = self.formulas.translator({name: self.symbols[name] for name in allowed})
@@ -230,7 +216,7 @@ class Maker:
     def refuse_missing(
         self, node: Node, where: str, needed: Iterable[object], given: Container[str], example: str
     ) -> None:
-        """Reports names without a value. ``example`` shows one, with ``{}`` for a name."""
+        """Reports names without a value; ``example`` has ``{}`` for a name."""
         missing = [name for name in map(str, needed) if name not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
@@ -240,7 +226,6 @@ class Maker:
             )
 
     def refuse_constants(self, invariants: Sequence[FormulaTerm], noun: str) -> None:
-        """Reports first integrals that do not depend on any variable."""
         from garkcli.problems.vectorfield import is_constant
 
         for invariant in invariants:
@@ -265,7 +250,6 @@ class Maker:
                 self.source.fault(term.node, message, cure, code="no-formula")
 
     def check_size(self, terms: Sequence[FormulaTerm]) -> None:
-        """Reports terms whose derivatives are too long."""
         sizes = [size_of_derivatives(x.made) for x in terms]
         if sum(sizes) > MAX_SIZE:
             largest = terms[sizes.index(max(sizes))]

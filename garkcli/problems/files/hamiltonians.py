@@ -36,7 +36,7 @@ class HamiltonianMaker(texts.Maker):
         super().__init__(formulas, text, (*self.q, *self.p, *self.v))
 
     def problem(self) -> Hamiltonian:
-        """Returns the problem. Raises MethodFileError with all faults found."""
+        """Raises MethodFileError with all faults."""
         from garkcli.problems.hamiltonian import Hamiltonian
 
         start = self._initial()

@@ -1,7 +1,4 @@
-"""The keys of problem files, and their JSON Schema (draft-07), for editors.
-
-The schema constrains single values; the names in formulas are left to the loader.
-"""
+"""The keys of problem files, and their JSON Schema (draft-07); the loader judges formulas."""
 
 from __future__ import annotations
 
@@ -19,20 +16,13 @@ from garkcli.problems.vectorfield import TIME
 
 DEFAULT_T_END = fmpq(2)
 STIFFNESS = "stiffness"
-"""The parameter that ``--stiffness`` sets."""
 Side: TypeAlias = tuple[tuple[str, Node, str], ...]
 """The right-hand sides of a term: variable, formula, and its name in messages."""
 Sides: TypeAlias = tuple[Side, ...]
 
 
 class ProblemText(Frozen):
-    """The content of a problem file, with formulas as nodes.
-
-    ``are_named`` says that ``variables`` are complete; if not, other names are not judged. ``form``
-    is hamiltonian, lagrangian or rhs; ``terms`` has one formula for each term, none for rhs;
-    ``sides`` the right-hand sides of each term by variables, none for other forms. ``initial`` and
-    ``exact`` are mappings of initial values and the exact solution, if given.
-    """
+    """The content of a problem file, with formulas as nodes; ``sides`` is for ``rhs`` alone."""
 
     name: str
     variables: tuple[str, ...]
@@ -47,7 +37,6 @@ class ProblemText(Frozen):
 
 
 FORMS = ("hamiltonian", "lagrangian", "rhs")
-"""The keys of which a file has exactly one."""
 MAX_VARIABLES = 64
 MAX_TERMS = 64
 MAX_INVARIANTS = 10
@@ -150,11 +139,10 @@ FORM = g.Ways(
 )
 SOLUTION = g.KeyRelation("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
 START = g.Ways("", ("initial", "exact"), "initial missing", is_one=False)
-"""The start of a problem: its initial values, or those of its solution."""
 
 
 def problem_file_schema() -> g.Schema:
-    """The JSON Schema of problem files, as plain data, with the meaning of each key.
+    """Returns the JSON Schema of problem files, with the meaning of each key.
 
     >>> problem_file_schema()["title"]
     'gark problem file'

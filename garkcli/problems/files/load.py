@@ -29,15 +29,15 @@ _ANOTHER = "choose another name"
 
 
 def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
-    """Reads a problem file, or standard input for ``-``. ``stiffness`` is the value of its
-    parameter of this name. Raises MethodFileError with all faults of the file.
+    """Reads a problem file, or standard input for ``-``, with the ``stiffness`` given. Raises
+    MethodFileError with all faults.
     """
     with doing(f"reading {path}"):
         return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
 
 
 def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = None) -> Problem:
-    """Reads the text of a problem file; see ``load_problem``.
+    """Reads the text of a problem file as ``load_problem`` does.
 
     >>> text = "{variables: [x], hamiltonian: px**2/2 - cos(x), initial: {x: 1, px: 0}}"
     >>> loads_problem(text).energy
@@ -54,18 +54,14 @@ def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = No
 
 
 class _Variables(Frozen):
-    """The variables of a file. ``places`` has the nodes of well-formed names in the order of the
-    file; ``form`` is that of the problem, a Hamiltonian by default.
-    """
+    """The variables; ``places`` has well-formed names in the order of the file."""
 
     source: Source
     places: Entries
     form: str
 
     def refuse_clashes(self) -> None:
-        """Reports variables that are momenta or velocities of others, or whose own would have the
-        name of a function or constant: the momentum of ``i`` would be π.
-        """
+        """Reports variables derived from others, or with a momentum such as pi, that of i."""
         derived = self._derived()
         for name, node in self.places.items():
             if self.form != "rhs" and f"p{name}" in RESERVED:
@@ -77,7 +73,6 @@ class _Variables(Frozen):
                 self.source.fault(node, message, _ANOTHER, code="name-taken")
 
     def refuse_taken(self, parameters: Node | None) -> None:
-        """Reports parameters with the name of a variable, a momentum or a velocity."""
         taken = self._derived() | dict.fromkeys(self.places, "a variable")
         for key, _ in parameters.value if isinstance(parameters, MappingNode) else ():
             if isinstance(key, ScalarNode) and key.value in taken:
@@ -102,9 +97,7 @@ class _Variables(Frozen):
 
 
 class _ProblemReader:
-    """Reads a file as far as only its own names are needed. ``formulas`` has its parameters once it
-    is read.
-    """
+    """Reads a file as far as only its own names are needed."""
 
     def __init__(self, source: Source, stiffness: fmpq | None) -> None:
         self.source, self.stiffness = source, stiffness
@@ -218,9 +211,7 @@ class _ProblemReader:
 
 
 def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> keys.Side:
-    """Returns the right-hand sides of a term: variables, formulas, and their names in messages. A
-    single formula belongs to the only variable. Without ``names`` all are allowed.
-    """
+    """Returns the right-hand sides of a term; a single formula belongs to the only variable."""
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)
     if not isinstance(node, MappingNode):

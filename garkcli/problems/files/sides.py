@@ -23,8 +23,6 @@ Start: TypeAlias = dict[str, fmpq]
 
 
 class SidesMaker(Maker):
-    """Makes the problem of a file with ``rhs``."""
-
     def __init__(self, formulas: FormulaReader, text: ProblemText) -> None:
         self.y = symbols(text.variables, "y")
         (self.t,) = symbols(text.variables, TIME)
@@ -33,7 +31,7 @@ class SidesMaker(Maker):
         super().__init__(formulas, text, (*self.y, self.t))
 
     def problem(self) -> RightHandSide:
-        """Returns the problem. Raises MethodFileError with all faults found."""
+        """Raises MethodFileError with all faults."""
         from garkcli.problems.righthandside import RightHandSide
 
         exact = self._exact()
@@ -114,7 +112,6 @@ class SidesMaker(Maker):
         return values
 
     def _refuse_other_start(self, exact: ByName, started: Start, values: Start) -> None:
-        """Reports an exact solution that does not start at the initial values."""
         for name, term in exact.items():
             own, given = started[name], values[name]
             if own != given:
