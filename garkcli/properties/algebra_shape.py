@@ -27,13 +27,11 @@ from garkcli.tableau.tableau import Tableau
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549)
-"""Primes to try; most have a root of a node polynomial, and few hide an entry."""
+"""Most of them have a root of a node polynomial, and few hide an entry."""
 
 
 class _Space(Frozen):
-    """The stages of one space. ``M`` is the node polynomial, ``left`` the monic polynomial of the
-    nodes without a zero row or column, ``kept`` the indices of these stages.
-    """
+    """A stage space; ``kept`` have no zero row or column, the roots of ``left`` are their nodes."""
 
     M: fmpq_poly
     left: fmpq_poly
@@ -41,8 +39,8 @@ class _Space(Frozen):
 
 
 def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
-    """The shape of some colours if all stages without a zero row or column are solved together;
-    None if that is not proved.
+    """Returns the shape if all stages without a zero row or column are solved together; None if
+    unproved.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -152,7 +150,7 @@ def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int
 
 
 def _root(left: dict[int, nmod_poly], p: int) -> tuple[int | None, int]:
-    """A stage space and a root modulo p of its remaining node polynomial; None if there is none."""
+    """A stage space and a root modulo p of its remaining node polynomial, or None."""
     for k, q in left.items():
         for root, _ in q.roots():
             return k, int(root) % p

@@ -12,12 +12,7 @@ from garkcli.properties.verdict import KINDS, Kind
 
 
 class Definition(Frozen):
-    """The definition of a claim.
-
-    Attributes:
-        text: the definition, in whole sentences.
-        meaning: the methods for which it is defined; empty for all.
-    """
+    """A claim's definition in whole sentences; ``meaning`` says for which methods, "" for all."""
 
     key: str
     text: str
@@ -27,7 +22,6 @@ class Definition(Frozen):
 
     @property
     def values(self) -> str:
-        """The notation of its values."""
         return _VALUES[self.kind]
 
 
@@ -300,7 +294,7 @@ def every_definition() -> list[Definition]:
 
 
 def definition(key: str) -> Definition:
-    """The definition of a claim. Raises UsageProblem if there is no such claim."""
+    """Raises UsageProblem if there is no such claim."""
     if key in KEYS:
         return _of_property(key)
     if key in ORDERS:

@@ -19,7 +19,8 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
     """Whether an entry between stages of families is nonzero; None unless one node is rational.
 
     With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
-    value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
+    value
+    of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
     """
     k, m = place
     here = tableau.spaces[k]
@@ -55,7 +56,7 @@ def divided(M: fmpq_poly, values: Sequence[Number]) -> Polynomial:
 
 
 def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) -> bool:
-    """Whether stage i of a family, nodes ascending, has the rows ``wanted``, one per colour."""
+    """Whether stage i of a family, nodes ascending, has the rows ``wanted``."""
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)
     common = common_nodes(tableau, k, wanted)

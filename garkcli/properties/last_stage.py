@@ -15,9 +15,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class FirstSameAsLast(Frozen):
-    """The first reason why a method is not FSAL, if any: a stage space whose first stage is not the
-    old value, or one whose last stage is not the new value.
-    """
+    """A stage space whose first stage is not the old value, or whose last is not the new one."""
 
     not_first: int | None = None
     not_last: int | None = None
@@ -29,10 +27,8 @@ class FirstSameAsLast(Frozen):
 
 def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Returns whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage
-    i.
-
-    For a GARK method globally (A. Sandu, M. Günther 2015): one stage of one method sees all vector
-    fields with their weights.
+    i. For a
+    GARK method globally (A. Sandu, M. Günther 2015).
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -52,9 +48,7 @@ def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
 
 
 def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsLast:
-    """Whether the first stage is the old value and the last one the new value: FSAL. Then the last
-    evaluation of a step is the first of the next. This has to hold in every stage space.
-    """
+    """Whether in every stage space the first stage is the old value, the last one the new one."""
     spaces = range(len(tableau.spaces))
     old, new = old_value(tableau), new_value(tableau)
     for k in spaces:
@@ -68,21 +62,17 @@ def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsL
 
 
 def new_value(tableau: Tableau) -> list[Vector]:
-    """The rows, one per colour, of a stage that is the new value: the weights."""
     return [tuple(colour.b) for colour in tableau.colours]
 
 
 def old_value(tableau: Tableau) -> list[Vector]:
-    """The rows of a stage that is the old value: zeros."""
     return [(ZERO,) * tableau.space(m).stages for m in range(tableau.size)]
 
 
 def missed_entries(
     tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> list[tuple[int, int]]:
-    """The entries (colour, stage) of stage i of a point space that differ from ``wanted``. Rounded
-    coefficients may differ by twice their rounding; missing blocks count as zeros.
-    """
+    """The entries (colour, stage) of a stage that differ from ``wanted`` beyond rounding."""
     missed = []
     for m, row in enumerate(wanted):
         block = tableau.blocks.get((k, m))

@@ -14,7 +14,6 @@ from garkcli.reason import Formula, Place, Reason
 from garkcli.tableau.tableau import Tableau
 
 _SHORT = 24
-"""Longer numbers are shown in decimals."""
 
 
 def number_words(number: Number) -> Formula | str:
@@ -25,7 +24,7 @@ def number_words(number: Number) -> Formula | str:
 
 
 def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
-    """An entry of a block, ``a[2,1]``; with several colours ``a{q,p}[2,1]``.
+    """An entry of a block; with several colours ``a{q,p}[2,1]``.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -37,9 +36,7 @@ def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
 
 
 def place(letter: str, tableau: Tableau, colours: Sequence[int], *indices: int) -> Place:
-    """Returns an entry of a block or row, with its colours if there are several. Colours and
-    indices count from 0; without indices the whole block or row is meant.
-    """
+    """Returns an entry, or without indices a block or row, with its colours if several."""
     names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
     return Place(letter, tuple(names), indices)
 
@@ -71,11 +68,7 @@ def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
 
 
 def _ranges(numbers: Sequence[int]) -> str:
-    """Ascending numbers, with runs contracted.
-
-    >>> _ranges([1, 2, 3, 5, 7, 8])
-    '1-3, 5, 7-8'
-    """
+    """Ascending numbers, with runs contracted: ``1-3, 5, 7-8``."""
     runs = [[numbers[0]]]
     for before, number in pairwise(numbers):
         if number == before + 1:

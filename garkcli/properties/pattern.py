@@ -1,8 +1,8 @@
 """The zeros of a tableau, and the order of computation that they allow.
 
-A stage value Y_i depends on Y_j if a block has a_ij ≠ 0. The strongly connected
-components of that graph are solved one after the other: a single vertex without a loop is explicit,
-one with a loop is implicit in itself, a larger one is a system of stages solved together.
+Y_i depends on Y_j if a block has a_ij ≠ 0. The strongly connected components of that graph are
+solved one after the other: a vertex without a loop is explicit, one with a loop is implicit in
+itself, a larger component is a system of stages solved together.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 Vertex: TypeAlias = tuple[int, int]
-"""A stage value: the index of its stage space, and of its stage."""
+"""A stage value: the indices of its stage space and of its stage."""
 
 DIGITS = 30
 """Digits of enclosures if nodes have no simple radicals."""
@@ -36,9 +36,9 @@ class StageGraph(Frozen):
 
     Attributes:
         successors: for each stage value those it depends on.
-        is_certain: whether all zeros are proved; an entry that may be zero is no edge and makes
-            this false.
-        loops: for each stage value that depends on itself directly, the nonzero entries, one per
+        is_certain: whether all zeros are proved; an entry that may be zero is no edge.
+        loops: for each stage value that depends on itself directly, the nonzero entries, one for
+            each
             colour; None for one that is not known exactly.
         fields: for each of these stage values the colours of the entries.
     """
@@ -78,9 +78,7 @@ def spaces_that_matter(tableau: Tableau) -> set[int]:
 def stage_graph(
     tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
-    """Returns the graph of all stages, or of some colours only. Stage spaces that no step depends
-    on are left out, unless all are such.
-    """
+    """Returns the graph of stages of ``colours``, without idle spaces, unless all are idle."""
     chosen = list(range(tableau.size) if colours is None else colours)
     matters = spaces_that_matter(tableau) or set(range(len(tableau.spaces)))
     blocks: Mapping[Vertex, Block] = tableau.blocks
@@ -143,13 +141,13 @@ class Shape(Frozen):
     """The order in which stages are computed: one by one or in systems.
 
     Attributes:
-        kind: the kind; None if zeros are undecided.
-        implicit_stages: the number of implicit stage values; None if zeros are undecided.
+        kind: None, as ``implicit_stages``, if zeros are undecided.
         systems: groups of at least two stages that are solved together, as (space, stage) from 0.
         gamma: the common value of all a_ii^{l,l} ≠ 0; None if they differ.
-        singly: ``SDIRK`` if all stages are implicit with the same γ, ``ESDIRK`` if the first one of
-            each stage space is explicit and all others are implicit; else empty. Stages of one
-            space have the same vector fields beside γ.
+        singly: ``SDIRK`` if all stages are implicit with the same γ, ``ESDIRK`` if all except the
+            first
+            of each stage space are; else empty. Stages of one space have the same vector fields
+            beside γ.
     """
 
     kind: Kind | None
@@ -160,7 +158,6 @@ class Shape(Frozen):
 
     @property
     def name(self) -> str:
-        """The usual name: explicit, SDIRK, ESDIRK, diagonally implicit, fully implicit."""
         if self.kind is None:
             return "not decided"
         return self.singly or self.kind
@@ -194,9 +191,7 @@ def _singly(graph: StageGraph, implicit: Sequence[Vertex]) -> Literal["SDIRK", "
 
 
 def _shown(number: Number, grain: fmpq) -> Number:
-    """An entry of a rounded method to some more digits than are printed; the grain has two for
-    each. A short rational number is exact and unchanged.
-    """
+    """An entry of a rounded method to more digits than are printed; the grain has two for each."""
     digits = max(20, 3 + int((int(grain.q.bit_length()) - 80) * 0.15))
     if isinstance(number, fmpq) and number.q < 10**digits:
         return number

@@ -24,10 +24,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
-    """Returns the smallest method with the same step; the same object if nothing can be left out.
-
-    None if the nodes have no simple radicals. An empty stage space keeps one stage, with zero row
-    and weight. Numbers up to ``tolerance`` count as zero.
+    """Returns the smallest method with the same step; the same object if nothing can be left out,
+    None if
+    the nodes have no simple radicals. An empty stage space keeps one stage, with zero row and
+    weight.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -67,7 +67,6 @@ def _once(tableau: Tableau, tolerance: fmpq) -> Tableau:
 
 
 def _with_idle_stages_zero(tableau: Tableau) -> Tableau:
-    """The method with zero rows and nodes in stage spaces that no step depends on."""
     idle = set(range(len(tableau.spaces))) - spaces_that_matter(tableau)
     if not idle:
         return tableau
@@ -88,10 +87,10 @@ def sizes(tableau: Tableau) -> list[int]:
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Returns whether every stage has a weight, and all stages of a space have different row sums.
-
-    Then every stage is used and no two are equal. The stages of a family have different row sums if
-    A𝟙 = c. True has to hold for all of the rounding.
+    """Returns whether every stage has a weight, and all stages of a space have different row sums,
+    for all
+    of the rounding: then every stage is used and no two are equal. Those of a family differ if A𝟙 =
+    c.
     """
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
@@ -127,7 +126,6 @@ def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
 
 
 def stages_that_matter(tableau: Tableau, tolerance: fmpq = ZERO) -> set[Vertex]:
-    """The stages that influence the step, by entries larger than a tolerance."""
     reached: set[Vertex] = set()
     for colour in tableau.colours:
         reached |= _with_entries(colour.space, colour.b, tolerance)
@@ -158,7 +156,6 @@ def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
 
 
 def _joined(tableau: Tableau, classes: Sequence[Sequence[Sequence[int]]]) -> Tableau:
-    """The tableau with the first stage of each class, with the sum of the weights of its stages."""
     firsts = [[members[0] for members in of_space] for of_space in classes]
     spaces = []
     for space, stages in zip(tableau.spaces, firsts, strict=True):
@@ -176,11 +173,9 @@ def _joined(tableau: Tableau, classes: Sequence[Sequence[Sequence[int]]]) -> Tab
 
 @doing("smallest method")
 def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
-    """Returns the smallest method with further weights: a stage that any row of weights needs
-    stays.
-
-    The same tableau object if nothing can be left out; None if stages at irrational nodes would
-    have to be compared.
+    """Returns the smallest method with further weights; a stage that any row of weights needs
+    stays. The
+    same object if nothing can be left out; None if stages at irrational nodes had to be compared.
 
     >>> from garkcli.methodfile.load import loads
     >>> method = loads("{A: [[0, 0], [1, 0]], b: [1, 0], embedded: [1/2, 1/2]}")

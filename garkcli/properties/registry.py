@@ -14,7 +14,7 @@ _FILES = (
     ("stability", "ssp-coefficient real-stability imaginary-stability"),
 )
 KEYS = {key: file for file, keys in _FILES for key in keys.split()}
-"""Every property with its module in ``claimed``, in the order of the documentation."""
+"""Properties with their modules in ``claimed``, in the order of the documentation."""
 OF_TEST_EQUATION = frozenset(
     {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
 )

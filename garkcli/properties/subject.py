@@ -32,23 +32,13 @@ if TYPE_CHECKING:
     from garkcli.stability.within import StabilityWithin
 
 MISSING_BLOCKS = Reason("some stages do not depend on every vector field")
-"""Why properties of all vector fields together are not defined if blocks are missing."""
 
 
 MAY_HOLD = "the method that the file is taken to mean has it not, another within t may"
-"""Why a property that the digits do not exclude is not refuted."""
 
 
 class Subject(Frozen):
-    """A method with its known results.
-
-    Attributes:
-        order: its order, or a lower bound.
-        limit: the limit of the search for these.
-        tolerance: smaller numbers count as zero; 0 for an exact method.
-        printed: for a rounded method the printed one, with the largest error of its coefficients as
-            ``tolerance``.
-    """
+    """A method with its known results; smaller numbers than ``tolerance`` count as zero."""
 
     tableau: Tableau
     order: int
@@ -109,7 +99,7 @@ class Subject(Frozen):
 
     @cached_property
     def _spent(self) -> list[float]:
-        """The processor time that properties took so far."""
+        """The processor time of properties so far."""
         return []
 
     @cached_property
@@ -155,7 +145,6 @@ class Subject(Frozen):
 
     @cached_property
     def points(self) -> Tableau | None:
-        """The method on point stages; None if nodes have no simple radicals."""
         return at_points(self.tableau)
 
     @cached_property
@@ -180,7 +169,6 @@ class Subject(Frozen):
 
     @cached_property
     def intervals(self) -> StabilityWithin:
-        """Bounds on the stability intervals of a rounded method."""
         from garkcli.stability.within import stability_within
 
         shares = [ONE] * self.tableau.size
@@ -199,9 +187,7 @@ class Property(Frozen):
     """A property that a method file may claim.
 
     Attributes:
-        key: its name in ``expect``.
         text: its definition, in whole sentences.
-        asks: what it asks of the coefficients.
         meaning: the methods for which it is defined; empty for all.
         is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.
         noted: the value that every ``gark check`` says in words, and these; None for neither.
@@ -223,7 +209,6 @@ class Property(Frozen):
 
 
 SEES_ALL = "methods whose stages all see all vector fields"
-"""The methods for which some properties are defined."""
 
 
 def claimed(
@@ -235,7 +220,7 @@ def claimed(
     is_cheap: bool = True,
     noted: tuple[bool, str] | None = None,
 ) -> Callable[[Callable[[Subject], Verdict]], Property]:
-    """Makes a property from the function that decides it."""
+    """Makes a property from the function that decides it; its docstring is the definition."""
 
     def made(decide: Callable[[Subject], Verdict]) -> Property:
         key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())
@@ -246,11 +231,6 @@ def claimed(
 
 @cache
 def find(key: str) -> Property:
-    """The property with a key, imported on demand.
-
-    >>> find("a-stable").field
-    'a_stable'
-    """
     found = getattr(import_module(f"garkcli.properties.claimed.{KEYS[key]}"), key.replace("-", "_"))
     assert isinstance(found, Property)
     return found

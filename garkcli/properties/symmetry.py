@@ -6,8 +6,8 @@ symmetric when a renumbering of the stages of each space, the same for all block
 the other. In the stage algebra of a family it is the reflection x → 1 − x of the nodes.
 
 A stage can only map to one whose sums in the adjoint equal its own: stages are divided by these
-sums until no class divides any more, as in the colour refinement of B. Weisfeiler and A. Lehman. In
-an irreducible method every stage then has at most one image.
+sums until no class divides any more (B. Weisfeiler, A. Lehman). In an irreducible method every
+stage then has at most one image.
 """
 
 from __future__ import annotations
@@ -31,19 +31,16 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 MOST_TRIALS = 2000
-"""Images of stages that are tried before the search is given up."""
+"""Then the search is given up."""
 
 _Images: TypeAlias = dict[Vertex, list[int]]
 """For each stage its possible images, stages of its space."""
 
 
 class Symmetry(Frozen):
-    """The result of the search for self-adjointness.
-
-    Attributes:
-        holds: None if there are too many renumberings, or rounding leaves it open.
-        images: for each stage space the image of each stage, None for x → 1 − x in a stage algebra;
-            empty if it does not hold.
+    """The result of the search: None if there are too many renumberings, or rounding leaves it
+    open;
+    ``images`` by stage spaces, None for x → 1 − x in a stage algebra, empty if it does not hold.
     """
 
     holds: bool | None
@@ -51,9 +48,9 @@ class Symmetry(Frozen):
 
 
 def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
-    """Returns whether a method is its own adjoint, with the renumbering of the stages.
-
-    An equation between three coefficients has three times their ``tolerance``.
+    """Returns whether a method is its own adjoint, with the renumbering of the stages. An equation
+    between
+    three coefficients has three times their ``tolerance``.
 
     >>> from garkcli.methodfile.load import loads
     >>> symmetry(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau)
@@ -99,11 +96,7 @@ def _reflection(space: PolynomialSpace) -> Matrix | None:
 
 
 def _by_sums(tableau: Tableau, tolerance: fmpq) -> _Images:
-    """The possible images of stages, by row sums within a tolerance.
-
-    The row sums of a stage and of its image add up to the sum of the weights: each entry and its
-    image to a weight within three times the tolerance.
-    """
+    """The possible images: row sums of a stage and its image add up to the sum of the weights."""
     possible: _Images = {}
     for k, space in enumerate(tableau.spaces):
         if not isinstance(space, PointSpace):
@@ -123,14 +116,11 @@ def _by_sums(tableau: Tableau, tolerance: fmpq) -> _Images:
 
 
 class _Class(Frozen):
-    """Stages of a space, and their possible images."""
-
     stages: list[int]
     images: list[int]
 
 
 _Classes: TypeAlias = dict[int, list[_Class]]
-"""The classes of each point space."""
 
 
 def _by_sight(tableau: Tableau) -> _Images | None:
@@ -167,7 +157,6 @@ def _divided(tableau: Tableau, k: int, classes: _Classes) -> list[_Class]:
 
 
 def _place(sight: Vector, found: list[tuple[Vector, _Class]]) -> _Class:
-    """The class with these sums, added if it is new."""
     for seen, part in found:
         if seen == sight:
             return part
@@ -208,9 +197,7 @@ class _TooManyError(Exception):
 
 
 class _SymmetrySearch:
-    """Searches the involution of stages that turns a method into its adjoint, most constrained
-    stages first. ``reflections`` are x → 1 − x in each stage algebra.
-    """
+    """Searches the involution to the adjoint; ``reflections`` are x → 1 − x in stage algebras."""
 
     def __init__(
         self, tableau: Tableau, reflections: Mapping[int, Matrix], tolerance: fmpq
@@ -249,9 +236,7 @@ class _SymmetrySearch:
         return True
 
     def renumbering(self, possible: _Images) -> dict[int, dict[int, int]] | None:
-        """The image of each point stage, space by space; None if there is none. Raises
-        _TooManyError if too many images were tried.
-        """
+        """The image of each point stage by spaces, or None; _TooManyError after too many trials."""
         waiting = sorted(possible, key=lambda x: (len(possible[x]), x))
         path: list[tuple[Vertex, Iterator[int]]] = []
         in_vain = 0

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from garkcli.exact.roots import RealRoot
 
 Kind: TypeAlias = Literal["truth", "count", "number"]
-"""The kinds of values: true or false, an integer, or a real number that may be infinite."""
+"""True or false, an integer, or a real number that may be infinite."""
 KINDS: dict[Kind, str] = {
     "truth": "`true` or `false`",
     "count": 'a whole number, or `">= n"`',
@@ -23,9 +23,9 @@ KINDS: dict[Kind, str] = {
 }
 """The notation of claims of each kind."""
 Asks: TypeAlias = Literal["zeros", "equations", "signs"]
-"""The question about the coefficients that decides a property: which are zero, which equations they
-meet, or which signs some numbers have. Rounded coefficients meet equations within their tolerance;
-the other properties hold for all methods there, or are undecided.
+"""The question that decides a property: which coefficients are zero, which equations they meet, or
+which signs numbers have. Rounded coefficients meet equations within their tolerance; the other
+properties hold for all methods there, or are undecided.
 """
 _DIGITS = 12
 _LONG = 60
@@ -37,7 +37,7 @@ class Size(Frozen):
     root: RealRoot | None
 
     def __float__(self) -> float:
-        """A float close to it, for display only."""
+        """For display only."""
         return inf if self.root is None else float(self.root)
 
     def __repr__(self) -> str:
@@ -66,7 +66,6 @@ class Size(Frozen):
 
 
 def size_reason(text: str) -> Reason:
-    """The text of a ``Size`` with its formulas marked."""
     number, sign, polynomial = text.partition(", a root of ")
     if sign:
         return Reason(f"{number}{sign}{{}}", Formula(polynomial))
@@ -80,7 +79,7 @@ class Verdict(Frozen):
     """The verdict on a property.
 
     Attributes:
-        value: of the kind of the property; None if it is not defined or undecided.
+        value: None if the property is not defined or undecided.
         reason: the entry, pole or polynomial that decides; or why there is no value.
         is_undecided: whether it is defined but undecided.
         is_at_least: whether an integer value may be larger.
@@ -106,17 +105,14 @@ class Verdict(Frozen):
 
     @classmethod
     def meaningless(cls, why: Reason) -> Verdict:
-        """A property that is not defined for the method."""
         return cls(None, why)
 
     @classmethod
     def undecided(cls, why: str) -> Verdict:
-        """A property that is defined but undecided."""
         return cls(None, Reason(why), is_undecided=True)
 
     @classmethod
     def unless(cls, obstacle: Reason) -> Verdict:
-        """True, or false because of an obstacle."""
         return cls(not obstacle, obstacle)
 
     @property

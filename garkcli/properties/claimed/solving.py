@@ -15,7 +15,6 @@ UNDECIDED = "an entry may be zero"
 
 
 def what_is_solved_for(subject: Subject) -> Reason:
-    """Names the stages that depend on themselves; empty if there are none."""
     together = what_is_solved_together(subject)
     if together:
         return together

@@ -34,11 +34,9 @@ _BITS = 128
 _DIGITS = 6
 _DIGITS_OF_ENDS = 15
 _LONG = 60
-"""Longer polynomials are not shown."""
 
 
 def decide_within(found: bool | None) -> Verdict:
-    """A verdict on a rounded method from what its digits decide."""
     if found is None:
         return Verdict.undecided("a polynomial is too near to zero where it has a sign")
     return Verdict(found)
@@ -83,7 +81,6 @@ def _left_pole(Q: Polynomial) -> str:
 
 
 def _roots(Q: Polynomial) -> list[acb]:
-    """Enclosures of the simple roots, with more bits until they are separate."""
     bits = _BITS
     while True:
         ctx.prec = bits
@@ -98,7 +95,7 @@ def _roots(Q: Polynomial) -> list[acb]:
 
 
 def first_gap(intervals: Sequence[Interval]) -> Interval | None:
-    """The first part of [0, ∞) that a set of intervals omits; None if there is none."""
+    """The first part of [0, ∞) that a set of intervals omits, or None."""
     end, is_left_out = RealRoot.rational(ZERO), True
     for found in intervals:
         if found.start is not None and (end < found.start or not found.has_start):

@@ -138,9 +138,7 @@ def symmetric(subject: Subject) -> Verdict:
 
 
 def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
-    """Returns the verdict on a method without a symmetric renumbering, which may be reducible.
-    ``holds`` is the verdict on the unreduced method: False, or None if undecided.
-    """
+    """Returns the verdict on a method without a symmetric renumbering, reduced if possible."""
     tableau = subject.tableau
     if not is_plainly_irreducible(tableau, subject.tolerance):
         smaller = subject.reduced
@@ -157,10 +155,9 @@ def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
 
 
 def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
-    """The method with the row b_m/2 in a last stage that does nothing.
-
-    An empty stage space keeps one stage, whose row no step depends on. With this row it is its own
-    image in the adjoint method.
+    """The method with the row b_m/2, its own image in the adjoint, in a last stage without
+    influence: an
+    empty stage space keeps one.
     """
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
