@@ -25,8 +25,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 class AlgebraicStability(Frozen):
-    """Algebraic stability: no weight is negative, and M is positive semidefinite."""
-
     weights_are_positive: bool
     form_is_positive: bool
 
@@ -36,10 +34,9 @@ class AlgebraicStability(Frozen):
 
 
 def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
-    """Whether a method is algebraically stable; None if a block is missing.
-
-    A missing block is not a zero block: the problem has no such coupling, so there is no
-    contractivity to inherit.
+    """Whether a method is algebraically stable; None if a block is missing, that is no zero block:
+    without
+    the coupling there is no contractivity to inherit.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -68,14 +65,11 @@ def contractivity(tableau: Tableau) -> Matrix:
 
 
 def is_positive_semidefinite(form: Matrix) -> bool:
-    """Whether a symmetric matrix has no negative eigenvalue, by exact symmetric elimination."""
     return negative_pivot(form) is None
 
 
 def negative_pivot(form: Matrix) -> Number | None:
-    """Returns the diagonal entry at which symmetric elimination shows a matrix to be indefinite:
-    negative, or 0 with a nonzero row; otherwise None.
-    """
+    """Returns a pivot that shows indefiniteness: negative, or 0 with a nonzero row; or None."""
     rows: list[list[Number]] = [list(row) for row in form]
     remaining = list(range(len(rows)))
     while remaining:
@@ -94,7 +88,6 @@ def negative_pivot(form: Matrix) -> Number | None:
 
 
 def _eliminate(rows: list[list[Any]], pivot: int, remaining: list[int]) -> None:
-    """Subtracts multiples of the pivot row from the others, among the remaining columns."""
     remaining.remove(pivot)
     pivot_row = rows[pivot]
     for i in remaining:
@@ -111,11 +104,7 @@ def snapped(ball: arb) -> arb:
 
 
 def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
-    """Returns whether a method known to many bits is algebraically stable; None if undecided.
-
-    Symmetric elimination in balls, where a ball with 0 counts as 0. Positive pivots are eliminated;
-    a negative diagonal entry or 2×2 minor decides. The method is on point stages, with all blocks.
-    """
+    """Whether a method on point stages, in balls, is algebraically stable; None if undecided."""
     with ctx.workprec(bits_for(tolerance)):
         weights = [x for colour in tableau.colours for x in rounded_balls(colour.b, tolerance)]
         if any(b < 0 for b in weights):
@@ -131,9 +120,7 @@ def rounded_balls(row: Vector, tolerance: fmpq) -> list[arb]:
 
 
 def form_within(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
-    """M = B A + Aᵀ B − b bᵀ over all colours and stages, for all methods within a tolerance. The
-    precision is that of the caller.
-    """
+    """M = B A + Aᵀ B − b bᵀ over all colours and stages, for all methods within a tolerance."""
     blocks = {
         (l, m): [rounded_balls(row, tolerance) for row in tableau.block(l, m) or ()]
         for l, m in product(range(tableau.size), repeat=2)

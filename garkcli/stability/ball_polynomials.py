@@ -1,9 +1,8 @@
 """Polynomials with balls as coefficients, lowest first: signs, roots, common factors, first
-negative point.
+negative
+point, decided for all polynomials in the balls at once, or None.
 
-Each question is answered for all polynomials in the balls at once, or with None: undecided.
-
-The first negative point is bracketed. Pieces of the line are taken from the left. A piece with a
+The first negative point is bracketed. Pieces of the line are taken from the left: one with a
 positive enclosure of the polynomial is passed; others are halved until they are short. Beyond the
 last passed piece a point is sought where the polynomial is negative for all numbers in the balls.
 """
@@ -19,7 +18,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
 
 MOST_PIECES_OF_UNIT = 4000
-"""Pieces of an interval on which a sign is tried before it is left undecided."""
+"""Then a sign is undecided."""
 
 
 def both(first: bool | None, second: bool | None) -> bool | None:
@@ -50,9 +49,7 @@ def is_positive(coefficients: Sequence[arb]) -> bool | None:
 
 
 def _is_positive_on_unit_interval(coefficients: Sequence[arb]) -> bool | None:
-    """Whether a polynomial is positive on [0, 1]: True, False with a negative value, None
-    undecided. Pieces are halved until the enclosure of the polynomial on each has a sign.
-    """
+    """Whether a polynomial is positive on [0, 1], by halving until each enclosure has a sign."""
     p = arb_poly(coefficients)
     pieces = [(fmpq(0), fmpq(1))]
     tried = 0
@@ -92,9 +89,7 @@ def poles_are_right(Q: Sequence[arb]) -> bool | None:
 
 
 def are_coprime(P: list[arb], Q: list[arb]) -> bool:
-    """Whether P and Q have no common root for any numbers in the balls. Proved by a nonzero
-    resultant, the determinant of the Sylvester matrix.
-    """
+    """Whether P and Q never have a common root, as the Sylvester matrix has determinant ≠ 0."""
     degree_p = len(P) - 1
     degree_q = len(Q) - 1
     size = degree_p + degree_q
@@ -116,24 +111,19 @@ MOST_TRIES = 60
 
 
 class Bounds(Frozen):
-    """A number between bounds for all methods within the tolerance. None stands for ∞; an upper
-    bound may also be unknown.
-    """
+    """A number between bounds, None for ∞; an upper bound may also be unknown."""
 
     low: fmpq | None
     high: fmpq | None
 
 
 UNLIMITED = Bounds(None, None)
-"""The polynomial is never negative."""
 OPEN = Bounds(ZERO, None)
 
 
 def first_failure(coefficients: Sequence[arb], upto: fmpq | None = None) -> Bounds:
-    """Brackets the x ≥ 0 from which on a polynomial is negative.
-
-    ``coefficients`` begin with the lowest; exact zeros stay zero. A polynomial that is positive up
-    to ``upto`` counts as unlimited.
+    """Brackets the x ≥ 0 from which on a polynomial is negative; exact zeros stay zero. One that is
+    positive up to ``upto`` counts as unlimited.
 
     >>> found = first_failure([arb(4), arb(0), arb(-1)])
     >>> bool(found.low <= 2 <= found.high and found.high - found.low < fmpq(1, 10**9))
@@ -159,7 +149,6 @@ def first_failure(coefficients: Sequence[arb], upto: fmpq | None = None) -> Boun
 
 
 def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
-    """Whether a polynomial is seen to be positive on [0, 1], and reversed on [0, 1]."""
     both_ways = (arb_poly(list(coefficients)), arb_poly(list(coefficients[::-1])))
     return all(_passed(p, ONE) == 1 for p in both_ways)
 
@@ -185,7 +174,7 @@ def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
 
 
 def _bounded_behind(p: arb_poly, low: fmpq) -> Bounds:
-    """Bounds from the nearest point found beyond ``low`` at which the polynomial is negative."""
+    """Bounds from the nearest negative point found beyond ``low``."""
     distance = fmpq(1, 2**FINEST)
     for _ in range(MOST_TRIES):
         high = low + distance

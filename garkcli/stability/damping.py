@@ -46,7 +46,6 @@ def ball_roots_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
 
 
 def exact_roots_are_right(u: Polynomial, v: Polynomial) -> bool:
-    """Whether Q(iy) = u + iv has all its roots to the right, exactly."""
     degree = max(u.degree, v.degree)
     if degree < 1:
         return True
@@ -74,20 +73,16 @@ def _turned(
 
 
 BITS = 192
-"""Precision of the balls; if it is not enough, a point is decided exactly."""
+"""If these are not enough, a point is decided exactly."""
 
 
 class Ray(Frozen):
-    """The z_E on half of an axis, from 0 on, for which all z_I are damped. ``end`` is in −z_E or in
-    |Im z_E|; None for ∞.
-    """
+    """The z_E with all z_I damped, to ``end`` in −z_E or |Im z_E|; None for ∞."""
 
     end: RealRoot | None
 
 
 class ImexPair(Frozen):
-    """A method of one explicit and one implicit colour, with R(z_1, z_2)."""
-
     explicit: int
     implicit: int
     R: Fraction
@@ -99,7 +94,6 @@ class ImexPair(Frozen):
 
     @cached_property
     def margin(self) -> Multivariate:
-        """The polynomial E in (a, b, y)."""
         (p, q), (u, v) = self.parts
         over = p * p + q * q
         under = u * u + v * v
@@ -121,9 +115,7 @@ class ImexPair(Frozen):
         return _Enclosed(E=_in_balls(self.margin), u=_in_balls(u), v=_in_balls(v))
 
     def is_damped(self, a: fmpq, b: fmpq) -> bool:
-        """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided. A root
-        of Q(z_E, ·) in that half plane counts as a pole, even if P vanishes there.
-        """
+        """Whether |R(a + ib, z_I)| ≤ 1 for Re z_I ≤ 0; a root of Q there counts as a pole."""
         return self._poles_are_right(a, b) and self._is_bounded(a, b)
 
     def _is_bounded(self, a: fmpq, b: fmpq) -> bool:
@@ -158,10 +150,9 @@ class ImexPair(Frozen):
         return self._ray(by_y, is_in_squares=False)
 
     def _ray(self, E: Sequence[Polynomial], is_in_squares: bool) -> Ray | None:
-        """Returns the largest x such that all numbers from 0 to x are damped; None if undecided.
-
-        ``E`` has the coefficients of E by powers of y as polynomials in x = |z_E| on the imaginary
-        axis, or, if ``is_in_squares``, by powers of y² in x = −z_E.
+        """Returns the largest x with all of [0, x] damped; None if undecided. ``E`` by powers of y
+        is in x =
+        |z_E| on the imaginary axis, or, ``is_in_squares``, by powers of y² in x = −z_E.
         """
         zero = RealRoot.rational(ZERO)
         if not self.has_fixed_poles:
@@ -186,9 +177,7 @@ class ImexPair(Frozen):
 
 
 def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
-    """Returns the explicit and the implicit colour of a method with two; None for other methods.
-    ``R`` is its stability function; None if it is too large.
-    """
+    """Returns the explicit and the implicit colour of a method with two, or None."""
     explicit = explicit_colour(tableau)
     if explicit is None or R is None:
         return None
@@ -196,7 +185,7 @@ def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
 
 
 def explicit_colour(tableau: Tableau) -> int | None:
-    """The explicit colour of two, the other being implicit; None for other methods."""
+    """The explicit colour of two, the other being implicit, or None."""
     if tableau.size != 2:
         return None
     first, second = (_is_explicit(tableau, l) for l in range(2))
@@ -206,7 +195,6 @@ def explicit_colour(tableau: Tableau) -> int | None:
 
 
 def _is_explicit(tableau: Tableau, l: int) -> bool:
-    """Whether the stages of a colour can be computed one after the other."""
     block = tableau.block(l, l)
     assert block is not None
     neighbours = {}
@@ -219,7 +207,7 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
 
 
 def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
-    """Polynomials with the critical points of the roots of E in y; None if late."""
+    """Polynomials with the critical points of the roots of E in y; None if too many."""
     degree = len(E) - 1
     if degree < 1:
         return []
@@ -265,11 +253,11 @@ def _split(p: Multivariate, explicit: int) -> tuple[Multivariate, Multivariate]:
 
 
 _Terms: TypeAlias = list[tuple[int, int, arb]]
-"""Terms of a polynomial in (a, b): both exponents and the coefficient as a ball."""
+"""Both exponents of (a, b) and the coefficient as a ball."""
 
 
 class _Enclosed(Frozen):
-    """E and the parts of Q by powers of y, with coefficients in balls."""
+    """E and the parts of Q by powers of y."""
 
     E: list[_Terms]
     u: list[_Terms]
@@ -285,7 +273,6 @@ def _in_balls(p: Multivariate) -> list[_Terms]:
 
 
 def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
-    """The coefficients by powers of y at one point (a, b), in balls."""
     x, y = arb(a), arb(b)
     found = []
     for terms in by_y:
@@ -297,6 +284,5 @@ def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
 
 
 def _at(p: Multivariate, a: fmpq, b: fmpq) -> Polynomial:
-    """A polynomial in (a, b, y) as one in y, for numbers (a, b)."""
     point = (a, b)
     return Polynomial([coefficient(point) for coefficient in p.by_last()])

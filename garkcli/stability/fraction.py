@@ -28,7 +28,7 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MOST_LINES = 400
-"""Most lines: 26 stages of three colours, or 11 of four."""
+"""Enough for 26 stages of three colours, or 11 of four."""
 OFFSETS = (1, 3, 7, 13, 29)
 """Offsets of the lattices of directions that are tried for common factors."""
 
@@ -55,7 +55,6 @@ def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
 
 
 def lines_needed(tableau: Tableau) -> int:
-    """The number of lines that determine numerator and denominator."""
     tableau.demand_fields("the stability function")
     axes = tableau.size - 1
     stages = sum(space.stages for space in tableau.spaces)
@@ -63,10 +62,8 @@ def lines_needed(tableau: Tableau) -> int:
 
 
 def stability_fraction(tableau: Tableau) -> Fraction | None:
-    """R(z_1, …, z_N); None if it needs more than ``MOST_LINES`` lines.
-
-    Args:
-        tableau: the method; every used stage sees every colour.
+    """R(z_1, …, z_N); None if it needs more than ``MOST_LINES`` lines. Every used stage sees every
+    colour.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -111,8 +108,10 @@ def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None
     """P/Q in lowest terms from the quotients on lines; None if a line is special.
 
     Except on special lines the denominators in lowest terms have one degree. The interpolated
-    fraction is multiplied out, so it is right or rejected. Its denominator has the least possible
-    degree, which is not less than on a line.
+    fraction
+    is multiplied out, so it is right or rejected. Its denominator has the least possible degree,
+    which
+    is not less than on a line.
     """
     axes = Q.variables - 1
     over = {}

@@ -43,10 +43,9 @@ def step_function(system: StageSystem) -> StepFunction:
 
 
 def unreduced(system: StageSystem) -> StepFunction:
-    """M(z) with the denominator det(I − zW), not in lowest terms.
-
-    By Cramer's rule the degrees of the numerators are at most the number of unknowns, so finitely
-    many terms of the power series of M determine them.
+    """M(z) with the denominator det(I − zW), not in lowest terms. By Cramer's rule the degrees of
+    the
+    numerators are at most the number of unknowns, so finitely many terms of M determine them.
     """
     n = len(system.W)
     d = len(system.B)
@@ -94,12 +93,9 @@ class StabilityFunction(Shown, Frozen):
         numerator: P.
         denominator: Q.
 
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.stability.linear import stability_function
-    >>> from garkcli.tableau.forms import gark
-    >>> midpoint = gark([diagonal_method("gauss", 1)], {})
-    >>> stability_function(midpoint).numerator
-    Polynomial([1, 1/2])
+    >>> from garkcli import find_stability
+    >>> find_stability("heun").linear[0].R.numerator
+    Polynomial([1, 1, 1/2])
     """
 
     numerator: Polynomial
@@ -134,12 +130,7 @@ def _value(p: Polynomial, z: Complex) -> Complex:
 def stability_function(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> StabilityFunction:
-    """R(z) for λ_l = w_l λ, z = hλ.
-
-    Args:
-        tableau: the method; every used stage sees every colour with w_l ≠ 0.
-        shares: the w_l, one per colour; None for 1 each.
-    """
+    """R(z) for λ_l = w_l λ, z = hλ; used stages see all colours with w_l ≠ 0, by default 1."""
     weights = [ONE] * tableau.size if shares is None else list(shares)
     step = step_function(stage_system(tableau, [((w,),) for w in weights]))
     [[numerator]] = step.numerators
@@ -197,11 +188,13 @@ def is_i_stable(R: StabilityFunction) -> bool:
 
 @lru_cache(maxsize=16)
 def poles_are_right(Q: Polynomial) -> bool:
-    """Whether all roots of Q have a positive real part, by the Hermite-Biehler theorem.
-
-    With Q(iy) = u(y) + i v(y), the argument of Q(iy) turns by −π deg Q along the real line exactly
-    when all roots lie to the right. That turning is a Cauchy index, read off a Sturm chain of u, v.
-    A common root of u and v is a root of Q on the axis, or a pair ±: not all lie to the right then.
+    """Whether all roots of Q have a positive real part, by the Hermite-Biehler theorem: with Q(iy)
+    = u(y)
+    + i v(y), the argument of Q(iy) turns by −π deg Q along the real line exactly then. That turning
+    is
+    a Cauchy index, read off a Sturm chain of u, v. A common root of u and v is a root of Q on the
+    axis,
+    or a pair ±.
     """
     if Q.degree <= 0:
         return True

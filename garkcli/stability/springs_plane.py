@@ -1,7 +1,4 @@
-"""The plane of two frequencies in floats, for pictures: |tr M|/2 on a grid.
-
-``two_frequencies`` decides stability exactly for one slow frequency.
-"""
+"""|tr M|/2 over two frequencies in floats, for pictures; ``two_frequencies`` decides stability."""
 
 from __future__ import annotations
 
@@ -35,9 +32,7 @@ class SpringsPlane(Frozen):
 def springs_plane(
     tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
 ) -> SpringsPlane:
-    """Returns the half trace on a grid with ``points`` points on a side. W = W_0 + a W_a + x W_x,
-    with the three parts from three evaluations. ``slow_end`` and ``fast_end`` are the largest hω.
-    """
+    """Returns the half trace up to given hω; W = W_0 + a W_a + x W_x from three evaluations."""
     zero, one = fmpq(0), fmpq(1)
     W, B, E = _floats(tableau, split, zero, zero)
     W_one, B_one, _ = _floats(tableau, split, one, zero)
@@ -67,9 +62,7 @@ def springs_plane(
 def plane_with_ends_of(
     tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
-    """Returns the plane around the intervals that were decided. ``stable`` are the stable (hω)² of
-    the fast spring, ``slow`` is the largest decided (hω)² of the slow one.
-    """
+    """Returns the plane around the stable (hω)² of the fast spring, up to the slow one."""
     ends = []
     for interval in stable:
         if interval.end is not None:

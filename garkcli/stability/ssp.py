@@ -32,10 +32,9 @@ class SspCoefficient(Frozen):
 
 
 class AdditiveRadius(Frozen):
-    """The end of the region of absolute monotonicity on a line through the origin.
-
-    ``ratios`` is the direction (q_1, …, q_N), q_l ≥ 0, ``radius`` the largest r with (r q_1, …, r
-    q_N) in the region; None if undecided.
+    """The largest ``radius`` r with (r q_1, …, r q_N) in the region of absolute monotonicity for
+    the
+    direction q_l ≥ 0 of ``ratios``; None if undecided.
     """
 
     ratios: tuple[Number, ...]
@@ -46,9 +45,8 @@ def ssp_coefficient(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
     """Returns the SSP coefficient; None if the stages have no simple nodes or a block is missing.
-
-    ``shares`` are r_l / r for each colour, by default 1. Colours with 0 have a zero vector field:
-    they and their own stages are ignored.
+    ``shares`` are r_l / r for each colour, by default 1; colours with 0, and their own stages, drop
+    out.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -61,9 +59,7 @@ def ssp_coefficient(
 
 
 def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
-    """Returns the end of the region of absolute monotonicity in the direction ``ratios``. A colour
-    with 0 keeps its vector field, without a step size of its own.
-    """
+    """Returns the end of the region in a direction; a colour with 0 keeps its vector field."""
     return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 
 
@@ -97,9 +93,7 @@ def _radius(tableau: Tableau, ratios: Sequence[Number]) -> SspCoefficient | None
 
 
 def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
-    """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them. K_l has
-    the columns of colour l only; shared stages are one row.
-    """
+    """Σ ratio_l K_l and the K_l, with the columns of colour l, on all stages and the new value."""
     starts = []
     size = 0
     for space in tableau.spaces:
@@ -133,19 +127,18 @@ def _frozen(rows: list[list[Number]]) -> Matrix:
 
 
 def conditions_at(tableau: Tableau) -> list[Polynomial]:
-    """All polynomials in r that decide, with equal fields for all colours, including zero ones:
-    their number depends on the size only. The tableau has nodes and all blocks.
-    """
+    """The polynomials in r that decide for equal fields; their number depends on the size only."""
     return list(_conditions(*stacked(tableau, [ONE] * tableau.size), with_zeros=True))
 
 
 def _conditions(
     whole: Matrix, parts: Sequence[Matrix], with_zeros: bool = False
 ) -> Iterator[Polynomial]:
-    """Polynomials in r that must not be negative from 0 to the radius.
-
-    (I + rK)⁻¹ = Σ (−r)^k K^k. With the denominator d(r) = det(I + rK), d · (I + rK)⁻¹ is a
-    polynomial of degree at most n: finitely many terms of the product of the series determine it.
+    """Polynomials in r that must not be negative from 0 to the radius. (I + rK)⁻¹ = Σ (−r)^k K^k,
+    and d ·
+    (I + rK)⁻¹ with d(r) = det(I + rK) is a polynomial of degree at most n: finitely many terms of
+    the
+    product of the series determine it.
     """
     n = len(whole)
     minus_whole = scale(-ONE, whole)

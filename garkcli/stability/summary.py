@@ -1,8 +1,4 @@
-"""All results on the stability of one method, as ``gark stability`` reports them.
-
-Number fields of high degree may take for ever. Results that exceed the time limit are undecided;
-the slowest ones come last.
-"""
+"""All results on the stability of one method; those beyond the time limit are undecided."""
 
 from __future__ import annotations
 
@@ -44,8 +40,7 @@ class Colours(Frozen):
         radii: points on the boundary of the region of absolute monotonicity; empty if late, or for
             linear problems only.
         pair: the method as an implicit-explicit pair; None if it is none, or R is late.
-        explicit_alone: R of the explicit colour by itself, or of the first colour if there is no
-            pair.
+        explicit_alone: R of the explicit colour, or of the first one without a pair.
         real: the z_E ≤ 0 with every z_I damped; None without a pair, or undecided.
         imaginary: the z_E on the imaginary axis with every z_I damped.
         late: the attributes that exceeded the time limit.
@@ -67,9 +62,7 @@ class Colours(Frozen):
 
 
 def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
-    """Returns the joint stability of at least two colours, each coupled to every other. ``ratios``
-    are further r_2/r_1 for the additive radius.
-    """
+    """Returns the joint stability; ``ratios`` are further r_2/r_1 for the additive radius."""
     late: set[str] = set()
     size = tableau.size
     alone = [linear_problems.stability_function(tableau, _unit(size, l)) for l in range(size)]
@@ -116,7 +109,7 @@ def _word(word: str, is_so: bool | None) -> str:
 
 
 class AtPoint(Frozen):
-    """The value of R at a point z; None at a pole."""
+    """The value of R at a point; None at a pole."""
 
     z: linear_problems.Complex
     value: linear_problems.Complex | None
@@ -134,8 +127,7 @@ class LinearStability(Frozen):
     open.
 
     Attributes:
-        name: the driven colours: ``all``, or the name of one with the others at 0; ``embedded`` for
-            all with the embedded weights.
+        name: the driven colours: ``all``, one with the others at 0, or ``embedded`` weights of all.
         R: the stability function.
         e_polynomial: |Q(iy)|² − |P(iy)|² as a polynomial in y².
         a_stable: |R(z)| ≤ 1 in the left half plane.
@@ -144,10 +136,10 @@ class LinearStability(Frozen):
         real: the x ≥ 0 with |R(−x)| ≤ 1.
         imaginary: the x = y² ≥ 0 with |R(iy)| ≤ 1.
         within: the results for rounded coefficients; None for exact ones.
-        ssp: the SSP coefficient, the vector fields of the others being 0; None if undecided.
+        ssp: the SSP coefficient, the other vector fields being 0; None if undecided.
         late: the attributes that exceeded the time limit.
-        is_linear_alone: whether R describes the method on linear problems only, as for a Rosenbrock
-            method; then there is no SSP coefficient.
+        is_linear_alone: whether R describes linear problems only, as for a Rosenbrock method; then
+            there is no SSP coefficient.
         points: R at given points.
 
     >>> from garkcli import find_stability
@@ -171,7 +163,6 @@ class LinearStability(Frozen):
     points: tuple[AtPoint, ...] = ()
 
     def at(self, points: Sequence[linear_problems.Complex]) -> LinearStability:
-        """Returns the result with R at further points."""
         return replace(self, points=tuple(AtPoint(z, self.R.at(z)) for z in points))
 
     @property
@@ -189,18 +180,18 @@ class Stability(Shown, Frozen):
 
     Attributes:
         tableau: the method.
-        linear: R for all colours together, then for each colour alone where there are several;
-            empty if colours drive positions or momenta only, or are not coupled.
+        linear: R for all colours together, then for each alone where there are several; empty if
+            colours drive positions or momenta only, or are not coupled.
         oscillator: the method on the harmonic oscillator; None if it has no split.
         algebraic: algebraic stability; None if it is not defined.
         tolerance: the rounding within which it holds; None for exact methods.
-        colours: the colours, each with a z of its own; None for one colour or rounded ones.
+        colours: each with a z of its own; None for one colour or rounded ones.
         algebraic_within: algebraic stability of the method that a rounded one is taken to mean;
             None if undecided.
         late: the attributes that exceeded the time limit; they are None.
         is_linear_alone: whether it is about linear problems only.
-        embedded: R̂ for all colours together, with the embedded weights; None without them, or if
-            ``linear`` is empty.
+        embedded: R̂ for all colours together; None without embedded weights, or if ``linear`` is
+            empty.
 
     >>> from garkcli import find_stability
     >>> find_stability("radau-iia-2")
@@ -221,7 +212,6 @@ class Stability(Shown, Frozen):
     embedded: LinearStability | None = None
 
     def at(self, points: Sequence[linear_problems.Complex]) -> Stability:
-        """Returns the result with R at further points."""
         linear = tuple(x.at(points) for x in self.linear)
         return replace(self, linear=linear, embedded=self.embedded and self.embedded.at(points))
 
@@ -257,16 +247,9 @@ def stability(
     seconds: float | None = SECONDS,
     embedded: Tableau | None = None,
 ) -> Stability:
-    """Returns all results of ``gark stability`` for an exact method.
-
-    ``ratios`` are r_2/r_1 of further additive SSP radii; after ``seconds`` of processor time the
-    rest stays undecided; ``embedded`` is the method with its embedded weights as b, or None. Raises
-    NotDecided if R exceeds the time limit.
-
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.tableau.forms import gark
-    >>> stability(gark([diagonal_method("radau-iia", 2)], {})).linear[0].l_stable
-    True
+    """Returns all results for an exact method. After ``seconds`` of processor time the rest stays
+    undecided, NotDecided if R does; ``ratios`` are r_2/r_1 of further SSP radii; ``embedded`` has
+    those weights as b.
     """
     late: set[str] = set()
     with spending(seconds):
@@ -300,9 +283,7 @@ def _embedded(tableau: Tableau) -> LinearStability:
 def stability_of_rounded(
     tableau: Tableau, tolerance: fmpq, embedded: AnyTableau | None = None
 ) -> Stability:
-    """Returns the stability of the method that a rounded one is taken to mean, as far as decided.
-    ``embedded`` is the method with its embedded weights as b, or None.
-    """
+    """Returns the stability of the method that a rounded one means, as far as decided."""
     method = meant(tableau, tolerance)
     assert not isinstance(method, Tableau)
     linear = tuple(_of_rounded(method, *x) for x in directions(tableau))

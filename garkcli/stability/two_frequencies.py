@@ -70,10 +70,9 @@ class TwoFrequencies(Frozen):
 
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:
-    """The fast spring for one term, the slow one for the other terms with potential energy; all
-    kinetic energy is in the first term.
-
-    Raises ``UsageProblem`` if the method has only one term, or none is left for the slow spring.
+    """The fast spring for one term, the slow one for the others with potential energy; all kinetic
+    energy
+    is in the first. Raises UsageProblem if no term is left for the slow spring.
     """
     terms = terms_of(tableau)
     if terms < 2:
@@ -100,9 +99,7 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
 
 @doing("two springs")
 def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFrequencies:
-    """The exact intervals of the fast frequency for one slow one. Raises UsageProblem if the split
-    does not suit the structure of the tableau.
-    """
+    """The exact fast intervals for one slow frequency; UsageProblem if the split does not suit."""
     check_structure(tableau, _like_an_oscillator(split))
     M = _reduced(line_of_determinants(tableau, split, slow))
     trace, determinant, *_ = M
@@ -117,9 +114,7 @@ def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFre
 
 
 def unknowns_of(tableau: Tableau, split: SplitSprings) -> int:
-    """The number of equations of the stages. Raises UsageProblem if the split does not suit the
-    structure of the tableau.
-    """
+    """The number of equations of the stages; UsageProblem if the split does not suit."""
     check_structure(tableau, _like_an_oscillator(split))
     return len(_system(tableau, split, ZERO, ZERO).W)
 
@@ -133,12 +128,9 @@ def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> l
 
 
 def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
-    """D = det(I − W) and the entries of D · M, as polynomials in (a, x).
-
-    W is linear in (a, x), so the total degree of determinants is at most its size.
-
-    Raises:
-        UsageProblem: the split does not suit the structure of the tableau.
+    """D = det(I − W) and the entries of D · M, as polynomials in (a, x), in which W is linear:
+    their total
+    degree is at most its size. Raises UsageProblem if the split does not suit.
     """
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)
@@ -158,9 +150,7 @@ def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
 def _reduced(
     polynomials: Sequence[Polynomial],
 ) -> tuple[Ratio, Ratio, tuple[Polynomial, Polynomial], Polynomial]:
-    """The arguments of ``stable_set`` from D = det(I − W) and the entries of D · M, without their
-    common factor, whose roots are no poles of M.
-    """
+    """The arguments of ``stable_set``, without the common factor, whose roots are no poles of M."""
     common = polynomials[0]
     for p in polynomials:
         common = gcd(common, p)
@@ -212,10 +202,8 @@ class SlowInterval(Frozen):
     Attributes:
         low: the least a.
         high: the greatest a.
-        stable: the x ≥ 0 with all powers of M bounded for every a. ``open_points`` are excluded at
-            ends and included inside.
-        open_points: undecided single x: for some a an eigenvalue ±1 may be double, or M may have a
-            pole.
+        stable: the x ≥ 0 with all powers of M bounded for every a, without ``open_points`` at ends.
+        open_points: undecided x: for some a an eigenvalue ±1 may be double, or M may have a pole.
     """
 
     low: fmpq
@@ -225,10 +213,7 @@ class SlowInterval(Frozen):
 
     @property
     def is_stable_for_all(self) -> bool | None:
-        """Whether every fast frequency is stable; None if single points are open.
-
-        The free particle at a = x = 0 is ignored.
-        """
+        """Whether all fast frequencies are stable, the free particle a = x = 0 aside, or None."""
         if len(self.stable) != 1:
             return False
         [interval] = self.stable
@@ -249,9 +234,7 @@ class SlowInterval(Frozen):
 
 @doing("two springs")
 def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) -> SlowInterval:
-    """The fast frequencies that are stable for all slow ones of [low, high]. Raises UsageProblem if
-    the coefficients are irrational, or the split does not suit the structure of the tableau.
-    """
+    """Returns the x that are stable for all a in [low, high]; UsageProblem if not rational."""
     plane = plane_of_determinants(tableau, split)
     if not all(isinstance(a, fmpq) for p in plane for _, a in p.terms):
         message = "an interval of slow frequencies needs rational coefficients"
@@ -310,7 +293,6 @@ def _with_fast(p: Multivariate, x: Number) -> Polynomial:
 
 
 def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
-    """An interval without its undecided ends."""
     start, end = interval.start, interval.end
     has_start = interval.has_start and start not in undecided
     has_end = interval.has_end and end not in undecided

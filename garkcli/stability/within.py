@@ -1,8 +1,7 @@
 """Stability of rounded methods: of the method that is meant, known to many bits.
 
-Coefficients of polynomials are balls. A ball with zero in it counts as zero: so narrow a ball
-contains it only if the coefficient vanishes. Statements that hold for all numbers in the other
-balls are decided; the rest is not.
+Coefficients of polynomials are balls. One with zero in it counts as zero: so narrow a ball contains
+it only if the coefficient vanishes. Statements are decided if they hold for all other numbers.
 """
 
 from __future__ import annotations
@@ -27,18 +26,14 @@ from garkcli.tableau.tableau import Tableau
 
 
 class BallFraction(Frozen):
-    """R = P/Q of a rounded method, coefficients from the lowest. ``P`` has one coefficient more
-    than there are unknown stage values; ``Q`` is det(I − zW) and no longer than P.
-    """
+    """R = P/Q of a rounded method, lowest first; ``Q`` is det(I − zW), and P no shorter."""
 
     P: list[arb]
     Q: list[arb]
 
 
 def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> BallFraction:
-    """Returns P and Q of a method with rounded coefficients on point stages. ``shares`` are w_l
-    with λ_l = w_l λ.
-    """
+    """Returns P and Q of a rounded method on point stages; ``shares`` are w_l with λ_l = w_l λ."""
     system = stage_system(tableau, [((w,),) for w in shares])
     # how many coefficients each entry of the system is the sum of, each counted |w_l| times
     blocks = {edge: tuple(map(_ones, block)) for edge, block in tableau.blocks.items()}
@@ -102,9 +97,7 @@ def _series(W: list[list[arb]], b: list[arb], initial: list[arb]) -> list[arb]:
 def ssp_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> ball_polynomials.Bounds:
-    """Brackets the first failure of any condition of ``garkcli.stability.ssp``. ``shares`` are as
-    for ``ssp_coefficient``.
-    """
+    """Brackets the first failure of any condition of ``garkcli.stability.ssp``."""
     pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
     whole = arb_mat(n, n)
@@ -157,9 +150,7 @@ class StabilityWithin(Frozen):
 def stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> StabilityWithin:
-    """Returns the decided results on R and the SSP coefficient of a rounded method on point stages.
-    ``shares`` are w_l with λ_l = w_l λ.
-    """
+    """Returns the decided results of a rounded method on point stages; ``shares`` as above."""
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
         E = _margin(R)
@@ -203,7 +194,6 @@ def _is_bounded(E: Sequence[arb]) -> bool | None:
 
 
 def _poles_are_right(R: BallFraction) -> bool | None:
-    """Whether all poles have positive real parts."""
     found = ball_polynomials.poles_are_right(R.Q)
     if found is False and not ball_polynomials.are_coprime(R.P, R.Q):
         return None  # the root on the left may cancel and be no pole
