@@ -1,7 +1,6 @@
-"""The step of a method that uses derivatives of f along the solution: an additive method with these
-derivatives as vector fields, each with its power of h.
-
-f_1 = f and f_{k+1} = f_k' f, with ∂f_k/∂t if f depends on t, are derived as expressions.
+"""The step of a method that uses derivatives of f along the solution: an additive method with the
+vector fields f_1 = f and f_{k+1} = f_k' f, with ∂f_k/∂t if f depends on t, each with its power of
+h.
 """
 
 from __future__ import annotations
@@ -21,9 +20,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Stepped(Frozen, eq=False):
-    """The additive method that takes the steps, with one colour for each derivative and one for
-    time. ``powers`` has the power of h in the coefficients of each colour.
-    """
+    """The additive method that takes the steps, with the ``powers`` of h of its colours."""
 
     tableau: Tableau
     fields: Fields
@@ -48,7 +45,6 @@ class Stepped(Frozen, eq=False):
 
 
 def along_flow(tableau: Tableau, problem: Problem) -> Stepped:
-    """The step of a method that uses derivatives, on a problem with one term."""
     method = AlongFlow.of(tableau)
     made, count = method.additive, len(method.A)
     groups = problem.layout.groups

@@ -1,9 +1,9 @@
 """The order of computation of stages, and which of them are implicit.
 
-A directed graph has one vertex for each stage value (positions or momenta of one stage) that some
+A directed graph has a vertex for each stage value (positions or momenta of one stage) that some
 vector field uses, and one for each evaluation of a field. Its strongly connected components are
-computed one after the other; in a component of several vertices, stage values become unknowns until
-the rest has no cycle. Newton's method solves for the unknowns only: the rectangular method has one.
+computed one after the other; in larger ones, stage values become unknowns until the rest has no
+cycle. Newton's method solves for these only: the rectangular method has one.
 """
 
 from __future__ import annotations
@@ -25,8 +25,6 @@ T = TypeVar("T", bound=Hashable)
 
 
 class Stage(Frozen):
-    """Components of stage ``index`` of the stage space ``space``."""
-
     space: int
     index: int
     group: Group
@@ -44,22 +42,14 @@ Vertex: TypeAlias = Stage | FieldEvaluation
 
 
 class StageBlock(Frozen):
-    """Vertices that are computed together. ``unknowns`` are the stage values to solve for, empty
-    for an explicit block, ``order`` the other vertices in the order of computation.
-    """
+    """Vertices that are computed together: stage values to solve for, then the others in order."""
 
     unknowns: tuple[Stage, ...]
     order: tuple[Vertex, ...]
 
 
 class DependencyGraph(Frozen):
-    """The computations of a method on a problem.
-
-    Attributes:
-        arguments: the stage values that each evaluation uses, positions before momenta.
-        coefficients: their coefficients, and with stage None the weights; equal numbers have equal
-            texts.
-    """
+    """The computations of a method; ``coefficients`` of stage None are weights."""
 
     evaluations: tuple[FieldEvaluation, ...]
     arguments: Mapping[FieldEvaluation, tuple[Stage, ...]]
@@ -126,7 +116,7 @@ class DependencyGraph(Frozen):
 
 
 def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
-    """The computations of a tableau; coefficients count as zero or equal to ``DIGITS`` digits."""
+    """Coefficients count as zero or equal to ``DIGITS`` digits."""
     entries = numeric_entries(tableau, DIGITS + 5)
     arguments: dict[FieldEvaluation, tuple[Stage, ...]] = {}
     for (m, group), field in fields.items():

@@ -18,13 +18,9 @@ from garkcli.tableau.tableau import Colour, Part, Tableau
 
 
 def split_into(problem: Problem, terms: int) -> Problem:
-    """``problem`` in as many terms.
-
-    One term is the sum. A Hamiltonian with one term is split naturally: summands with momenta are
-    the first term, those with positions only are shared equally by the others.
-
-    Raises:
-        UsageProblem: there is no natural split.
+    """``problem`` in as many terms: their sum, or if it has one, summands with momenta first and
+    those with
+    positions only shared equally by the others. Raises UsageProblem if there is no natural split.
     """
     found = len(problem.terms)
     if found == terms:
@@ -78,9 +74,7 @@ def with_joined_terms(tableau: Tableau) -> Tableau:
 
 
 def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
-    """The tableau with the terms in which it steps ``problem``. Raises UsageProblem if it drives
-    positions and momenta, which the problem does not have.
-    """
+    """The tableau with the terms of its steps; UsageProblem if it drives q and p in vain."""
     if isinstance(problem, Hamiltonian):
         return with_joined_terms(tableau)
     if tableau.is_partitioned:
@@ -91,9 +85,7 @@ def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
 
 
 def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
-    """The tableau with time as its last colour if the problem depends on time: stages are at t_0 +
-    h c^{l}. Raises UsageProblem if its stages have no unique nodes.
-    """
+    """Time as last colour, if needed: stages are at t_0 + h c^{l}; UsageProblem without nodes."""
     if isinstance(problem, Hamiltonian) or not problem.has_time:
         return tableau
     if LinearlyImplicit.of(tableau) is not None:
@@ -110,9 +102,7 @@ def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
 
 
 def fields_of(tableau: Tableau, problem: Problem) -> Fields:
-    """The vector fields of the colours. Raises UsageProblem if the problem does not suit the
-    structure of the method.
-    """
+    """Raises UsageProblem if the problem does not suit the structure of the method."""
     if isinstance(problem, Hamiltonian):
         fields = _hamiltonian_fields(tableau, problem)
     else:
@@ -189,10 +179,9 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
 
 @doing("what the problem sees")
 def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
-    """The tableau whose trees are those that the problem sees: it has the observed order.
-
-    Each nonzero field has a colour and stages of its own, and no stage sees what its field does not
-    depend on.
+    """The tableau whose trees the problem sees, of the observed order: each nonzero field has a
+    colour and
+    stages of its own, and no stage sees what its field does not depend on.
     """
     colours, spaces = [], []
     for k, ((m, group), field) in enumerate(fields.items()):

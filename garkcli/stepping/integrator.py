@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 
 
 FLOAT_PRECISION = 2.0**-52
-"""The distance from 1 to the next float."""
 Real: TypeAlias = Any
 """A float, or the midpoint of a ball with the digits of the integrator."""
 Recorder: TypeAlias = Callable[[list[Real]], None]
@@ -45,8 +44,6 @@ StepProgram: TypeAlias = Callable[
 
 
 class NotSolved(Exception):
-    """Newton's method did not converge in step ``number``."""
-
     def __init__(self, number: int, residual: float) -> None:
         super().__init__(number, residual)
         self.number, self.residual = number, residual
@@ -57,11 +54,11 @@ class Integrator(Frozen):
 
     Attributes:
         problem: the split problem.
-        digits: the digits of all numbers; up to ``FLOAT_DIGITS`` they are floats.
+        digits: up to ``FLOAT_DIGITS`` all numbers are floats.
         program: the program of a step.
         coefficients: enclosures of the coefficients of the program, in its order.
         run: the compiled program.
-        powers: the power of h of each coefficient; empty if all are 1.
+        powers: of h in each coefficient; empty if all are 1.
     """
 
     problem: Problem
@@ -73,12 +70,10 @@ class Integrator(Frozen):
 
     @property
     def bits(self) -> int:
-        """The precision of balls."""
         return _bits(self.digits)
 
     @property
     def is_for_balls(self) -> bool:
-        """Whether its numbers are balls."""
         return self.digits > FLOAT_DIGITS
 
     def number(self, x: Any) -> Real:
@@ -86,7 +81,6 @@ class Integrator(Frozen):
         return arb(x).mid() if self.is_for_balls else float(arb(x))
 
     def weights(self, h: fmpq) -> list[Real]:
-        """The products of h and the coefficients."""
         with _precision(self.digits):
             powers = self.powers or (1,) * len(self.coefficients)
             pairs = zip(self.coefficients, powers, strict=True)
@@ -102,8 +96,7 @@ class Binding(Frozen, eq=False):
     Attributes:
         tableau: with the terms of the problem.
         problem: in as many terms as the tableau has.
-        fields: the vector fields of the colours; steps of a method with derivatives evaluate these
-            as well.
+        fields: the vector fields of the colours; methods with derivatives step with these as well.
     """
 
     tableau: Tableau
@@ -144,7 +137,6 @@ class Binding(Frozen, eq=False):
         return Integrator(self.problem, digits, program, coefficients, run, powers)
 
     def _linear(self, method: LinearlyImplicit, digits: int) -> Integrator:
-        """The integrator of a Rosenbrock method."""
         program = program_of(method, self.problem.layout)
         with _precision(digits):
             run = steps_of(program, self.problem, digits > FLOAT_DIGITS, NotSolved)
@@ -161,7 +153,7 @@ class Binding(Frozen, eq=False):
 
     @cached_property
     def _along_flow(self) -> Stepped | None:
-        """The additive method that takes the steps, for a method with derivatives."""
+        """The additive method that takes the steps of a method with derivatives."""
         if not self.tableau.uses_derivatives:
             return None
         from garkcli.stepping.along_flow import along_flow  # few methods need it
@@ -170,7 +162,6 @@ class Binding(Frozen, eq=False):
 
     @property
     def _evaluated(self) -> Fields:
-        """The vector fields that steps evaluate."""
         return self.fields if self._along_flow is None else self._along_flow.fields
 
     # one text serves any number of digits: its coefficients and constants have names
@@ -188,9 +179,7 @@ class Binding(Frozen, eq=False):
 
 @doing("method for the problem")
 def bind(tableau: Tableau, problem: Problem) -> Binding:
-    """Binds ``tableau`` to ``problem``, to step with any number of digits.
-
-    The problem is in as many terms as the tableau has, or in one with a natural split. Raises
+    """Binds ``tableau`` to ``problem``, in as many terms or in one with a natural split. Raises
     UsageProblem if it does not suit the structure.
 
     >>> from garkcli import hamiltonian, integrate, loads
@@ -257,12 +246,7 @@ class StepFailed(GarkError):
 
 
 class RunWork(Frozen):
-    """The cost of a run of steps.
-
-    Attributes:
-        evaluations: evaluations of V^{l} or F^{l} at one stage, including those of Newton's method.
-        jacobians: Jacobians of implicit blocks, each with a factorisation.
-    """
+    """The cost of a run, Newton's method included; each Jacobian has a factorisation."""
 
     evaluations: int
     iterations: int
@@ -276,12 +260,9 @@ def trajectory(
     initial: Sequence[Any] | None = None,
     every: int = 1,
 ) -> Iterator[list[Real]]:
-    """(q, p) at the start and after each ``every`` of ``count`` steps of size ``h``, shape (2d,).
-
-    The last one is after ``count`` steps. The start is ``initial``, or that of the problem.
-
-    Raises:
-        StepFailed: the stage equations of a step were not solved.
+    """(q, p) at the start, after each ``every`` of ``count`` steps, and at the end, shape (2d,).
+    The start is ``initial``, or that of the problem; StepFailed if the stage equations were not
+    solved.
     """
     stepper = Stepper(integrator, h, initial)
     yield stepper.y
@@ -310,9 +291,7 @@ def integrate(
 
 
 class Stepper(Mutable):
-    """A trajectory that can be advanced. ``initial`` is (q, p) at the start, shape (2d,), or None
-    for that of the problem, ``done`` the number of steps so far.
-    """
+    """A trajectory that can be advanced from ``initial``, shape (2d,), or the problem's."""
 
     integrator: Integrator
     h: fmpq
@@ -345,9 +324,7 @@ class Stepper(Mutable):
         )
 
     def advance(self, count: int, record: Recorder | None = None) -> None:
-        """Takes ``count`` steps; ``record`` is called after each. Raises StepFailed if the stage
-        equations of a step were not solved.
-        """
+        """Takes ``count`` steps, or raises StepFailed; ``record`` is called after each."""
         try:
             made = self._run(count, record)
         except NotSolved as failure:
@@ -359,7 +336,6 @@ class Stepper(Mutable):
         self.done += count
 
     def _run(self, count: int, record: Recorder | None) -> tuple[list[Real], list[int], int]:
-        """Runs the program of the steps, with balls at their precision."""
         integrator = self.integrator
         first = self.done + 1
         if not integrator.is_for_balls:

@@ -28,11 +28,11 @@ class _Layer(Frozen):
 
 
 class ChainRule:
-    """The derivative of the image of the unknowns of a block.
-
-    There are n = ``dimension`` · (unknown stage values) unknowns; ``weights`` has the index of the
-    number w = h a of a stage and an evaluation, ``arguments`` the pairs of evaluation and stage
-    value whose derivatives are needed, in this order.
+    """The derivative of the image of the unknowns of a block, of which there are n = ``dimension``
+    ·
+    (unknown stage values). ``arguments`` has the pairs of evaluation and stage value whose
+    derivatives
+    are needed, in order, ``weights`` the indices of w = h a.
     """
 
     def __init__(
@@ -72,9 +72,7 @@ class ChainRule:
         return found
 
     def inverse(self, derivatives: Sequence[float], weights: Sequence[float]) -> Floats:
-        """Returns (I − J)⁻¹, shape (n, n). ``derivatives`` are those of the fields by their
-        ``arguments``, a matrix (d, d) each, row by row; ``weights`` are all numbers w.
-        """
+        """(I − J)⁻¹, shape (n, n), of (d, d) Jacobians by ``arguments``, row by row, and all w."""
         d = self.d
         n = d * len(self.unknowns)
         fields = dict(zip(self.arguments, np.array(derivatives).reshape(-1, d, d), strict=True))
@@ -119,13 +117,10 @@ def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Float
 Slope: TypeAlias = dict[int, str]
 """The derivative of one number by the unknowns that it depends on, as texts."""
 _Slopes: TypeAlias = dict[tuple[Stage | FieldEvaluation, int], Slope]
-"""The slopes of components of stage values and evaluations."""
 
 
 class JacobianWriter:
-    """Writes the lines of derivatives. ``chains`` has the Jacobians with too many unknowns to be
-    written out, by the indices of their blocks.
-    """
+    """Writes derivatives; ``chains`` has Jacobians too large to be written, by blocks."""
 
     def __init__(self, stages: StageWriter) -> None:
         self.chains: dict[int, ChainRule] = {}

@@ -6,14 +6,10 @@ With the vector field y ↦ L^m y of colour m, L^m ∈ K^{d×d}, the stage value
 
 With only the components X of each Y^k that some vector field uses, these are
 
-    X = E y₀ + h W X,    y₁ = y₀ + h B X,    hence    y₁ = (I + h B (I − hW)⁻¹ E) y₀.
-
-On the oscillator y₁ = R(h) y₀ with R(h) ∈ K^{2×2},
-
+    X = E y₀ + h W X,    y₁ = y₀ + h B X,    hence    y₁ = R(h) y₀,
     R(h) = I + h B (I − hW)⁻¹ E = I + Σ_k h^k B W^{k−1} E.
 
-A number of K = ℚ(θ) is kept as its multiplication matrix over ℚ, so that all of it is rational
-arithmetic in python-flint.
+A number of K = ℚ(θ) is its multiplication matrix over ℚ, so that all is rational arithmetic.
 """
 
 from __future__ import annotations
@@ -35,9 +31,7 @@ _Rows: TypeAlias = list[list[Number]]
 
 
 class StageSystem(Frozen):
-    """W, E and B of the module's docstring, over the domain of the coefficients. The shapes are (n,
-    n), (n, d) and (d, n), with n the number of unknown stage values in use.
-    """
+    """W, E and B of the module, of shapes (n, n), (n, d), (d, n) with n stage values in use."""
 
     W: Matrix
     E: Matrix
@@ -56,11 +50,10 @@ class _Term(Frozen):
 def stage_system(
     tableau: Tableau, fields: Sequence[Matrix], pattern: Sequence[Matrix] | None = None
 ) -> StageSystem:
-    """Returns the linear system of the stages.
-
-    ``fields`` has L^m for each colour m, all of one shape (d, d); ``pattern`` matrices that are
-    nonzero where some parameters of the problem make L^m nonzero, so that the unknowns agree for
-    all, or None for the L^m themselves. Raises MethodError if the tableau is no GARK method.
+    """Returns the linear system of the stages for the L^m of the colours, shape (d, d). ``pattern``
+    is
+    nonzero where some parameters make L^m nonzero, so that the unknowns agree for all. Raises
+    MethodError if the tableau is no GARK method.
     """
     tableau.demand_fields("a step on a linear problem")
     d = len(fields[0])
@@ -124,15 +117,10 @@ def _add(matrix: _Rows, row: int, column: int, factor: Number, block: Matrix) ->
 
 
 MAX_STEPS = 10**15
-"""Most steps of a power of the step map."""
 
 
 class LinearStep(Frozen):
-    """A tableau on an oscillator, with the stage system W, E, B over ℚ.
-
-    ``field`` is the domain K of the coefficients, None for ℚ. With d its degree and n the number of
-    unknown stage values, W has the shape (dn, dn), E (dn, 2) and B (2d, dn).
-    """
+    """The system over ℚ: with d the degree of ``field``, W is (dn, dn), E (dn, 2), B (2d, dn)."""
 
     problem: Oscillator
     field: NumberField | None
@@ -141,9 +129,7 @@ class LinearStep(Frozen):
     B: fmpq_mat
 
     def at(self, h: fmpq) -> Matrix:
-        """R(h), exact, shape (2, 2). Raises UsageProblem if the stage equations are singular for
-        this h.
-        """
+        """R(h), exact, shape (2, 2); UsageProblem if the stage equations are singular."""
         n = self.W.nrows()
         unit = fmpq_mat(n, n)
         for i in range(n):
@@ -179,9 +165,7 @@ class LinearStep(Frozen):
 
 
 def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
-    """The step of ``tableau`` on ``problem``. Raises UsageProblem if the split does not suit the
-    structure of the tableau.
-    """
+    """Raises UsageProblem if the split does not suit the structure of the tableau."""
     check_structure(tableau, problem)
     system = stage_system(tableau, [problem.matrix(colour) for colour in tableau.colours])
     field = tableau.field
@@ -235,8 +219,9 @@ def conserves_energy(R: Matrix, omega: fmpq) -> bool:
 
 
 def deviations(step: LinearStep) -> Iterator[arb]:
-    """The distances of the coefficients of h, h², … in R(h) from those of exp(hL), without end.
-    Each is the largest of four entries, in units with ω = 1; it is zero if and only if all are.
+    """The distances of the coefficients of h, h², … in R(h) from those of exp(hL), without end:
+    each the
+    largest of four entries, in units with ω = 1; zero if and only if all are.
     """
     omega = step.problem.omega
     L: Matrix = ((ZERO, ONE), (-omega * omega, ZERO))
@@ -256,12 +241,10 @@ def deviations(step: LinearStep) -> Iterator[arb]:
 
 def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
     """Returns the largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees,
-    exactly.
-
-    A linear problem sees only unbranched trees along which the split is nonzero. The search ends
-    because R is rational in h and cos ωh is not. ``tolerance`` is the largest of the ``deviations``
-    that counts as rounding; then the search ends when the coefficients 1/r! of exp(hL) are as
-    small.
+    exactly, by
+    unbranched trees along which the split is nonzero. The search ends because R is rational in h
+    and cos
+    ωh is not, or, with a ``tolerance`` for the ``deviations``, when 1/r! is as small.
     """
     limit = fmpq(0) if tolerance is None else tolerance
     coefficient = ONE
@@ -273,9 +256,7 @@ def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
 
 
 def whole_steps(t_end: fmpq, h: fmpq) -> int:
-    """The number of steps n = t_end / h. Raises UsageProblem if it is not a positive integer, or
-    more than ``MAX_STEPS``.
-    """
+    """Returns n = t_end / h; UsageProblem if it is not a positive integer, or too large."""
     if h <= 0 or t_end <= 0:
         message = f"step {h} and end time {t_end} are not both positive"
         raise UsageProblem(message, "give positive numbers", code="step-size")

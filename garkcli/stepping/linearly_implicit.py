@@ -1,11 +1,11 @@
-"""The step of a Rosenbrock method: one linear system per stage, with the exact Jacobian.
+"""The step of a Rosenbrock method: a linear system for each stage, with the exact Jacobian.
 
     (I − h γ_ii J) k_i = f(t + c_i h, y + h Σ_j α_ij k_j) + h d_i ∂f/∂t + h J Σ_{j<i} γ_ij k_j,
     y_1 = y + h Σ_i b_i k_i,
 
-with J = ∂f/∂y at the beginning of the step, of the whole problem: positions and momenta of a
-Hamiltonian one together. A tableau for f' + h E takes the derivatives at t − h, y − h f instead,
-like those of the step before; one for an arbitrary matrix takes the diagonal of J, without ∂f/∂t.
+with J = ∂f/∂y at the beginning of the step, of the whole problem. A tableau for f' + h E takes the
+derivatives at t − h, y − h f instead, like those of the step before; one for an arbitrary matrix
+takes the diagonal of J, without ∂f/∂t.
 """
 
 from __future__ import annotations
@@ -29,7 +29,6 @@ from garkcli.tableau.tableau import Tableau, butcher
 Numbers: TypeAlias = "list[Any]"
 Fields: TypeAlias = "Callable[..., Numbers]"
 Taken: TypeAlias = Literal["exact", "old", "diagonal"]
-"""The matrix that a step uses for the Jacobian."""
 _TAKEN: dict[tuple[kind.VertexKind, ...], Taken] = {
     (kind.NOT_ONE, kind.ONE_BRANCH): "exact",
     (kind.NOT_ONE, kind.ONE_BRANCH, kind.ERROR_OF_MATRIX): "old",
@@ -39,11 +38,7 @@ _TAKEN: dict[tuple[kind.VertexKind, ...], Taken] = {
 
 
 class LinearlyImplicit(Frozen):
-    """A Rosenbrock method of one colour whose stages are computed one after the other.
-
-    ``alpha`` is zero on and above the diagonal, ``gamma`` above it; ``c`` are the nodes of f, ``d``
-    the weights of ∂f/∂t, ``taken`` is the matrix used for the Jacobian.
-    """
+    """``alpha`` is zero from the diagonal on; ``c`` are nodes of f, ``d`` weights of ∂f/∂t."""
 
     alpha: Matrix
     gamma: Matrix
@@ -54,10 +49,7 @@ class LinearlyImplicit(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> LinearlyImplicit | None:
-        """The method of a tableau, with time as its last colour or without; None for another kind
-        of method. Raises MethodError if the method has several colours, or a stage needs a later
-        one.
-        """
+        """Returns None for other methods; MethodError for several colours or implicit stages."""
         kinds = tuple(x.kind for x in tableau.colours if x.kind != kind.LEAF)
         taken = _TAKEN.get(tuple(dict.fromkeys(kinds)))
         if taken is None:
@@ -94,9 +86,7 @@ class LinearlyImplicit(Frozen):
 
 
 class LinearProgram(Frozen):
-    """The counterpart of ``Program`` for such a method. A state has its numbers, time last, and
-    their compensations, ``size`` in all.
-    """
+    """As ``Program``; a state has ``size`` numbers, time last, then their compensations."""
 
     method: LinearlyImplicit
     size: int
@@ -112,9 +102,7 @@ def program_of(method: LinearlyImplicit, layout: StateLayout) -> LinearProgram:
 def steps_of(
     program: LinearProgram, problem: Problem, is_for_balls: bool, failed: Callable[..., Exception]
 ) -> Any:
-    """The function that takes steps, as in ``Program.source``, with numbers of the current
-    precision; ``failed`` makes its exception from the number of the step and a residual.
-    """
+    """The function of ``Program.source``; ``failed`` makes its error of a step and a residual."""
     layout = problem.layout
     value, exact = _field(problem, is_for_balls)
     slopes = _TAKES[program.method.taken](value, exact)
@@ -250,7 +238,6 @@ def _solved(matrix: list[Numbers], right: Numbers) -> Numbers:
 
 
 def _field(problem: Problem, is_for_balls: bool) -> tuple[Fields, Callable[..., Any]]:
-    """The vector field of a problem and its derivatives, as functions of a state."""
     layout = problem.layout
     groups = [group for group in layout.groups if group != TIME]
     parts = [_StagePart(problem, group, is_for_balls) for group in groups]
@@ -285,7 +272,6 @@ class _StagePart:
         self._slopes = function(field.slopes(by), field.arguments, is_for_balls) if by else list
 
     def value(self, numbers: Sequence[Any]) -> Numbers:
-        """The components of the vector field."""
         return self._value(*(numbers[place] for place in self._places))
 
     def slopes(self, numbers: Sequence[Any]) -> Iterator[Numbers]:

@@ -20,9 +20,7 @@ from garkcli.stepping.jacobian import JacobianWriter, Slope, identity_minus
 from garkcli.stepping.stagewriter import StageWriter, names
 
 MAX_ITERATIONS = 50
-"""Newton iterations in floats before a step is given up; more digits allow one more for each digit,
-as a Jacobian in floats gains at least one in each.
-"""
+"""In floats; each further digit allows one more, as a Jacobian in floats gains one or more."""
 _WRITTEN = 24
 """Most unknowns for which the Jacobian is written out."""
 _DIRECT = 2
@@ -56,7 +54,6 @@ class NewtonWriter:
         self._is_for_balls = stages.is_for_balls
 
     def solve(self, block: StageBlock, index: int) -> None:
-        """Writes Newton's method for the unknowns of ``block``, the implicit block ``index``."""
         write = self._lines.write
         d = self._stages.d
         unknowns = [f"z{self._stages.component(x, i)}" for x in block.unknowns for i in range(d)]
@@ -202,5 +199,4 @@ class NewtonWriter:
 
 
 def _size_of(numbers: Sequence[str]) -> str:
-    """The text of the sum of their absolute values."""
     return " + ".join(f"abs({x})" for x in numbers)

@@ -1,11 +1,8 @@
-"""The step of a method on a problem as straight-line Python, one program for floats and one for
-balls.
+"""The step of a method on a problem as straight-line Python, for floats or for balls.
 
-The writer follows the blocks of ``garkcli.stepping.dependency`` in order. With the numbers w = h a
-and h b given, each stage value is y_0 plus the sum of w times field values, eq. (spgqrk) without
-its zeros: see ``garkcli.stepping.stagewriter``. Newton's method finds the unknowns of an implicit
-block, see ``garkcli.stepping.newton``. All names in the text are our own: see
-``garkcli.problems.straightline``.
+The writer follows the blocks of ``dependency`` in order. With w = h a and h b given, each stage
+value is y_0 plus the sum of w times field values, eq. (spgqrk) without its zeros; Newton's method
+finds the unknowns of an implicit block. All names in the text are our own.
 """
 
 from __future__ import annotations
@@ -29,16 +26,17 @@ class Program(Frozen):
     """A step as text.
 
     Attributes:
-        source: the text of ``run(state, w, first, count, record)``. A state is the list of the
-            numbers, time last, their compensations, and the errors of the starts of Newton's method
-            in the last step with their changes; the result is the new state, the number of
-            iterations of each implicit block, and the number of Jacobians. ``record``, unless None,
-            is called with the numbers without time after each step.
+        source: of ``run(state, w, first, count, record)``. A state has the numbers, time last,
+            their
+            compensations, and the errors of the starts of Newton's method in the last step with
+                their
+            changes; results are the new state, the iterations of each implicit block, and the
+                number of
+            Jacobians. ``record``, if any, gets the numbers without time after each step.
         coefficients: the stage and evaluation of the coefficient a in each w = h a; no stage for b.
         evaluations: field evaluations outside of Newton's method in one step.
         implicit: the blocks that are solved by Newton's method, in order.
-        chains: the Jacobians with too many unknowns to be written out, by the indices of their
-            blocks.
+        chains: as in ``JacobianWriter``.
     """
 
     source: str
@@ -61,13 +59,10 @@ class Program(Frozen):
 def write(
     graph: DependencyGraph, fields: Fields, layout: StateLayout, is_for_balls: bool
 ) -> Program:
-    """The program of one step of the method with ``graph`` on states with ``layout``."""
     return _ProgramWriter(graph, fields, layout, is_for_balls).program()
 
 
 class _ProgramWriter:
-    """Writes a whole step, using the writers of its parts."""
-
     def __init__(
         self, graph: DependencyGraph, fields: Fields, layout: StateLayout, is_for_balls: bool
     ) -> None:

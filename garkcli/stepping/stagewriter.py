@@ -14,8 +14,6 @@ from garkcli.stepping.fields import Fields
 
 
 class Lines:
-    """Lines of a program."""
-
     def __init__(self, indent: str = "") -> None:
         self.texts: list[str] = []
         self._indent = indent
@@ -39,11 +37,9 @@ class StageSum(Frozen):
 
 
 class StageWriter:
-    """Writes stage values and evaluations, and keeps the names of their results.
-
-    ``weights`` has the names of the numbers w by the texts of their coefficients, ``first`` the
-    first occurrence of each; ``values`` and ``stages`` the names of the results of each evaluation
-    and each stage value, ``number`` that of each vertex.
+    """Writes stage values and evaluations, and keeps the names of their results. ``weights`` has
+    the names
+    of w by texts of coefficients, ``first`` the first occurrence of each.
     """
 
     def __init__(
@@ -102,9 +98,7 @@ class StageWriter:
     def total(
         self, stage: Stage | None, evaluations: Sequence[FieldEvaluation], group: Group
     ) -> StageSum:
-        """The sum of w f over ``evaluations``, which drive ``group``; built on a known sum that has
-        at least two of its terms, so each stage of a composition extends the one before.
-        """
+        """The sum of w f, built on a known sum that has at least two of its terms."""
         terms: dict[FieldEvaluation, str] = {}
         for evaluation in evaluations:
             if any(f != "0" for f in self.values[evaluation]):
