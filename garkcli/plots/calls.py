@@ -39,11 +39,11 @@ def plot(
     """A figure of results, as ``--plot`` draws it; needs ``garkcli[plot]``.
 
     Args:
-        results: what ``converge``, ``long_run``, ``find_stability``, ``run_sweep``, or
-            ``stable_values`` of two parameters returned; several convergence tests or stabilities
-            are drawn together.
+        results: of ``converge``, ``long_run``, ``find_stability``, ``run_sweep``, or
+            ``stable_values`` of two parameters; several of the first or third kind are drawn
+            together.
         path: where to save it besides: .png, .svg or .pdf.
-        names: of the methods, one a result.
+        names: of the methods, one for each result.
         against: of convergence tests: ``"h"``, ``"evaluations"`` or ``"seconds"``.
         is_order_star: of stability: draw |R(z)| > |e^z| in place of |R(z)| ≤ 1.
 
@@ -71,9 +71,7 @@ def plot(
 
 
 def plot_method(method: GarkMethod, path: str | os.PathLike[str] | None = None) -> Figure:
-    """Plots the region of stability of a method, and saves it if a path is given. Raises
-    MethodError if ``path`` is not a path.
-    """
+    """Plots the region of stability of a method, and saves it if a path is given."""
     if path is not None:
         path = path_of(path)
     return plot(find_stability(method), path=path, names=[method.name])

@@ -15,11 +15,11 @@ from garkcli.plots import scene
 from garkcli.problems.righthandside import RightHandSide
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
-"""Distances between the curve and the line beside it, in heights of the figure."""
+"""From curve to line, in heights of the figure."""
 _CLEAR = 0.035
 """The distance from all curves that suffices, in heights of the figure."""
 _LABEL = ((0.02, 0.02), (0.06, 0.03), (0.11, 0.035))
-"""Distances of a label from the middle of its line, in widths and heights of the figure."""
+"""From a label to the middle of its line, in widths and heights of the figure."""
 _SAMPLES = 8
 _Points: TypeAlias = Sequence[scene.Point]
 
@@ -27,12 +27,11 @@ _Points: TypeAlias = Sequence[scene.Point]
 def place_line(
     beside: Sequence[scene.Curve], slope: int, curves: Sequence[scene.Curve], is_whole: bool = False
 ) -> scene.RuledLine:
-    """Returns a line of given slope near one of its curves, away from all others; its label is on
-    the far side.
-
-    The slope is in decades per decade. With ``is_whole`` the line is as long as the curve and has
-    no label; otherwise it spans three points, those of the smallest errors if there is space. The
-    first place that is clear of all curves is taken, or else the clearest.
+    """Returns a line of given slope near one of its curves, away from all others, labelled on the
+    far
+    side. With ``is_whole`` it is as long as the curve, without label; otherwise it spans three
+    points,
+    those of the smallest errors if there is space.
     """
     figure = _Figure.of(curves)
     parts: list[_Points] = []
@@ -55,7 +54,7 @@ def place_line(
 
 
 class _Figure(Frozen):
-    """The curves in widths and heights of the figure; ``wide`` and ``high`` are in decades."""
+    """The curves in widths and heights of the figure, which are given in decades."""
 
     wide: float
     high: float
@@ -138,9 +137,7 @@ _LONGEST_STEP = 6  # characters
 
 
 def errors_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Scene:
-    """Returns the scene of errors; for one method against step sizes with its energy error.
-    ``against`` is h, evaluations or seconds; the latter two need rows with costs.
-    """
+    """Returns the errors; ``against`` is h, evaluations or seconds, if rows have these."""
     (name, first), *others = named
     about = _about(first)
     if others or against != "h":
@@ -169,7 +166,6 @@ def errors_panel(result: Convergence) -> scene.Panel:
 
 
 def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Panel:
-    """Returns the errors of several methods, with a line for each observed order."""
     curves: list[scene.Curve] = []
     of_order: dict[int, list[scene.Curve]] = {}
     for style, (name, result) in enumerate(named):
@@ -204,7 +200,7 @@ def _panel(
 
 
 def _decades(points: Iterable[tuple[Any, Any]]) -> list[scene.Point]:
-    """Returns the decimal logarithms of points, to their certain digits."""
+    """Returns decimal logarithms, to their certain digits."""
     return [(log10(x), log10(for_programs(y, 9))) for x, y in points if y > 0]
 
 
@@ -221,7 +217,6 @@ def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:
 
 
 def _about(result: Convergence) -> str:
-    """Returns the problem and the final time as text."""
     problem = result.problem
     about = scene.capitalized(result.problem.name)
     if isinstance(problem, RightHandSide) and problem.stiffness is not None:

@@ -60,13 +60,10 @@ def _coordinates(numbers: list[float]) -> tuple[list[float], bool]:
 
 _TITLE = "Energy error over a long time"
 _HEIGHT, _LOWER = 200, 110
-"""Heights of the panel of the energy and of the others."""
 
 
 def energy_scene(run: LongRun, name: str = "") -> scene.Scene:
-    """Returns the energy error against time, with a further panel for each other invariant.
-    ``name`` may be empty.
-    """
+    """Returns the energy error against time, and a panel for each other invariant."""
     about = f"{scene.capitalized(run.problem.name)}, h = {run.step}, {run.steps} steps"
     title = f"{name}\n{about}" if name else about
     return scene.Scene(title, [history_panel(run, history) for history in run.invariants])
@@ -126,7 +123,6 @@ def _scaled(points: list[scene.Point], factor: float) -> list[scene.Point]:
 
 
 def drawn(report: SweepReport) -> list[Row]:
-    """Returns the kept methods with finite values in the first two columns of the front."""
     return [x for x in kept(report.done) if all(_is_finite(x, y) for y in report.plan.pareto[:2])]
 
 
@@ -173,11 +169,10 @@ def _is_finite(row: Row, name: str) -> bool:
 
 
 _COLUMNS = 120
-"""The number of values of the first parameter at which a strip is drawn."""
+"""The values of the first parameter at which a strip is drawn."""
 
 
 def stable_plane_scene(values: StableValues, title: str) -> Scene:
-    """Returns the set of two parameters near the ends of its strips."""
     x_name, y_name = values.names
     wanted = str(values.stability)
     ends = [x for strip in values.strips for x in (strip.start, strip.end)]
@@ -235,7 +230,6 @@ def _shape(strip: Strip, part: StripPart, x: Axis, y: Axis) -> Shape:
 
 
 def _within(end: End, y: Axis, which: int) -> float:
-    """Returns an end within the picture; the lower or upper edge if it is infinite."""
     if not isinstance(end, RealRoot):
         return (y.low, y.high)[which]
     return min(max(float(end), y.low), y.high)

@@ -15,15 +15,14 @@ from matplotlib.path import Path
 from garkcli.plots import scene as scenes
 
 _MARKS = "os^DvXP*"
-"""The markers by style; every second one is open."""
+"""Every second one is open."""
 _INCH = scenes.WIDTH / 6.4
-"""Units of a picture per inch."""
 _BESIDE, _ABOVE, _LEGEND_ROW = 0.95, 0.35, 0.21
 """Space around the axes of a panel, above all panels, and for a line below, in inches."""
 _TITLE_WIDTH = 60  # characters of a line of a title
 _LONGEST = 72  # characters of a name
 _MOST_ACROSS, _MOST_UP = 8, 8
-"""The largest numbers of marks on the axes."""
+"""Most marks on the axes."""
 _BELOW_AXES, _BELOW_LABEL = 0.5, 4.2
 """The distance of a legend from the axes, in letters."""
 _TEXT = "0.15"
@@ -51,7 +50,6 @@ def figure(scene: scenes.Scene) -> Figure:
 
 
 def draw(axes: Axes, panel: scenes.Panel, has_label: bool = True) -> None:
-    """Draws a panel on axes, with or without numbers and label below."""
     _set_axis(axes.xaxis, panel.x, _MOST_ACROSS)
     _set_axis(axes.yaxis, panel.y, _MOST_UP)
     axes.set_xlim(panel.x.low, panel.x.high)
@@ -116,7 +114,6 @@ def _fill(axes: Axes, area: scenes.Area, loops: scenes.Loops) -> None:
 
 
 def _rule(axes: Axes, rule: scenes.RuledLine) -> None:
-    """Draws a thin line, with its label on the far side of the curve."""
     xs, ys = zip(rule.start, rule.end, strict=True)
     axes.plot(xs, ys, color=_TEXT, linewidth=0.8)
     if not rule.label:

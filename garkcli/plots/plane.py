@@ -11,13 +11,11 @@ from garkcli.plots.scene import Axis, Point
 
 Row: TypeAlias = Sequence[float]
 Sizes: TypeAlias = Callable[[Sequence[complex]], Row]
-"""Sizes of a function at complex numbers."""
 _Edge: TypeAlias = tuple[int, int, bool]
-"""The row and column of the start of an edge of the grid, and whether the edge is vertical."""
+"""Row and column of the start of an edge, and whether it is vertical."""
 _FAR = 1.0
-"""The value at the nodes around the grid."""
 _NODES = 300
-"""The nodes on a side of a grid; even, so that none is on the imaginary axis."""
+"""On a side of a grid; even, so that none is on the imaginary axis."""
 _FLAT = 3.0
 """The bound at which levels are cut, such as logarithms near zeros and poles."""
 _THINNED = 0.06  # cells
@@ -53,9 +51,7 @@ def _logarithm(over: float, under: float) -> float:
 
 
 def outlined(x: Row, y: Row, level: Sequence[Row]) -> list[list[Point]]:
-    """Returns the outlines of the region ``level`` ≤ 0 on the grid of x and y, with the region on
-    their left. Points whose level is NaN are outside.
-    """
+    """Returns outlines of ``level`` ≤ 0, the region on their left; NaN is outside."""
     across, up = x[1] - x[0], y[1] - y[0]
     left, bottom = x[0], y[0]
     loops = outlines(level, _THINNED)
@@ -63,9 +59,7 @@ def outlined(x: Row, y: Row, level: Sequence[Row]) -> list[list[Point]]:
 
 
 def outlines(level: Sequence[Row], tolerance: float) -> list[list[Point]]:
-    """Returns the closed outlines of the region ``level`` ≤ 0, simplified. ``level`` has the values
-    at the nodes, rows first; points within ``tolerance`` of the line, in cells, are dropped.
-    """
+    """Returns closed outlines of ``level`` ≤ 0, rows first; simplified by ``tolerance`` cells."""
     border = [_FAR] * (len(level[0]) + 2)
     padded = [border, *([_FAR, *row, _FAR] for row in level), border]
     pieces = dict(_pieces(padded))
@@ -82,10 +76,10 @@ def outlines(level: Sequence[Row], tolerance: float) -> list[list[Point]]:
 
 
 def _pieces(padded: Sequence[Row]) -> Iterator[tuple[_Edge, _Edge]]:
-    """Yields the pieces of outlines in all cells, as start and end edges.
-
-    Going around a cell, a piece starts where the region ends, and ends where the region starts: at
-    the next such place if the middle is inside, otherwise at the previous one.
+    """Yields the pieces of outlines in all cells, as start and end edges. Going around a cell, one
+    starts
+    where the region ends, and ends where it starts: at the next such place if the middle is inside,
+    otherwise at the previous one.
     """
     inside = [[value <= 0 for value in row] for row in padded]
     for i, (below, above) in enumerate(pairwise(inside)):
@@ -103,7 +97,6 @@ def _pieces(padded: Sequence[Row]) -> Iterator[tuple[_Edge, _Edge]]:
 
 
 def _mixed(below: Sequence[bool], above: Sequence[bool]) -> Iterator[int]:
-    """Yields the cells between two rows whose corners are not all inside or all outside."""
     columns = [a + b for a, b in zip(below, above, strict=True)]
     for j, (left, right) in enumerate(pairwise(columns)):
         if 0 < left + right < 4:
@@ -111,7 +104,6 @@ def _mixed(below: Sequence[bool], above: Sequence[bool]) -> Iterator[int]:
 
 
 def _crossing(padded: Sequence[Row], edge: _Edge) -> complex:
-    """Returns the point where the outline crosses an edge, in the grid without its border."""
     i, j, is_upward = edge
     here, there = _cut(padded[i][j]), _cut(padded[i + is_upward][j + (not is_upward)])
     part = here / (here - there)

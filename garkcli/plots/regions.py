@@ -1,7 +1,4 @@
-"""Regions of stability in the complex plane.
-
-They illustrate decisions that are made exactly elsewhere.
-"""
+"""Regions of stability in the complex plane, as illustrations of exact decisions."""
 
 from __future__ import annotations
 
@@ -135,9 +132,7 @@ def springs_panel(plane: SpringsPlane) -> scene.Panel:
 
 
 Named: TypeAlias = tuple[str, StabilityFunction]
-"""A stability function and its label in the legend."""
 _MOST_GROWTH = 700.0
-"""The largest exponent whose exponential is a float."""
 _EDGE = 1 + 1e-9
 """Keeps points on the boundary inside on every machine."""
 FILLED = "Filled: |R(z)| ≤ 1."
@@ -145,7 +140,7 @@ PRINTED = "Of the digits as printed, not of all methods within the tolerance."
 _STAR = "Order star, filled: |R(z)| > |exp z|."
 _HEIGHT = 300
 _SQUARES = 120
-"""The squares on a side of a region; even, as its halves mirror each other."""
+"""On a side of a region; even, as its halves mirror each other."""
 _ABOVE_ONE = 1.001
 """If |R(z_E, 0)| is larger, nothing has to be decided: z_I = 0 is not damped."""
 _MOST_ZOOMS = 6
@@ -156,9 +151,7 @@ _MUCH = 2.5
 """The largest ratio between the size of a window and that of the region around 0."""
 _AROUND = 1.3
 _FAR = 1e6
-"""A zero or pole is left out if it is so many times as far away as the nearer ones: it comes from a
-leading coefficient that is a rounded 0.
-"""
+"""A zero or pole so many times farther than the others is from a coefficient rounded from 0."""
 
 
 def stability_scene(
@@ -166,11 +159,9 @@ def stability_scene(
     is_order_star: bool = False,
     plane: SpringsPlane | None = None,
 ) -> scene.Scene:
-    """Returns the scene for one or several methods, all with a linear part or all with an
-    oscillator.
-
-    ``is_order_star`` draws |R(z)| > |e^z| instead of |R(z)| ≤ 1; ``plane`` draws this plane of two
-    frequencies instead.
+    """Returns the scene of methods that all have a linear part or all an oscillator, of order
+    stars, |R(z)|
+    > |e^z|, or of a ``plane`` of two frequencies.
     """
     (name, found), *others = methods
     title = f"{len(methods)} methods" if others else name
@@ -202,9 +193,7 @@ def stability_scene(
 def region_of(
     tableau: Tableau, tolerance: fmpq | None, is_order_star: bool = False, most: int = 4
 ) -> scene.Panel | None:
-    """Returns the regions |R(z)| ≤ 1 of a method, or its order stars: of all colours alike, and of
-    each of the first ones alone with the others at 0. None without a stability function.
-    """
+    """Returns regions |R(z)| ≤ 1 or order stars of all colours alike and each alone, or None."""
     linear = tableau if tableau.is_gark else on_test_equation(tableau, tolerance)
     found = [] if linear is None else directions(linear)
     if linear is None or not found:
@@ -218,9 +207,7 @@ def region_of(
 
 
 def of_directions(found: Sequence[Named], explicit: int | None = None) -> list[Named]:
-    """Returns the stability functions of a method with labels for the legend, "all" first.
-    ``explicit`` is the explicit colour of two, the other being implicit.
-    """
+    """Returns labels for the legend; ``explicit`` is the explicit colour of two, or None."""
     if len(found) == 1:
         return [("", R) for _, R in found]
     if explicit is not None:
@@ -234,7 +221,6 @@ def of_directions(found: Sequence[Named], explicit: int | None = None) -> list[N
 
 
 def region_panel(named: Sequence[Named], is_order_star: bool = False) -> scene.Panel:
-    """Returns the regions |R(z)| ≤ 1, or the order stars, of stability functions."""
     functions = [R for _, R in named]
     labels = [name if len(named) > 1 else "" for name, _ in named]
     areas = [
@@ -258,9 +244,7 @@ def region_panel(named: Sequence[Named], is_order_star: bool = False) -> scene.P
 
 
 def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> scene.Panel:
-    """Returns the region of z_E for which every z_I in the left half plane is damped, decided
-    exactly point by point, and the outline for z_I = 0.
-    """
+    """Returns the z_E with every z_I damped, decided by points, and the outline for z_I = 0."""
     near = _area(1, explicit, 0.0, edge=_ABOVE_ONE)
 
     @cache
@@ -294,7 +278,6 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> scene.Panel:
 def _in_plane(
     title: str, description: str, window: _Window, areas: Sequence[scene.Area], note: str, z: str
 ) -> scene.Panel:
-    """Returns the panel of regions in the complex plane with both axes."""
     left, right, top = window.left, window.right, window.top
     axes = [scene.RuledLine((left, 0.0), (right, 0.0)), scene.RuledLine((0.0, -top), (0.0, top))]
     x, y = scene.Axis(f"Re {z}", left, right), scene.Axis(f"Im {z}", -top, top)

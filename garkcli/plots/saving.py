@@ -20,7 +20,6 @@ SUFFIXES = (".png", ".svg", ".pdf")
 
 
 def check_suffix(path: Path) -> None:
-    """Raises UsageProblem if a figure cannot be saved at ``path``."""
     suffix = path.suffix
     if suffix.lower() not in SUFFIXES:
         kind = f"of kind {suffix!r}" if suffix else "without a suffix"
@@ -45,9 +44,7 @@ def save_scene(scene: Scene, path: Path) -> None:
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Writes a figure in the format of the suffix, whole or not at all. Raises UsageProblem for
-    another suffix, or if the file cannot be written.
-    """
+    """Writes a figure whole or not at all; UsageProblem for another suffix, or if it cannot."""
     from matplotlib import rc_context
 
     check_suffix(path)

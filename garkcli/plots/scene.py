@@ -1,8 +1,5 @@
-"""The content of pictures in the coordinates of their axes; ``terminal``, ``svg`` and ``figure``
-draw it.
-
-The style of a curve or region is a number that selects a colour, dashes and marks, so that they can
-be distinguished in grey too.
+"""The content of pictures in the coordinates of their axes. The style of a shape is a number that
+selects a colour, dashes and marks, so that they can be distinguished in grey too.
 """
 
 from __future__ import annotations
@@ -31,7 +28,7 @@ class Mark(Frozen):
 
 
 def linear_marks(low: float, high: float, most: int) -> list[Mark]:
-    """Returns round numbers between the ends, about ``most`` of them.
+    """Returns about ``most`` round numbers between the ends.
 
     >>> [mark.label for mark in linear_marks(-4.2, 4.2, 5)]
     ['−4', '−2', '0', '2', '4']
@@ -55,11 +52,8 @@ def _round_step(least: float) -> float:
 
 
 def logarithmic_marks(low: float, high: float, most: int) -> list[Mark]:
-    """Returns powers of ten between decimal logarithms, at equal distances, with round numbers
-    between them if there is space.
+    """Returns powers of ten at equal distances, with round numbers between them if there is space.
 
-    >>> [mark.label for mark in logarithmic_marks(-6.5, -1.5, 3)]
-    ['10⁻⁶', '10⁻⁴', '10⁻²']
     >>> [mark.label for mark in logarithmic_marks(-1.4, 0.1, 6)]
     ['0.05', '0.1', '0.2', '0.5', '1']
     """
@@ -80,14 +74,12 @@ def logarithmic_marks(low: float, high: float, most: int) -> list[Mark]:
 
 
 def _rounded(digit: int, exponent: int) -> str:
-    """Returns the text of a number with one digit, with a power of ten if it is large or small."""
     if -3 <= exponent <= 3:
         return f"{digit * 10.0**exponent:g}"
     return power_of_ten(exponent) if digit == 1 else f"{digit}·{power_of_ten(exponent)}"
 
 
 def power_of_ten(exponent: int) -> str:
-    """Returns a power of ten with superscript digits."""
     raised = str(exponent).translate(_SUPERSCRIPTS)
     return f"10{raised}"
 
@@ -105,11 +97,7 @@ def in_words(measured: str) -> str:
 
 
 def common_exponent(numbers: Sequence[float]) -> int:
-    """Returns the decimal exponent of the largest number; 0 for numbers of common size.
-
-    >>> common_exponent([2e-7, -3.1e-6]), common_exponent([0.5, 20]), common_exponent([0])
-    (-6, 0, 0)
-    """
+    """Returns the decimal exponent of the largest number; 0 for numbers of common size."""
     largest = max(map(abs, numbers))
     if largest == 0:
         return 0
@@ -130,15 +118,13 @@ DASHES: tuple[tuple[float, ...], ...] = (
     (1.5, 4),
     (4, 1.5),
 )
-"""By style: lengths of dashes and gaps, in units of a picture."""
+"""By style: lengths of dashes and gaps."""
 WIDTH = 360
-"""The width of a picture, in units of which a letter is 12 high: about that of a phone."""
+"""The width of a picture, about that of a phone: a letter is 12 high."""
 
 
 class Axis(Frozen):
-    """An axis from ``low`` to ``high``, which differ. With ``is_logarithmic`` the coordinates are
-    decimal logarithms of the numbers. ``given`` are its marks; by default they are round numbers.
-    """
+    """An axis, of decimal logarithms if ``is_logarithmic``; ``given`` replaces round marks."""
 
     label: str
     low: float
@@ -167,9 +153,7 @@ class Axis(Frozen):
 
 
 class Curve(Frozen):
-    """A curve through points. ``style`` is a number from 0. A curve that ``is_dense`` may fill a
-    band, which is pale on white paper, so that other lines are visible on it.
-    """
+    """A curve through points; if ``is_dense`` it is pale, so that other lines are visible on it."""
 
     style: int
     points: Sequence[Point]
@@ -185,11 +169,7 @@ Loops: TypeAlias = Sequence[Sequence[Point]]
 
 
 class Area(Frozen):
-    """A region of the picture, sampled as finely as each output needs.
-
-    ``style`` is that of a curve, None for the colour of text. ``holds`` says whether a point
-    belongs to it, ``outlines`` returns its outlines within two axes.
-    """
+    """A region; ``style`` is None for the colour of text, ``outlines`` are within two axes."""
 
     style: int | None
     holds: Callable[[float, float], bool]
@@ -213,9 +193,7 @@ def _crosses(x: float, y: float, start: Point, end: Point) -> bool:
 
 
 class RuledLine(Frozen):
-    """A thin straight line in the colour of text. ``is_right`` and ``is_below`` give the side of
-    its middle on which the label is.
-    """
+    """A thin straight line; the label is to the right of its middle, or below, as these say."""
 
     start: Point
     end: Point
@@ -228,10 +206,9 @@ Shape: TypeAlias = Curve | Area | RuledLine
 
 
 class Panel(Frozen):
-    """Axes and the shapes between them, the last ones on top.
-
-    ``description`` is for screen readers, ``note`` a sentence beside the picture. In a plane the
-    scales of both axes are equal, and ``height`` is the largest height.
+    """Axes and the shapes between them, the last ones on top. ``description`` is for screen
+    readers. In a
+    plane the scales of both axes are equal, and ``height`` is the largest height.
     """
 
     title: str
@@ -251,8 +228,6 @@ class Panel(Frozen):
 
 
 class Scene(Frozen):
-    """A picture: panels with a common title and horizontal axis."""
-
     title: str
     panels: Sequence[Panel]
     is_row: bool = False

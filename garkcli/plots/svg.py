@@ -1,8 +1,5 @@
-"""Panels as elements of SVG, in the colours of the surrounding page.
-
-Text, axes and marks have the colour of the surrounding text. Curves have the colours --picture-1 to
---picture-4 of the page, which STYLE sets for light and dark backgrounds, and different dashes, so
-that they can be distinguished in grey. There are no ids: a page can have any number of pictures.
+"""Panels as elements of SVG, in the colours of the surrounding page, --picture-1 to --picture-4 of
+STYLE, with dashes that can be distinguished in grey. No ids: a page can have many pictures.
 """
 
 from __future__ import annotations
@@ -14,7 +11,7 @@ from typing import TypeAlias
 from garkcli.plots import scene
 
 Value: TypeAlias = str | float | None
-"""The value of an attribute; numbers are lengths, None leaves it out."""
+"""Numbers are lengths, None leaves an attribute out."""
 _LEFT, _RIGHT, _TOP, _BOTTOM = 58, 12, 10, 40
 """Space around the frame: numbers and a label on the left and below."""
 _INSIDE = scene.WIDTH - _LEFT - _RIGHT
@@ -25,7 +22,6 @@ _LEGEND_ROW = 18
 _LONGEST = 46  # characters of a name
 _LONGEST_TITLE = 60
 _HEAD = 26.0
-"""The space of a title above the frame."""
 _RADIUS = 3
 _MOST_ACROSS, _MOST_UP = 6, 7
 
@@ -42,11 +38,9 @@ def _colours() -> str:
 
 
 STYLE = _colours() + "svg.plot{display:block;width:100%;max-width:30rem;height:auto}\n"
-"""The style sheet for pages with pictures."""
 
 
 def colour(style: int | None) -> str:
-    """Returns the colour of a style: that of the page, or one that suits any page."""
     if style is None:
         return "currentColor"
     place = style % len(ON_ANY)
@@ -54,7 +48,6 @@ def colour(style: int | None) -> str:
 
 
 def svg(panel: scene.Panel) -> str:
-    """Returns a panel as an element, with title and description for screen readers."""
     inside, height = _inside(panel)
     view = f"0 0 {scene.WIDTH} {_number(height)}"
     head = _opened("svg", **{"class": "plot"}, role="img", viewBox=view, **_LOOK)
@@ -77,7 +70,6 @@ def _inside(panel: scene.Panel) -> tuple[list[str], float]:
 
 
 def document(panel: scene.Panel, name: str) -> str:
-    """Returns a panel as a file of its own, light or dark as its viewer."""
     title = f"{name}: {panel.title}"
     inside, height = _inside(panel)
     style = f"{_colours()}svg{{color:#1d1f24;background:#fff;font-family:sans-serif}}\n"
@@ -103,7 +95,6 @@ def _file(width: float, height: float, top: float, attributes: Mapping[str, Valu
 
 
 def of_lines(lines: Sequence[str], title: str) -> str:
-    """Returns lines of text as a file of its own, with letters of equal width."""
     wide, high = 8 * max(map(len, lines)) + 2 * _TOP, 18 * len(lines) + 2 * _TOP
     look: dict[str, Value] = {
         "font_family": "DejaVu Sans Mono, monospace",
@@ -259,6 +250,5 @@ def _path(points: Iterable[scene.Point]) -> str:
 
 
 def _number(x: float) -> str:
-    """Returns a length to a tenth of a unit."""
     short = f"{x:.1f}".removesuffix(".0")
     return "0" if short == "-0" else short

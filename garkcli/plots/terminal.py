@@ -11,7 +11,7 @@ from garkcli.page.lines import folded
 from garkcli.plots.scene import Area, Curve, Mark, Panel, RuledLine, shortened
 
 COLUMNS = 58
-"""The width of a picture; indented by two it fits narrow terminals."""
+"""Indented by two it fits narrow terminals."""
 _NARROWEST = 8  # columns between the axes
 _LINE = 16
 """Units of a picture per line."""
@@ -19,20 +19,17 @@ _DOTS = "•○×+"
 _FILLED = "█▒░:"
 """By style; the first regions are on top."""
 _PALE = ":"
-"""A region in the colour of text."""
 _STEEP, _STRAIGHT = "│", "·"
 """A line across several rows of a column, and a line between two points."""
 SEVERAL = "*"
 """Points with several letters."""
 _Cells: TypeAlias = dict[tuple[int, int], str]
-"""Characters by row and column, from the upper left."""
+"""By row and column, from the upper left."""
 
 
 def drawn(panel: Panel, spelt: Callable[[str], str] = str, columns: int = COLUMNS) -> list[str]:
-    r"""Returns the lines of a panel.
-
-    ``spelt`` replaces characters that the terminal lacks; ``columns`` is the length of the longest
-    line, if there is space for the axes.
+    r"""Returns a panel in lines of ``columns``; ``spelt`` replaces characters that the terminal
+    lacks.
 
     >>> from garkcli.plots.scene import Axis
     >>> squares = [(x, x * x) for x in range(-3, 4)]
@@ -76,7 +73,6 @@ class _Picture:
         return round((x - axis.low) / (axis.high - axis.low) * (self.width - 1))
 
     def inside(self) -> Iterator[tuple[int, int, float, float]]:
-        """Yields all cells; those of the lower half mirror the upper half."""
         x, y = self.panel.x, self.panel.y
         last = self.height - 1
         for i in range(self.height):
@@ -126,7 +122,6 @@ class _Picture:
         found.update(cells if a == c else {x: sign for x in cells if x not in found})
 
     def label(self, rule: RuledLine, found: _Cells) -> None:
-        """Writes the label of a rule near its middle if there is space."""
         text = self.spelt(rule.label)
         (a, b), (c, d) = rule.start, rule.end
         row, column = self.row((b + d) / 2), self.column((a + c) / 2)
@@ -189,7 +184,6 @@ class _Picture:
         return [*lines, *self.legend(cells)]
 
     def below(self, columns: Mapping[int, Mark]) -> str:
-        """Returns the numbers below their marks as far as they fit."""
         line = ""
         for j, mark in sorted(columns.items()):
             text = self.spelt(mark.label)
