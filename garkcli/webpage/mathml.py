@@ -1,6 +1,6 @@
-"""Formulas of reports as MathML, for browsers and screen readers.
-
-The input is LaTeX from the program, never the text of a file.
+"""Formulas of reports as MathML, for browsers and screen readers. The input is LaTeX from the
+program,
+never the text of a file.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _MARKUP = frozenset("<>&")
 """Characters that do not occur in the formulas."""
 _MOST_KEPT = 1 << 12
 _LONGEST = 60
-"""Longest exact number; longer ones are shown as approximate decimals."""
+"""Longer exact numbers are shown as approximate decimals."""
 _DIGITS = 8
 
 
@@ -59,7 +59,7 @@ _ANY_IN_WORDS = re.compile("|".join(map(re.escape, sorted(_IN_WORDS, key=len, re
 
 
 class Typeset(Html):
-    """The output format of the page: HTML with formulas as MathML."""
+    """HTML with formulas as MathML."""
 
     def prose(self, text: str) -> str:
         parts = _ANY_IN_WORDS.split(text)
@@ -79,9 +79,7 @@ class Typeset(Html):
 
 @lru_cache(maxsize=_MOST_KEPT)
 def typeset(latex: str, text: str = "") -> Markup:
-    r"""Returns an inline formula.
-
-    ``text`` is read and copied in its place.
+    r"""Returns an inline formula; ``text`` is read and copied in its place.
 
     >>> print(typeset(r"\frac{1}{2}", "1/2"))
     <math alttext="1/2"><mfrac><mn>1</mn><mn>2</mn></mfrac></math>
@@ -97,12 +95,10 @@ def typeset(latex: str, text: str = "") -> Markup:
 
 
 def typeset_condition(tree: Tree, has_colours: bool) -> Markup:
-    """Returns the order condition of a tree in the notation of the paper."""
     return typeset(_WEIGHTS.sub(r"b^{\1 T}", condition_latex(tree, colours=has_colours)))
 
 
 def typeset_cell(cell: Cell, digits: int) -> Markup:
-    """Returns an entry of a tableau, exact or as a decimal with ``digits`` digits."""
     if isinstance(cell, arb):
         return typeset(decimal_latex(cell_text(cell, digits)))
     return typeset(to_latex(cell), to_text(cell))

@@ -74,7 +74,6 @@ def _found(outcome: Outcome) -> str:
 
 
 def claims_text(outcome: Outcome) -> str:
-    """Returns the result for the claims in a sentence."""
     if not outcome.claims:
         return "Its file claims nothing."
     claims = counted(len(outcome.claims), "claim")
@@ -120,7 +119,7 @@ def comparison_row(method: Reported) -> Content:
 
 
 MOST_ROWS = 2000
-"""The largest number of conditions of all methods on a page: about 3 MB."""
+"""Most conditions of all methods on a page: about 3 MB."""
 
 SECTIONS = {
     "faults": "What is wrong with the file",
@@ -136,9 +135,7 @@ SECTIONS = {
     "reference": "Reference",
     "conditions": "Order conditions",  # the longest, and across on paper: pages of its own
 }
-"""The sections and their headings, in order. Each is a file in ``sections``; its ``content`` is
-passed to the template of the same name.
-"""
+"""Headings of sections, in order; ``content`` of a file in ``sections`` is for its template."""
 
 
 def report_page(
@@ -147,12 +144,12 @@ def report_page(
     """Results about methods as one self-contained HTML page: ``gark report``.
 
     Args:
-        methods: names, paths, or methods; several are compared in a table. The faults of a file
-            that cannot be read are part of the page.
+        methods: names, paths, or methods; several are compared in a table. Faults of a file are
+            part of the page.
         order: the largest order of the conditions that are listed; by default the first that fails.
         pictures: whether stability, errors and energy are drawn.
-        details: whether the page has everything: reasons of all properties, simplifying
-            assumptions, all results about stability, more conditions.
+        details: whether the page has everything: reasons, simplifying assumptions, all on
+            stability, more conditions.
 
     Raises:
         MethodError: no method is given, or something else.
@@ -167,7 +164,6 @@ def report_page(
 
 
 def render(methods: Sequence[Reported], has_details: bool) -> str:
-    """Returns the page of one or several methods, the latter with a comparison."""
     has_several = len(methods) > 1
     room = min(MOST_CONDITIONS, MOST_ROWS // max(len(methods), 1))
     few = room if has_details else min(room, USUAL_CONDITIONS)
@@ -220,7 +216,6 @@ def _policy(script: str) -> str:
 
 @cache
 def _environment() -> Environment:
-    """Returns templates that escape all texts."""
     return Environment(
         loader=PackageLoader("garkcli.webpage"),
         autoescape=True,

@@ -40,14 +40,11 @@ STEP_X = 22
 STEP_Y = 24
 RADIUS = 8
 MARGIN = 2
-"""Sizes in pixels."""
+"""In pixels."""
 
 
 def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
-    """Returns a picture of a tree with the root at the bottom, as Butcher draws them.
-
-    ``title`` is for screen readers; ``has_colours`` puts the numbers of colours on the dots.
-    """
+    """Returns a tree with the root at the bottom, as Butcher draws it; ``title`` is read aloud."""
     vertices = layout(tree)
     edge = RADIUS + MARGIN
     top = max(v.y for v in vertices)
@@ -93,24 +90,19 @@ def dots(counts: Iterable[int]) -> Markup:
 
 
 MOST = len(ON_ANY)
-"""The largest number of curves in a picture; more could not be distinguished."""
+"""Most curves in a picture; more could not be distinguished."""
 STEPS = 5000
 _POINTS = 600
 MOST_STAGES = 40
-"""The largest number of stages of a method that is run for a picture."""
+"""Most stages of a method that is run for a picture."""
 MOST_ROUNDED_STAGES = 20
-"""The largest number of stages of a method with rounded coefficients, whose order takes longer."""
+"""With rounded coefficients, whose order takes longer."""
 MOST_STAGES_OF_PAIR = 14
-"""The largest number of stages of an implicit-explicit pair that is drawn."""
+"""Most stages of an implicit-explicit pair that is drawn."""
 
 
 class Picture(Frozen):
-    """A picture of a method, or of several.
-
-    ``name`` is a word for addresses and classes, ``description`` for screen readers. ``svg`` has no
-    ids and the colours of the page; it is empty without a picture, and ``note`` then has the
-    reason.
-    """
+    """A picture, named for addresses and classes; an empty ``svg`` has its reason in ``note``."""
 
     name: str
     title: str
@@ -120,9 +112,7 @@ class Picture(Frozen):
 
 
 class NotDrawn(Exception):
-    """A picture that cannot be drawn. The text is a sentence with the reason; ``is_expected`` says
-    whether somebody who has not asked for the picture misses it.
-    """
+    """The reason in a sentence; ``is_expected`` if somebody misses the picture."""
 
     def __init__(self, reason: str, is_expected: bool = True) -> None:
         super().__init__(reason)
@@ -134,9 +124,7 @@ def _is_gark(method: GarkMethod) -> bool:
 
 
 def _of_stability(method: GarkMethod) -> Tableau | None:
-    """Returns the tableau with the R(z) of a method: its own, or that of a Runge–Kutta method with
-    the same R(z). None if there is none.
-    """
+    """Returns the tableau with the R(z) of a method, its own or one with the same, or None."""
     if _is_gark(method):
         return method.tableau
     return on_test_equation(method.tableau, method.tolerance)
@@ -149,9 +137,7 @@ OF_STEPS = "convergence", "energy"
 def pictures(
     method: GarkMethod, names: Sequence[str] = (*OF_STABILITY, *OF_STEPS)
 ) -> list[Picture]:
-    """Returns pictures of a method. Expected ones that cannot be drawn have no SVG, but a note with
-    the reason.
-    """
+    """Returns pictures; an expected one that cannot be drawn is a note."""
     drawn = []
     for name in names:
         title, draw = PICTURES[name]
@@ -176,9 +162,7 @@ def _is_drawn_of(name: str, method: GarkMethod) -> bool:
 
 
 def compared_pictures(methods: Sequence[GarkMethod]) -> list[Picture]:
-    """Returns the pictures of several methods together, of the first ones if there are too many.
-    Pictures of fewer than two methods are left out.
-    """
+    """Returns the pictures of the first methods together, without those of fewer than two."""
     chosen = methods[:MOST]
     first = f" Of the first {MOST} methods." if len(methods) > MOST else ""
     found = []
@@ -209,9 +193,7 @@ def _region(method: GarkMethod, is_order_star: bool = False) -> tuple[Panel, str
 
 
 def _pair(method: GarkMethod) -> tuple[Panel, str]:
-    """Returns the region of z of the explicit colour for which every z of the implicit one is
-    damped.
-    """
+    """Returns the z of the explicit colour for which every z of the implicit one is damped."""
     alone = directions(method.tableau)[1:]
     is_small = sum(method.stages) <= MOST_STAGES_OF_PAIR
     if len(alone) != 2 or not is_small or method.tolerance is not None:
@@ -299,14 +281,10 @@ PICTURES: dict[str, tuple[str, Callable[[GarkMethod], tuple[Panel, str]]]] = {
     "convergence": ("Convergence", _convergence),
     "energy": ("Energy error over a long time", _energy),
 }
-"""The titles of pictures by name, and the functions that draw them."""
 
 
 def panel_named(name: str, method: GarkMethod) -> Panel:
-    """Returns the picture of a method with its note: one of PICTURES, or ``star``, its order star.
-
-    Raises NotDrawn if there is none, GarkError if the problem does not fit the method.
-    """
+    """Returns one of PICTURES, or ``star``; NotDrawn without one, GarkError if it cannot be."""
     if name in PICTURES and name != "convergence" and not _is_drawn_of(name, method):
         kinds = "GARK and Nyström methods" if name == "oscillator" else "GARK methods"
         raise NotDrawn(f"The picture is of {kinds}, and this method is of another kind.")

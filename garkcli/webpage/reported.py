@@ -28,22 +28,15 @@ from garkcli.tableau.tableau import Tableau
 Content: TypeAlias = Mapping[str, Any]
 """The variables of a template."""
 MOST_CONDITIONS = 500
-"""The largest number of conditions of one method on a page; with many methods it is less."""
+"""Most conditions of one method on a page; with many methods it is less."""
 USUAL_CONDITIONS = 40
-"""The largest number of conditions of one method on a page without details."""
+"""Most conditions of one method on a page without details."""
 MOST_STAGES = 12
-"""The largest number of stages of methods with irrational or rounded coefficients: with 16, the
-intervals of stability take up to ten seconds.
-"""
+"""For irrational or rounded coefficients: with 16, stability intervals take up to ten seconds."""
 
 
 class Reported(Frozen):
-    """A method, or a file that cannot be read as one.
-
-    ``method`` is None for a file with free parameters and for one that cannot be read.
-    ``wanted_order`` is the last order whose conditions are listed, None for the first that fails;
-    at most ``most_conditions`` are listed. With ``has_details`` the page has everything.
-    """
+    """A method, or None for a file with faults or free parameters, and how much of it is shown."""
 
     outcome: Outcome
     method: GarkMethod | None = None
@@ -69,11 +62,7 @@ class Reported(Frozen):
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages of each colour.
-
-        For a Rosenbrock method those of f, for a multirate method with the exact fast part those of
-        the slow parts; Nyström and partitioned methods have one colour.
-        """
+        """The numbers of stages: of f in Rosenbrock methods, of slow parts with exact fast ones."""
         if self.tableau is None:
             return ()
         stages = tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
@@ -87,16 +76,13 @@ class Reported(Frozen):
 
     @property
     def tells_pair(self) -> bool:
-        """Whether its conjugate and pair are shown: it has several colours, or the file claims
-        something about them.
-        """
+        """Whether conjugate and pair are shown: for several colours, or by claims about them."""
         if self.tableau is not None and self.tableau.size > 1:
             return True
         return any(x.claim.startswith(("conjugate", "pair")) for x in self.outcome.claims)
 
     @property
     def has_names(self) -> bool:
-        """Whether the colours of its trees have names."""
         return self.outcome.rosenbrock is not None or self.outcome.nystrom is not None
 
     @property
@@ -119,12 +105,7 @@ def reported(
     has_pictures: bool = True,
     settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Reported:
-    """Returns a method with its results.
-
-    ``given`` is a path or a name of the catalogue, whose faults become part of the page; a method;
-    or arrays, as in ``assert_order``. Conditions are listed up to ``order``, by default the first
-    that fails. Raises MethodError if ``given`` is not a method.
-    """
+    """Returns a method with results, or the faults of a file; MethodError for other arguments."""
     if isinstance(given, (str, os.PathLike)):
         try:
             method: GarkMethod = load(os.fspath(given), settings)

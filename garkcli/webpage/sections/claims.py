@@ -16,7 +16,6 @@ _FORMULA = re.compile(r"sqrt|/")
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without results."""
     outcome = method.outcome
     return None if not outcome.is_read else {"claims": [_shown(outcome, x) for x in outcome.claims]}
 

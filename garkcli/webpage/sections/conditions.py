@@ -24,9 +24,7 @@ _STATES = ("holds", "within", "varies", "fails")
 
 
 class Listed(Frozen):
-    """The conditions that are listed, up to order ``upto``, and the number of those of the next
-    order that are left out.
-    """
+    """The conditions up to ``upto``, and the number of the next order that are left out."""
 
     rows: list[Condition]
     upto: int
@@ -34,7 +32,6 @@ class Listed(Frozen):
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without a tableau."""
     tableau = method.tableau
     if tableau is None:
         return None
@@ -69,9 +66,7 @@ def _arguments(method: Reported) -> str:
 
 
 def _wanted(method: Reported) -> int:
-    """Returns the order up to which conditions are listed: as requested, or the first that
-    fails.
-    """
+    """Returns the last order of listed conditions: as requested, or the first that fails."""
     if method.wanted_order is not None:
         return method.wanted_order
     found = method.outcome.found

@@ -7,7 +7,6 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None if the file could be read."""
     outcome = method.outcome
     if outcome.is_read:
         return None

@@ -27,16 +27,13 @@ ORDERS = (
     *("order", "embedded_order", "dense_order", "conjugate_order", "pair_order"),
     *(*WITH_TIME, *OF_OTHER_KINDS),
 )
-"""The rows of ``gark check`` with orders: exact ones, within a tolerance, for all parameters, of
-dense output.
-"""
+"""Exact ones, within a tolerance, for all parameters, of dense output."""
 OF_PAIR = ("conjugate_order", "pair_order")
 NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
 """Rows that are shown below others."""
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without results."""
     outcome = method.outcome
     if not outcome.is_read:
         return None
@@ -44,9 +41,7 @@ def content(method: Reported) -> Content | None:
 
 
 def _orders(method: Reported) -> Iterator[Content]:
-    """Yields the orders as in ``gark check``, with the condition at which each ends, unless it was
-    shown already.
-    """
+    """Yields the orders, each with the condition at which it ends unless shown already."""
     outcome = method.outcome
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, {*ORDERS, *NOTES.values()})
@@ -85,9 +80,7 @@ def _orders(method: Reported) -> Iterator[Content]:
 
 
 def _witness(witness: Witness, colours: bool | Sequence[str]) -> Content:
-    """Returns the condition that fails: its tree as a picture and as text, and its formula. Trees
-    whose colours have names have no formula, as blocks have no names.
-    """
+    """Returns the failing condition; no formula if colours have names, as blocks have none."""
     tree, names = witness.tree, () if isinstance(colours, bool) else colours
     name = format_tree(tree, colours)
     title = f"tree of order {tree.order}, {name}"

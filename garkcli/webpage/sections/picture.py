@@ -8,5 +8,4 @@ from garkcli.webpage.sections.pictures import drawn
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without such a picture."""
     return drawn(method, OF_STABILITY)

@@ -12,21 +12,19 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without pictures."""
     if method.has_pictures and method.free is not None:
         return {"free": method.free, "file": method.outcome.file}
     return drawn(method, OF_STEPS if _has_energy(method) else OF_STEPS[:1])
 
 
 def _has_energy(method: Reported) -> bool:
-    """Returns whether one looks at energies: the method is made for them, or with details."""
+    """Returns whether energies matter: the method is made for them, or with details."""
     outcome = method.outcome
     is_made = outcome.analysis is not None and outcome.analysis.symplectic
     return method.has_details or method.tells_pair or is_made
 
 
 def drawn(method: Reported, names: Sequence[str]) -> Content | None:
-    """Returns the variables of the template for some pictures; None without any."""
     if method.method is None or not method.has_pictures:
         return None
     found = [_shown(picture) for picture in pictures(method.method, names)]
@@ -34,7 +32,6 @@ def drawn(method: Reported, names: Sequence[str]) -> Content | None:
 
 
 def of_several(methods: Sequence[Reported]) -> list[Content]:
-    """Returns the pictures of several methods together; none for a single one."""
     drawn = [x.method for x in methods if x.has_pictures]
     given = [method for method in drawn if method is not None]
     return [] if len(given) < 2 else [_shown(picture) for picture in compared_pictures(given)]

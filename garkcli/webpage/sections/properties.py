@@ -21,7 +21,6 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without properties."""
     outcome = method.outcome
     of_test_equation = outcome.rosenbrock or outcome.derivatives
     if not (outcome.every or outcome.analysis or of_test_equation):
@@ -52,9 +51,7 @@ def _lines(outcome: Outcome) -> list[tuple[Markup, Markup]]:
 
 
 def _brief(verdicts: Sequence[Content]) -> Iterator[tuple[str, str]]:
-    """Yields lists of the properties that a method has and lacks, without kinds of stages, and the
-    numbers that are not in the section on stability.
-    """
+    """Yields properties that it has and lacks, and the numbers that no section shows."""
     for said, mark in {"it is": "yes", "it is not": "no", "not decided": "open"}.items():
         named = [x["key"] for x in verdicts if x["mark"] == mark]
         if mark == "no":
@@ -67,7 +64,6 @@ def _brief(verdicts: Sequence[Content]) -> Iterator[tuple[str, str]]:
 
 
 def _verdict(outcome: Outcome, key: str) -> Content:
-    """Returns a property, whether it holds, and the reason."""
     d = Typeset()
     if outcome.every is not None:
         fact = fact_reason(outcome.every.verdict(key), outcome.every.parameters[0])

@@ -6,11 +6,9 @@ from garkcli.report.citation import Cited, bibliography
 from garkcli.webpage.reported import Content, Reported
 
 _ADDRESSES = ("https://", "http://")
-"""The beginnings of addresses that become links."""
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without a reference."""
     if not method.reference:
         return None
     fields = method.bibliography

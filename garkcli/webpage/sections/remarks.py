@@ -10,7 +10,6 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without remarks."""
     d = Typeset()
     remarks = [
         {"code": x.code, "help": x.help, "message": Markup(d.reason(x.reason))}

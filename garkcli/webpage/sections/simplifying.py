@@ -19,7 +19,6 @@ _LEVELS = 6
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without results, or without details."""
     whole: Any = method.outcome.analysis or method.outcome.every
     if whole is None or not method.has_details:
         return None

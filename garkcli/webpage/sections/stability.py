@@ -19,7 +19,7 @@ from garkcli.webpage.reported import Content, Reported
 
 _TYPESET = ("R", "R_alike", "trace", "determinant")
 _LONGEST = 400
-"""Longest formula in LaTeX; longer ones are left to ``gark stability``."""
+"""Longer formulas in LaTeX are left to ``gark stability``."""
 
 
 def _has_stability(tableau: Tableau) -> bool:
@@ -30,7 +30,6 @@ def _has_stability(tableau: Tableau) -> bool:
 
 
 def _together(facts: Sequence[tuple[str, str]]) -> list[tuple[Markup, Markup]]:
-    """Returns labels with their texts, each label once."""
     texts: dict[str, list[str]] = {}
     for label, text in facts:
         texts.setdefault(label, []).append(text)
@@ -38,7 +37,6 @@ def _together(facts: Sequence[tuple[str, str]]) -> list[tuple[Markup, Markup]]:
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None if stability does not apply."""
     file = method.outcome.file
     if method.free is not None:
         return {"free": method.free, "file": file}

@@ -26,20 +26,19 @@ from garkcli.webpage.mathml import Typeset, typeset, typeset_cell
 from garkcli.webpage.reported import Content, Reported
 
 MOST_COLUMNS = 64
-"""The largest number of stages side by side; a larger tableau is left out."""
+"""Most stages side by side; a larger tableau is left out."""
 LONGEST = 64
-"""Longest exact entry; a longer one is shown as a decimal."""
+"""Longer exact entries are shown as decimals."""
 _DIGITS = 17
 _WIDE, _VAST = 6, 12
 """More columns need smaller letters in print."""
 
 
 _TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "The symplectic pair"}
-"""The title of the tableau, by its derivation."""
+"""By derivation."""
 
 
 def content(method: Reported) -> Content | None:
-    """Returns the variables of the template; None without a tableau."""
     outcome = method.outcome
     if outcome.of_other_kind is not None:
         return _of_other_kind(method)
@@ -89,7 +88,6 @@ def _of_other_kind(method: Reported) -> Content:
 
 
 def _definitions() -> list[Markup]:
-    """Returns the definitions of letters for roots in the entries."""
     letters = letters_now()
     found = {} if letters is None else letters.of
     return [typeset(definition_latex(x, y), definition(x, y)) for x, y in found.items()]
@@ -113,15 +111,12 @@ def _of_family(method: Reported) -> Iterator[Content]:
 
 
 def _entries(tableau: Tableau, tolerance: fmpq | None, further: Further) -> Entries:
-    """Returns the entries; long ones of rounded methods as decimals."""
     found = entries(tableau, _DIGITS).beside(further)
     return found if tolerance is None else readable(found)
 
 
 def _table(title: str, tableau: Tableau, found: Entries, weights: str = "b") -> Content:
-    """Returns a tableau with its title and the letter of its weights, or a note that it is too
-    large.
-    """
+    """Returns a tableau with the letter of its weights, or a note that it is too large."""
     widest = max(sum(len(found.b[m]) for m in colours) for _, _, colours in parts_of(tableau))
     if widest > MOST_COLUMNS:
         why = f"it has {widest} columns; gark tableau prints it"
@@ -135,7 +130,6 @@ def _table(title: str, tableau: Tableau, found: Entries, weights: str = "b") -> 
 
 
 def _short(cell: Cell) -> Cell:
-    """Returns an entry, as a decimal if its exact form is too long."""
     if isinstance(cell, (arb, Parametric)) or len(to_text(cell)) <= LONGEST:
         return cell
     return to_ball(cell, _DIGITS)
@@ -149,7 +143,6 @@ def _part(
     stages: Sequence[int],
     colours: Sequence[int],
 ) -> Content:
-    """Returns the rows of some colours over the columns of others."""
     heads = [(m + 1, tableau.colours[m].name, len(found.b[m])) for m in colours]
     columns = sum(span for _, _, span in heads)
     return {
@@ -166,9 +159,7 @@ def _part(
 def _line(
     tableau: Tableau, found: Entries, weights: str, line: TableauLine, colours: Sequence[int]
 ) -> Content:
-    """Returns the blocks of a stage, which several colours may share, or of weights; blanks for
-    absent ones.
-    """
+    """Returns the blocks of a stage of several colours, or of weights; blanks for absent ones."""
     blocks = []
     for m, row in zip(colours, line.groups, strict=True):
         cells = [Markup()] * len(found.b[m])
