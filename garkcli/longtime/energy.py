@@ -45,9 +45,7 @@ class FittedLine(Frozen):
 
 
 def drift_of(errors: Floats, angle: float | None) -> FittedLine:
-    """Returns the slope of the errors in the whole run, and its distance from those in the halves.
-    ``angle`` is 2θ, the angle of the oscillation per step; None without one.
-    """
+    """Returns the slope of errors, and its distance from those of the halves; ``angle`` is 2θ."""
     slope = _slope(errors, angle)
     half = len(errors) // 2
     rounding = ROUNDING * float(np.abs(errors).max()) / len(errors)
@@ -88,9 +86,7 @@ _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
 class _Errors(Frozen):
-    """The energy errors H(z_n) − H(z_0) of a run from n = 0 on, until they blow up. ``is_exact``
-    says that the step map conserves energy.
-    """
+    """H(z_n) − H(z_0) until a blow-up; ``is_exact`` if the step map conserves energy."""
 
     values: Floats
     is_exact: bool
@@ -106,16 +102,13 @@ def oscillator_run(
     points: int = histories.SERIES,
     tolerance: fmpq | None = None,
 ) -> histories.LongRun:
-    """The energy of ``problem`` under ``tableau`` to the time ``t_end``, judged by the exact step
-    map. It starts from q = 1, p = ω/2, with the energy 5ω²/8.
+    """The energy of ``problem`` from q = 1, p = ω/2 to ``t_end``, judged by the exact step map.
 
     The drift is d in the least-squares fit H(t) − H(0) ≈ e + d t + a cos 2θn + b sin 2θn, with
     e^{±iθ} the directions of the eigenvalues of R(h); without a, b if these are real or turn too
     slowly to be distinguished from a line. Its uncertainty is its distance from the drifts in the
-    halves of the run. Both are zero if the error is bounded for all time.
-
-    Raises ``UsageProblem`` if the split does not fit the structure, the step does not divide the
-    time, there are more than ``MAX_STEPS`` steps, or the stage equations are singular.
+    halves of the run. Both are zero if the error is bounded for all time. Raises UsageProblem as
+    ``long_run``.
     """
     count = histories.count_steps(t_end, step)
     R = linear_step(tableau, problem).at(step)
@@ -145,9 +138,7 @@ def _history(
     kept: Integers,
     h: float,
 ) -> histories.InvariantHistory:
-    """The history of the energy; ``excused`` is the error that rounded coefficients can cause, and
-    ``kept`` has the indices of the errors that are kept.
-    """
+    """The history of the energy, of which the errors with indices ``kept`` are kept."""
     verdict = _verdict(errors, energy, fate, line, excused)
     drift, uncertainty = None, None
     if not errors.blew_up:
@@ -194,11 +185,11 @@ def _verdict(
     line: FittedLine,
     excused: float,
 ) -> histories.Verdict:
-    """The verdict from the step map and the errors. A visible drift is undecided if without its
-    uncertainty it is at most ``excused``, the error that rounded coefficients can cause.
-
-    A step multiplies areas, and the mean of the energy over the phases to first order, by det R: no
-    line fits an energy that decays to nothing, but det R − 1 shows it.
+    """The verdict from the step map and the errors. A drift that is at most ``excused``, the error
+    from
+    rounded coefficients, is undecided. A step multiplies areas, and the mean energy to first order,
+    by
+    det R: no line fits an energy that decays to nothing, but det R − 1 shows it.
     """
     if errors.is_exact:
         return "exact"
@@ -220,8 +211,9 @@ def _shape(verdict: histories.Verdict, line: FittedLine) -> Shape:
 
 
 def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
-    """The values of ``garkcli.longtime.rounding.Exchange`` along the exact solution: q̇p̈ and ṗq̈
-    are −ω²p² and ω⁴q², whose sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
+    """The values of ``Exchange`` along the exact solution: q̇p̈ and ṗq̈ are −ω²p² and ω⁴q², whose
+    sizes sum
+    to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
     """
     first = energy / max(time, 1e-300)
     second = 2 * to_float(omega) ** 2 * energy

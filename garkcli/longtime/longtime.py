@@ -1,8 +1,8 @@
 """Conserved quantities over a long time: their errors, and whether they drift.
 
-The oscillator has an exact step, see ``garkcli.longtime.energy``. Every other problem is stepped
-and measured after each step, in constant memory. The uncertainty of the errors is bounded from the
-digits, and checked on the first steps against steps with more digits.
+The oscillator has an exact step. Every other problem is measured after each step, in constant
+memory. The uncertainty of the errors is bounded from the digits, and checked on the first steps
+against steps with more digits.
 """
 
 from __future__ import annotations
@@ -57,17 +57,17 @@ def long_run(
     points: int = histories.SERIES,
     tolerance: fmpq | None = None,
 ) -> histories.LongRun:
-    """Steps ``problem`` with ``tableau`` to the time ``t_end`` and judges the energy and the other
-    invariants.
+    """Steps ``problem`` to the time ``t_end`` and judges the energy and the other invariants.
 
-    The problem is in as many terms as the tableau has, or in one with a natural split. ``t_end`` is
-    a whole number of steps. Up to ``FLOAT_DIGITS`` digits are floats; steps of the oscillator are
-    exact. About ``points`` times are kept. A drift that ``tolerance`` can cause is undecided.
+    The problem is in as many terms as the tableau has, or in one with a natural split. Up to
+    ``FLOAT_DIGITS`` digits are floats; steps of the oscillator are exact. About ``points`` times
+    are
+    kept. A drift that ``tolerance`` can cause is undecided.
 
     Raises UsageProblem if the problem does not suit the structure, the step does not divide the
-    time, there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are
-    singular; StepFailed if the stage equations of a step were not solved, and the energy had not
-    blown up before.
+    time,
+    there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are singular;
+    StepFailed if a step fails before the energy has blown up.
 
     >>> from garkcli import hamiltonian, loads, pair
     >>> midpoint = pair(loads("methods: [{family: gauss, stages: 1}]").tableau)
@@ -108,7 +108,8 @@ def long_run(
 @doing("round-off")
 def _noise(record: RunRecord, bound: Binding, step: fmpq, digits: int) -> Floats:
     """The uncertainty of the errors at the end, as powers of ten: each step rounds each summand of
-    an invariant once, to leading order; at least that found on the first steps.
+    an
+    invariant once, to leading order; at least that found on the first steps.
     """
     if record.blew_up or not record.has_moved:
         return np.zeros(len(record.largest))
@@ -130,9 +131,7 @@ _Finding: TypeAlias = tuple[histories.Verdict, Shape, histories.Doubt | None]
 
 
 class _Judge(Frozen):
-    """Judges the invariants of a run. ``step`` is h, ``excused`` the error of the energy that the
-    rounding of the coefficients can cause.
-    """
+    """Judges the invariants; rounded coefficients may cause the energy error ``excused``."""
 
     record: RunRecord
     step: fmpq

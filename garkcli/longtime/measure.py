@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 
 class Measure:
-    """Evaluates conserved quantities at states, relative to the start.
-
-    ``scale`` is the sum of the sizes of the terms of H, or of the summands of the first invariant,
-    at the start; 1 if all are zero. ``names`` has "energy" first if the problem has one. Raises
-    UsageProblem if a quantity has no value at the start.
+    """Evaluates conserved quantities, energy first, relative to the start. ``scale`` is the sum of
+    the
+    sizes of the summands of the first there; 1 if all are zero. Raises UsageProblem if one has no
+    value
+    at the start.
     """
 
     def __init__(self, problem: problems.Problem, digits: int) -> None:
@@ -60,9 +60,7 @@ class Measure:
         self.scale = sum(map(abs, terms)) or 1.0
 
     def errors(self, states: Iterable[Sequence[Any]]) -> Floats:
-        """I(y) − I(y_0) of each state y, shape (states, invariants); nan if I has no value,
-        infinite if it is too large for a float.
-        """
+        """I(y) − I(y_0), shape (states, invariants); nan without a value, inf beyond floats."""
         if not self._bits:
             first: Floats = np.array(self._first)
             return np.array([self._values_of(y) for y in states], dtype=np.float64) - first

@@ -26,12 +26,13 @@ _FAR = 2.0
 
 
 class Excursions:
-    """Counts the turns of all coordinates, and the extent of each position up to its last turn, in
-    pieces.
+    """Counts the turns of all coordinates, and the extent of each position up to its last turn.
 
     A position has escaped at the end if it had turned back twice, and is now twice as far from zero
-    as before it or its momentum turned for the last time. An angle that begins to rotate does not
-    escape: its momentum goes on oscillating.
+    as
+    before it or its momentum turned for the last time. An angle that begins to rotate does not
+    escape:
+    its momentum goes on oscillating.
     """
 
     def __init__(self) -> None:
@@ -39,7 +40,6 @@ class Excursions:
         self._positions: Floats = np.zeros(0)  # at the end
 
     def _shape_for(self, d: int) -> None:
-        """Prepares for d degrees of freedom."""
         # turns of each coordinate, and the step of the last turn of each pair (q, p)
         self._turned: Integers = np.zeros(2 * d, dtype=np.int64)
         self._last_turns: Integers = np.zeros(d, dtype=np.int64)
@@ -81,9 +81,7 @@ class Excursions:
             self._add_position(i, first, sizes[:, i], turns)
 
     def _add_position(self, i: int, first: int, sizes: Floats, turns: Integers) -> None:
-        """Adds |q| of position i in the steps from ``first`` on, with the turns of it or its
-        momentum. The turn number n belongs to the state n + 1.
-        """
+        """Adds |q| of position i with turns of it or its momentum, number n at the state n + 1."""
         beyond = self._beyond[i]
         if not turns.size:
             self._beyond[i] = max(beyond, sizes.max())
@@ -97,7 +95,7 @@ class Excursions:
 
 
 COMPARED = 128
-"""The number of first steps whose errors are all kept."""
+"""First steps whose errors are all kept."""
 # how many times the energy the energy error is when the failure of a step is called a blow-up
 _BLOWN = 1000
 _CHUNK = 8192  # steps measured at a time
@@ -109,26 +107,17 @@ _PARTS = 4  # equal parts of a run at whose ends the state is kept
 
 
 class RunRecord:
-    """Sums and extremes of all errors, and samples of errors and states.
-
-    Args:
-        measure: the measure of the invariants.
-        count: the number of steps.
-        points: about the number of errors to keep.
+    """Sums and extremes of all errors, and samples of about ``points`` errors and of states.
 
     Attributes:
-        trends: the trends of the errors.
         largest: the largest |error| of each invariant.
         first: the errors of the start and of the first ``COMPARED`` steps, shape (steps,
             invariants).
         states: at the start and after each quarter of the steps, by the number of the step.
         done: the last step measured.
-        excursions: the turns and extents of coordinates.
-        exchange: the exchange of energy along the trajectory.
-        blew_up: whether the run ended because the first quantity grew beyond all bounds.
-        has_moved: whether a state differs from the start by more than rounding.
         lost: by the number of an invariant, the first step at which it has no value or one too
-            large to square; its errors are nan from there on.
+            large to
+            square; its errors are nan from there on.
     """
 
     def __init__(self, measure: Measure, count: int, points: int) -> None:
@@ -161,13 +150,10 @@ class RunRecord:
 
     @property
     def kept_errors(self) -> Floats:
-        """The errors of these steps, shape (steps, invariants)."""
         return np.concatenate(self._errors)
 
     def take(self, path: Iterator[list[Any]]) -> None:
-        """Measures all states of ``path``, or those before a blow-up. Raises StepFailed if a step
-        has failed without a blow-up.
-        """
+        """Measures states up to a blow-up; StepFailed if a step has failed without one."""
         chunk = self._span * max(1, _CHUNK // self._span)
         while self.done < self.count and not self.blew_up:
             states: list[list[Any]] = []
@@ -215,9 +201,7 @@ class RunRecord:
         self._watch(np.array(states[:count], dtype=np.float64))
 
     def lose(self, start: int, errors: Floats) -> None:
-        """Notes invariants that have no value from step ``start`` on; their errors become nan.
-        ``errors`` are those from there on, shape (m, invariants), changed in place.
-        """
+        """Notes invariants without a value from ``start`` on, whose errors become nan in place."""
         for k, own in enumerate(errors.T):
             missing = np.flatnonzero(~(np.abs(own) < _TOO_LARGE))
             if missing.size:

@@ -1,7 +1,4 @@
-"""Bounds on the effect of rounding on conserved quantities: of floats, and of the coefficients.
-
-Both are derived in docs/energy.md.
-"""
+"""Bounds on the effect of rounding of floats and coefficients; see docs/energy.md."""
 
 from __future__ import annotations
 
@@ -35,9 +32,8 @@ def unit_round_off(digits: int) -> float:
 
 
 def power_of_ten(x: float) -> float:
-    """The least power of ten that is at least ``x``; 0 for 0, and infinite for infinity.
-
-    Bounds on rounding errors are only good to a power of ten, which is the same on every machine.
+    """The least power of ten that is at least ``x``, the same on every machine; 0 and infinity
+    stay.
 
     >>> power_of_ten(2.3e-13)
     1e-12
@@ -48,12 +44,9 @@ def power_of_ten(x: float) -> float:
 
 
 class Exchange:
-    """The energy exchanged by the two halves of the equations of motion along a trajectory.
-
-    Collects the sums over all steps, in pieces.
+    """The energy exchanged by the two halves of the equations of motion, summed over all steps.
 
     Attributes:
-        steps: the number of steps summed.
         first: Σ Δq·Δp, with its sign: h² Σ q̇·ṗ to leading order.
         second: Σ |Δq·Δ²p| + |Δp·Δ²q|: h³ Σ |q̇·p̈| + |ṗ·q̈| to leading order.
     """
@@ -88,9 +81,7 @@ class Exchange:
 def energy_rate(
     tableau: Tableau, tolerance: fmpq | None, h: float, powers: tuple[float, float]
 ) -> float:
-    """Returns the energy per unit of time that rounding of coefficients can cause, to leading
-    order. ``powers`` are along the trajectory, see ``Exchange``.
-    """
+    """Returns the energy per unit of time that rounded coefficients can cause, to leading order."""
     if tolerance is None:
         return 0.0
     weights, sums = sensitivity(tableau)
@@ -104,9 +95,11 @@ def invariant_rate(
     problem: RightHandSide,
     states: Iterable[tuple[float, Sequence[Any]]],
 ) -> float:
-    """The change of the first invariant I per unit of time that rounding of coefficients can cause:
-    a stage with too much weight moves I by h ∂I/∂y·f^{l}, which cancels only in the sum. ``states``
-    are pairs of time and y; those at which I has no slope are ignored.
+    """The change of the first invariant I per unit of time that rounded coefficients can cause: a
+    stage
+    with too much weight moves I by h ∂I/∂y·f^{l}, which cancels only in the sum. ``states`` are
+    pairs
+    of time and y; those at which I has no slope are ignored.
     """
     if tolerance is None:
         return 0.0
@@ -127,10 +120,11 @@ def invariant_rate(
 
 
 def sensitivity(tableau: Tableau) -> tuple[float, float]:
-    """The changes of the conditions of orders 1 and 2 when coefficients change by one unit.
-
-    Order 1: the number of stages if positions and momenta have weights of their own, whose sums can
-    differ, else 0. Order 2: Σ_l Σ_i |c^l_i| + s |b^l_i|.
+    """The changes of the conditions of orders 1 and 2 when coefficients change by one unit: the
+    number of
+    stages if positions and momenta have weights of their own, whose sums can differ, else 0; and
+    Σ_l
+    Σ_i |c^l_i| + s |b^l_i|.
     """
     printed = entries(tableau)
     stages = max(len(row) for row in printed.b)

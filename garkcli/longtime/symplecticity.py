@@ -1,8 +1,8 @@
 """Measures symplecticity: MᵀJM − J for the Jacobian M of one step, J = (0 I; −I 0).
 
 M is found by central differences of steps with so many digits that truncation and rounding are far
-below the round-off of floats; doubling the perturbation shows its error. The step of the oscillator
-is linear, and there RᵀJR − J = (det R − 1) J exactly, see ``garkcli.longtime.history``.
+below the round-off of floats; doubling the perturbation shows its error. On the oscillator RᵀJR − J
+= (det R − 1) J exactly.
 """
 
 from __future__ import annotations
@@ -52,8 +52,6 @@ class Defect(Frozen):
 
 
 class Symplecticity(Frozen):
-    """Whether the steps of a method on a problem are symplectic, proved and measured."""
-
     is_proved: bool
     defects: tuple[Defect, ...] = ()
 
@@ -62,12 +60,7 @@ class Symplecticity(Frozen):
 def symplecticity_defects(
     tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]
 ) -> tuple[Defect, ...]:
-    """Measures the defects of steps from some states.
-
-    The problem is in as many terms as the tableau has, or in one with a natural split; ``states``
-    are pairs of time and (q, p), as in ``LongRun.states``. Raises StepFailed if the stage equations
-    of one were not solved.
-    """
+    """Measures the defects of steps from pairs of time and (q, p), or raises StepFailed."""
     method = bind(tableau, problem).at(max(DIGITS, FLOAT_DIGITS + 1))
     defects = []
     for time, y in states:
@@ -138,9 +131,7 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
 
 @doing("symplecticity")
 def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
-    """Whether the coefficients make the steps of ``tableau`` on ``problem`` symplectic. If terms
-    depend on positions or on momenta only, just the blocks that the problem sees count.
-    """
+    """Whether the coefficients make steps on ``problem`` symplectic, by the blocks that it sees."""
     if holds(tableau, tolerance):
         return True
     bound = bind(tableau, problem)

@@ -9,17 +9,14 @@ which is smooth and vanishes with all derivatives at both ends. An oscillation o
 Fourier coefficient of w to the slope, smaller than any power of 1/f; with equal weights it would be
 1/f² only. About twenty sums are kept for any N.
 
-The uncertainty of the slope has two parts, see docs/energy.md:
-
-- the distance of the slopes of the halves from it, and the variation of those of the quarters:
-noise, correlated or not, and modulations that are not much longer than the run; - the change of the
-height of the oscillation from quarter to quarter. A modulation of the height modulates the mean
-too, and one much longer than the run is a line in all parts.
+The uncertainty of the slope, see docs/energy.md, is the distance of the slopes of the halves from
+it, and the variation of those of the quarters (noise, correlated or not, and modulations that are
+not much longer than the run), plus the change of the height of the oscillation from quarter to
+quarter: a modulation of the height modulates the mean too, and a very long one is a line.
 
 A slope below its uncertainty is no drift, one above ten times as much is a drift, and between them
 it is undecided. A trend of another shape is a drift if the averages over the eighths keep rising,
 or falling, by more than the signal oscillates there. A single move to another level is undecided.
-``garkcli.longtime.longtime`` also uses what is known of the method.
 """
 
 from __future__ import annotations
@@ -61,16 +58,15 @@ class Windows(Frozen):
 
 
 Shape: TypeAlias = Literal["none", "line", "curve", "step"]
-"""The shape of a trend: a line, a rise or fall throughout, or a move to another level."""
+"""A line, a rise or fall throughout, or a move to another level."""
 Finding: TypeAlias = Literal["none", "undecided", "drift"]
 """No trend above oscillation and noise; one that a modulation may explain; a drift."""
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
-"""A drift has a slope of at least so many times its uncertainty.
-
-Of 480 runs of symplectic methods on systems of two planets none comes to that, see
-docs/energy.md.
+"""A drift has at least so many times its uncertainty, which none of 480 runs of symplectic methods
+on
+systems of two planets has, see docs/energy.md.
 """
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
@@ -88,8 +84,8 @@ class Trend(Frozen):
     """The slow part of one signal e_0 … e_N.
 
     Attributes:
-        slope: the slope of the fitted line, per step.
-        shape: of the trend; "none" if it is within oscillation and noise.
+        slope: of the fitted line, per step.
+        shape: "none" if the trend is within oscillation and noise.
         move: the size of an undecided trend that is not a line.
         net: the distance of the levels at the start and end of the run.
     """
@@ -109,11 +105,10 @@ class Trend(Frozen):
 
 
 class Trends:
-    """Collects several signals of the same length, in pieces, as sums from which the trend of each
-    is fitted.
-
-    ``count`` is N, the number of the last error; ``largest`` has the largest |error| of each
-    signal, ``ranges`` the minimum and maximum of each half of the run, shape (2, 2, signals).
+    """Collects signals of the same length, in pieces, as sums to which trends are fitted. ``count``
+    is N,
+    ``largest`` the largest |error| of each signal, ``ranges`` the minimum and maximum of each half,
+    shape (2, 2, signals).
     """
 
     def __init__(self, count: int, signals: int) -> None:
@@ -198,9 +193,7 @@ class Trends:
         return Windows(slopes, levels, np.sqrt(left))
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
-        """Returns the trend of one signal with all of at least ``LEAST`` errors. ``signal`` is its
-        index, ``noise`` the uncertainty of the errors, a lower bound for trends.
-        """
+        """Returns the trend of a whole signal, at least above its ``noise``."""
         found = self._fitted(signal)
         least = noise + _FLOAT * float(self.largest[signal])
         slope = float(found.slopes[0])
@@ -267,7 +260,8 @@ def _uncertainty(found: Windows) -> float:
 
 def _climbs(found: Windows, least: float) -> bool:
     """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly from
-    eighth to eighth, or by its height from eighth to eighth and clearly in total.
+    eighth
+    to eighth, or by its height from eighth to eighth and clearly in total.
     """
     levels = found.levels[OF_EIGHTHS]
     heights = found.heights[OF_EIGHTHS]
