@@ -1,8 +1,4 @@
-"""The columns of a sweep: the values reported for each method, and which values are better.
-
-A new column is a new entry of the list here; properties in ``garkcli.properties`` are columns
-already.
-"""
+"""The columns of a sweep: a list here, and the properties; and which values are better."""
 
 from __future__ import annotations
 
@@ -34,7 +30,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class SweptMethod(Frozen):
-    """A method and its properties, each computed once. The coefficients are taken as exact."""
+    """A method, taken as exact, and its properties, each computed once."""
 
     tableau: Tableau
 
@@ -80,7 +76,6 @@ class SweptMethod(Frozen):
 
     @cached_property
     def subject(self) -> Subject:
-        """The method whose properties are decided."""
         linear = on_linear_problems(self.tableau)
         known = self.simplifying if linear is self.tableau else simplifying(linear, DEFAULT_LIMIT)
         return Subject(linear, self.order.order, known, DEFAULT_LIMIT)
@@ -103,14 +98,12 @@ def _constants(tableau: Tableau, order: Order) -> ErrorConstants | None:
 
 
 Value: TypeAlias = "bool | int | float | str | None"
-"""The value of a column; ``infinity`` is the only text, None means no value."""
+"""``infinity`` is the only text, None means no value."""
 INFINITY = "infinity"
 DIGITS = 12
 
 
 class Column(Frozen):
-    """A column of a sweep: its name, its value for a method, and its description."""
-
     name: str
     value: Callable[[SweptMethod], Value]
     text: str
@@ -176,9 +169,7 @@ def _order(result: object) -> int | None:
 
 
 def _view(which: Which, judged: SweptMethod) -> int | None:
-    """Returns the order of a Rosenbrock method for another class of problems. None for other
-    methods, except for f(t, y), and on DAEs if α + γ is singular.
-    """
+    """Returns the order of a Rosenbrock method in another view; None on DAEs for singular α + γ."""
     if not is_rosenbrock(judged.tableau):
         timed = with_time(judged.tableau) if which == "with_time" else None
         return None if timed is None else find_order(timed).order
@@ -250,7 +241,6 @@ _PLAIN = (
 )
 _OF_ROSENBROCK = {"order", "error", "error-largest", "stages", "colours"} | OF_BETA
 _OF_ROSENBROCK |= {*VIEWS, *DAE_VIEWS}
-"""The columns that apply to Rosenbrock methods."""
 _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 
 
@@ -264,7 +254,7 @@ def columns() -> Mapping[str, Column]:
 
 
 def value_of(name: str, judged: SweptMethod) -> Value:
-    """Returns the value of a column. Raises MethodError if it does not apply to the method."""
+    """Raises MethodError if a column does not apply to the method."""
     if is_rosenbrock(judged.tableau) and name not in _OF_ROSENBROCK:
         message = f"{name} applies to Runge–Kutta methods only"
         raise MethodError(message, "leave the column out", code="wanted-without-meaning")
@@ -272,7 +262,7 @@ def value_of(name: str, judged: SweptMethod) -> Value:
 
 
 def kind_of(name: str) -> str:
-    """Returns the kind of a column: ``truth``, ``count`` or ``number``."""
+    """Returns ``truth``, ``count`` or ``number``."""
     if name in KEYS:
         return find(name).kind
     if name in ("symplectic", "pair-p-stable"):

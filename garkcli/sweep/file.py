@@ -1,7 +1,4 @@
-"""Spec files of sweeps: families × stages × transfer rules × values of parameters, and criteria.
-
-All faults are reported at once, with their positions.
-"""
+"""Spec files of sweeps: families × stages × transfer rules × values of parameters, and criteria."""
 
 from __future__ import annotations
 
@@ -122,7 +119,6 @@ _BOUND: g.Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s
 
 
 def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
-    """Reads a comparison with a number."""
     text = at.source.scalar(node, where)
     if text is None:
         return None
@@ -261,9 +257,7 @@ def _file() -> g.ValueKind:
 
 
 def load_plan(path: str) -> Plan:
-    """Reads a spec file; the method files that it names are sought beside it. Raises
-    MethodFileError with all faults of the file, or of a method file.
-    """
+    """Reads a spec file, and method files beside it; MethodFileError with all faults."""
     text, name = read_text(path, SWEEP_FILE)
     source = Source(name, text, SWEEP_FILE)
     root = source.compose()
@@ -322,7 +316,7 @@ def _refuse_unused(source: Source, said: g.ReadMapping, methods: MethodsReader) 
 
 
 def sweep_schema() -> dict[str, Any]:
-    """The JSON Schema of the spec files of sweeps, as plain data.
+    """Returns the JSON Schema of the spec files of sweeps.
 
     >>> sweep_schema()["type"]
     'object'

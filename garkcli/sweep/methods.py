@@ -33,11 +33,11 @@ STARTS = 20
 
 
 class Template(Frozen):
-    """A method file of a sweep, with the parameters that get values.
-
-    ``name`` is that in rows. ``order`` is that of the search for its other unknowns, 0 without any;
-    ``seeds`` give one method each, with ``starts`` starts. ``is_drawn`` says that the transfer is
-    drawn from those whose pair has the order.
+    """A method file of a sweep, with parameters that get values. A search for other unknowns has
+    ``order``,
+    0 without, and ``starts`` for each of ``seeds``. ``is_drawn``: the transfer is drawn from those
+    whose
+    pair has the order.
     """
 
     name: str
@@ -139,11 +139,7 @@ TRANSFER = g.one_or_more(g.either(g.word(lambda: [*ALL_RULES, UNKNOWN]), at_mapp
 
 
 class MethodsReader:
-    """Makes method files from ``methods``, ``transfer`` and ``files``.
-
-    ``grids`` has the values of each parameter as text, ``free`` the parameters left to the search,
-    ``search`` the content of that key.
-    """
+    """Makes method files; ``grids`` has values of parameters, ``free`` those left to ``search``."""
 
     def __init__(
         self,

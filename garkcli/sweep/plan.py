@@ -18,8 +18,6 @@ Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
 
 
 class RowCondition(Frozen):
-    """A condition on the methods that are kept: a column, a relation and a bound."""
-
     column: str
     relation: Relation
     bound: bool | float
@@ -50,9 +48,7 @@ def number(value: Value) -> float:
 
 
 class Point(Frozen):
-    """One method of a sweep. ``key`` is unique in the sweep; ``settings`` are the values of the
-    parameters as text; ``seed`` is that of the search for other unknowns, if any.
-    """
+    """One method of a sweep, with its key in the sweep, and a seed if it is searched for."""
 
     key: str
     template: Template
@@ -61,9 +57,7 @@ class Point(Frozen):
 
 
 class Criteria(Frozen):
-    """The columns and conditions of a sweep. The first condition that fails ends the row of a
-    method.
-    """
+    """The columns and conditions of a sweep; the first that fails ends the row of a method."""
 
     columns: tuple[str, ...]
     conditions: tuple[RowCondition, ...]
@@ -81,11 +75,7 @@ class Criteria(Frozen):
 
 
 class Plan(Frozen):
-    """The methods of a sweep and their columns.
-
-    ``grids`` has the values of each parameter; ``best`` are the columns for sorting, the first
-    counting most, ``pareto`` those of the Pareto front.
-    """
+    """The methods of a sweep and their columns, in order of importance in ``best``."""
 
     name: str
     templates: tuple[Template, ...]

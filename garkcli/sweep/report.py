@@ -42,7 +42,7 @@ def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
 
 
 def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
-    """Returns the rows that no other row dominates; all their values are there."""
+    """Returns the complete rows that no other row dominates."""
     complete = [row for row in rows if all(row.get(name) is not None for name in by)]
     front: list[Row] = []
     points: list[_Point] = []
@@ -84,7 +84,6 @@ class SweepReport(Shown, Frozen):
 
     @property
     def done(self) -> list[Row]:
-        """The rows of the sweep, in its order."""
         keys = (point.key for point in self.plan.points())
         return [self.rows[key] for key in keys if key in self.rows]
 
@@ -106,7 +105,6 @@ class SweepReport(Shown, Frozen):
 
     @property
     def front(self) -> list[Row]:
-        """The Pareto front."""
         return pareto_front(self.kept, self.plan.pareto)
 
     @property

@@ -38,9 +38,7 @@ def first_find(point: Point) -> FoundMethod | None:
 
 
 def _drawn(point: Point, draw: Draw) -> FoundMethod:
-    """Returns a method for which the pair has the wanted order, with randomly drawn free
-    parameters. Raises MethodError if no such method exists, or if a weight is not positive.
-    """
+    """Returns a method with random parameters whose pair has the order; MethodError without one."""
     family = _asked(point).family
     order = point.template.order
     design = find_parameters(family, order, "pair")
@@ -95,9 +93,7 @@ def is_row(row: Any) -> TypeGuard[Row]:
 
 
 def row_of(criteria: Criteria, point: Point) -> Row:
-    """Returns the row of a method. Conditions are decided first, in their order; the first that
-    fails ends the row.
-    """
+    """Returns the row of a method; conditions come first, and the first that fails ends the row."""
     row = _start(criteria, point)
     try:
         tableau = _searched(point, row) if point.template.is_searched else _tableau(point)
@@ -121,7 +117,6 @@ def row_of(criteria: Criteria, point: Point) -> Row:
 
 
 def crashed_row(criteria: Criteria, point: Point, why: str) -> Row:
-    """Returns the row of a method whose process was ended."""
     return {**_start(criteria, point), "failure": f"its process was ended {why}"}
 
 
@@ -159,9 +154,7 @@ def _tableau(point: Point) -> Tableau:
 
 
 def _searched(point: Point, row: Row) -> Tableau | None:
-    """Returns the method found from the seed of a row, and records it in the row. None if its
-    coefficients are not known exactly; then no columns are reported.
-    """
+    """Records the method found from a seed; None if its coefficients are not known exactly."""
     method = first_find(point)
     if method is None:
         starts = counted(point.template.starts, "start")

@@ -42,12 +42,11 @@ class Progress(Mutable):
 
 
 def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> Iterator[Progress]:
-    """Adds the missing rows in the order in which they are computed, and yields the progress after
-    each task.
-
-    ``scheduler`` is the address of a Dask scheduler to use instead of ``jobs`` processes. Raises
-    UsageProblem if the rows of the file belong to another sweep, if rows are missing in a file that
-    is not resumed, or if there is no cluster.
+    """Adds the missing rows and yields the progress after each task, in ``jobs`` processes or by
+    the Dask
+    scheduler at an address. Raises UsageProblem for rows of another sweep, a file that is not
+    resumed,
+    or without a cluster.
     """
     missing = []
     for point in plan.points():

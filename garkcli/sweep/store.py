@@ -1,7 +1,5 @@
-"""The rows of a sweep on disk, one line of JSON each, with unique keys.
-
-After a killed process the last line may be incomplete; it is cut off and its method repeated. Where
-the system has locks, only one process can write.
+"""The rows of a sweep on disk, a line of JSON each, with unique keys. After a killed process an
+incomplete last line is cut off. Where the system has locks, only one process can write.
 """
 
 from __future__ import annotations
@@ -20,11 +18,9 @@ _BLOCK = 1 << 16
 
 
 class RowStore:
-    """A file of rows that is read once and then appended to.
-
-    ``rows`` has those of the file and the added ones by their keys; without ``is_resumed`` a file
-    with rows gets no further ones. Raises UsageProblem if it is not a file of rows, or if another
-    process writes to it.
+    """A file of rows that is read once and then appended to; without ``is_resumed`` one with rows
+    gets no
+    further ones. Raises UsageProblem if it is not a file of rows, or another process writes to it.
     """
 
     def __init__(self, path: str, is_resumed: bool) -> None:
@@ -61,7 +57,6 @@ class RowStore:
 
     @property
     def refusal(self) -> UsageProblem:
-        """The error of a sweep that would add rows to those of another run."""
         message = f"{self.path} exists"
         cure = "--resume adds the missing rows; or choose another --rows"
         return UsageProblem(message, cure, code="cannot-write")
