@@ -1,8 +1,7 @@
 """The convergence test: errors over a ladder of step sizes, against the order they can show.
 
-Slopes at steps of usual size may still be those of larger ones, where the error constant is small
-or coefficients are large. Then the order is observed over a short time as well, with steps so small
-that nothing is left of that.
+Slopes at usual steps may still be those of larger ones, where the error constant is small or
+coefficients are large. Then the order is observed over a short time as well, with tiny steps.
 """
 
 from __future__ import annotations
@@ -32,12 +31,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
-    """The name of the problem that sees the most trees and suits the structures of all methods; if
-    there is none, of most of them.
-
-    It is Hamiltonian unless no method steps a Hamiltonian one, as when a linear colour drives all
-    unknowns. Then it is the one of right-hand sides, linear for these colours. Raises
-    ``UsageProblem`` if no problem suits any of them.
+    """Returns the problem that sees the most trees and suits all methods, or most of them;
+    UsageProblem
+    if there is none. It is Hamiltonian unless no method steps such a one, as when a linear colour
+    drives all unknowns.
 
     >>> from garkcli import loads
     >>> seeing_problem([loads("methods: [{family: rk4}]").tableau])
@@ -59,10 +56,9 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
 
 
 def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem]:
-    """The problem called ``name`` for each method, with one sum for all of them.
-
-    Its coefficients depend on the number of terms: all methods get the problem of the method with
-    the most, with terms added up for fewer.
+    """Returns a problem for each method, with one sum for all: its coefficients depend on the
+    number of
+    terms, so all get that of the method with the most, with terms added up for fewer.
     """
     terms = [terms_of(with_joined_terms(tableau)) for tableau in tableaux]
     most = max(terms)
@@ -100,15 +96,19 @@ def converge(
     """Tests the convergence of ``tableau`` on ``problem``.
 
     The problem is in as many terms as the tableau has, or in one with a natural split; the
-    oscillator is solved by the exact step map; by default it is the problem with random
-    coefficients that sees every tree of the structure. ``steps`` divide ``t_end``. ``tolerance`` is
-    the rounding of the coefficients; slopes may then end on a plateau. ``is_timed`` measures the
-    time of the steps in floats as well. ``order`` is given if more than the coefficients is known,
-    as for the pair of a rounded method.
+    oscillator is
+    solved by the exact step map; by default coefficients are random and every tree is seen.
+    ``tolerance`` is the rounding of the coefficients; slopes may then end on a plateau.
+    ``is_timed``
+    measures the time of steps in floats. ``order`` is given if more than the coefficients is known,
+    as
+    for the pair of a rounded method.
 
     Raises UsageProblem if the problem does not suit the structure, a step does not divide
-    ``t_end``, or the stage equations of a given step are singular; StepFailed if Newton's method
-    fails for a given step size, or for all of the default ladder.
+    ``t_end``, or
+    the stage equations of a given step are singular; StepFailed if Newton's method fails for a
+    given
+    step size, or for all of the default ladder.
 
     >>> from garkcli import hamiltonian, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau
@@ -192,9 +192,7 @@ def most_steps(problem: Oscillator | Problem) -> int:
 
 
 def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq]) -> None:
-    """Checks the step sizes before any work is done. Raises UsageProblem if a step does not divide
-    the time, or there are too many of them.
-    """
+    """Raises UsageProblem if a step does not divide the time, or for too many steps."""
     limit = most_steps(problem)
     for h in steps:
         count = whole_steps(t_end, h)
@@ -239,10 +237,9 @@ def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[result.StepSizeRo
 
 
 def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
-    """A short time, and the order over it: the first that is a whole number.
-
-    If only the visible order is possible, shorter times follow while it is larger: a nearly
-    satisfied condition shows only at smaller steps.
+    """A short time with a whole order over it. If only the visible order is possible, shorter times
+    follow
+    while it is larger: a nearly satisfied condition shows only at smaller steps.
     """
     short, order = usual, None
     for decades in solver.decades:

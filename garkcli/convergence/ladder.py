@@ -24,23 +24,19 @@ if TYPE_CHECKING:
     from garkcli.convergence.stepped_solver import SteppedSolver
 
 Solver: TypeAlias = "LinearSolver | SteppedSolver"
-"""A method on a problem, up to a time: by exact powers of its step map, or step by step. Both have
+"""A method on a problem, by exact powers of its step map, or step by step. Both have
 
-- ``problem``, ``t_end`` and ``visible``: what the problem can see of the method;
-- ``unit`` and ``longest``: a unit of time that is natural for it, the longest step of a ladder;
+- ``visible``: what the problem can see of the method;
+- ``unit`` and ``longest``: a natural unit of time, the longest step of a ladder;
 - ``most_steps`` of a row, ``decades``: parts 10^−k of the usual time, short times that are tried;
-- ``row``: the errors of steps of one size, with a slope from the row before;
 - ``size`` of the solution: the sum of its numbers at the start and at the end;
 - ``rests``: whether it ends where it starts, as far as floats can tell;
 - ``rounding``: about the error that the rounding of coefficients makes; 0 for exact ones;
 - ``resolution``: h ‖∂f/∂y‖ of a right-hand side; 0 for other problems;
-- ``is_too_short``: whether a ladder ends before a step size, where a stiff problem would no longer
-  look so;
-- ``timed``: a row with what its steps cost when they are taken one by one;
-- ``over``: the same up to another time.
+- ``is_too_short``: whether a stiff problem would no longer look so at a step size;
+- ``timed``: a row with what its steps cost when they are taken one by one.
 """
 MAX_ROWS = 10
-"""Most step sizes of the default ladder."""
 MAX_COARSE = 20_000
 """With more steps than this the default ladder accepts a large error."""
 LARGEST = 1 / 32
@@ -60,13 +56,14 @@ _ABOVE = 300
 
 
 def default_rows(solver: Solver, is_timed: bool) -> tuple[list[StepSizeRow], int]:
-    """Returns the rows of the default ladder, and the number of last rows that show the rounding of
+    """Returns the rows of the default ladder, and how many at the end show the rounding of
     coefficients.
 
-    Step sizes that are too large for Newton's method, and poles of a step map, are left out. If the
-    method makes no error, there is a single row with the error 0. With ``is_timed`` costs are
-    compared, and the ladder keeps its coarse steps, as large errors are needed too. Raises
-    StepFailed if Newton's method fails for steps that are not coarse.
+    Step sizes that are too large for Newton's method, and poles of a step map, are left out;
+    without an
+    error there is a single row. With ``is_timed`` the ladder keeps its coarse steps, as costs are
+    compared for large errors too. Raises StepFailed if Newton's method fails for steps that are not
+    coarse.
     """
     rows: list[StepSizeRow] = []
     is_small: list[bool] = []
@@ -103,10 +100,8 @@ def is_part(row: StepSizeRow, size: arb) -> bool:
 
 def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
     """t_end/n with n doubled without end. The first step is at most ``longest``, and at most a unit
-    of time if that is shorter and cannot be doubled; it is the same for all methods.
-
-    Raises:
-        UsageProblem: the time is not positive.
+    of
+    time if that is shorter and cannot be doubled. Raises UsageProblem if the time is not positive.
 
     >>> from itertools import islice
     >>> [str(h) for h in islice(halvings(fmpq(12), fmpq(1), fmpq(8)), 4)]
@@ -121,9 +116,7 @@ def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
 
 
 def is_complete(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> bool:
-    """Returns whether the ladder may end with the last of ``rows``, all so far from the largest
-    step down. ``is_small`` says for each whether its error is at most ``LARGEST`` of the solution.
-    """
+    """Returns whether the ladder may end; errors that are small are within ``LARGEST``."""
     if len(rows) - _first_small(is_small) >= MAX_ROWS:
         return True
     return len(rows) - _start(rows, is_small) >= ROWS and has_settled(rows)
@@ -151,7 +144,8 @@ def _start(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> int:
 
 def has_settled(rows: Sequence[StepSizeRow]) -> bool:
     """Whether slope and extrapolated order agree and one of them is steady, or the latter is very
-    steady. The order of a method is an integer, so otherwise something has not settled yet.
+    steady.
+    The order of a method is an integer, so otherwise something has not settled yet.
     """
     before, last = rows[-2].slope, rows[-1].slope
     estimated = observed_order(rows[:-1])
@@ -175,10 +169,8 @@ def trimmed(
     plateau: int = 0,
     may_be_off: bool = False,
 ) -> list[StepSizeRow]:
-    """The rows without the first ones that are too coarse; at least ``ROWS`` of them stay.
-
-    The last ``plateau`` rows stay and are ignored. With ``may_be_off`` rows with small errors stay,
-    whatever their slopes.
+    """The rows without the first ones that are too coarse; at least ``ROWS`` stay, and the last
+    ``plateau``, which are ignored. With ``may_be_off`` small errors stay, whatever their slopes.
     """
     end = len(rows) - plateau
     start = _first_small(is_small[:end]) if may_be_off else _start(rows[:end], is_small[:end])
@@ -189,19 +181,16 @@ def trimmed(
 
 
 def unspoilt_order(solver: Solver, h: fmpq) -> int:
-    """The order below which slopes at steps of size ``h`` are ascribed to rounding; for a stiff
-    problem, whose order is reduced, at most 1.
-    """
+    """The order below which slopes are ascribed to rounding; at most 1 for a stiff problem."""
     order = solver.visible.order
     return min(order, 1) if solver.resolution(h) >= STIFF else order
 
 
 def plateau(rows: Sequence[StepSizeRow], order: int, rounding: arb) -> int:
-    """Returns the number of rows at the end that show rounded coefficients instead of ``order``.
-
-    They begin with the first flat row whose error may come from rounding; rows before it with an
-    error not far above it count too. ``rounding`` is the approximate error from the rounding of the
-    coefficients; 0 for exact ones.
+    """Returns the number of rows at the end that show rounded coefficients instead of ``order``:
+    from the
+    first flat row whose error may come from ``rounding``, and rows before it with an error not far
+    above.
     """
     limit = rounding * _ABOVE
     flat = 0  # the first flat row

@@ -1,7 +1,5 @@
-"""Solves the oscillator by the exact step map of a method.
-
-R(h) is known exactly and its powers are enclosed in balls with as many bits as the error needs, so
-a slope is never a slope of rounding errors.
+"""Solves the oscillator by powers of the exact R(h), enclosed in as many bits as the error needs: a
+slope is never one of rounding errors.
 """
 
 from __future__ import annotations
@@ -34,7 +32,6 @@ LINEAR_ONLY = (
     "a linear problem sees only the unbranched trees: "
     "it can show an order too high, never one too low"
 )
-"""The remark of every report of this test."""
 _FIRST_BITS = 128
 # balls are as exact as the smallest errors need
 _DECADES = (6, 12, 24, 48, 96, 192, 384)
@@ -43,11 +40,7 @@ _AGREEING = 8
 
 
 class LinearSolver(Mutable):
-    """A method on the oscillator with q(0) = 1, p(0) = ω/2; see ``Solver``.
-
-    ``spoilt`` is the part of R(1/ω) that comes from the rounding of the coefficients;
-    ``integrators``, by number of digits, measure costs.
-    """
+    """A method on the oscillator with q(0) = 1, p(0) = ω/2; ``spoilt`` is rounding in R(1/ω)."""
 
     tableau: Tableau
     step: linear.LinearStep
@@ -81,9 +74,7 @@ class LinearSolver(Mutable):
         return 0.0
 
     def row(self, h: fmpq, before: StepSizeRow | None) -> StepSizeRow:
-        """The errors of steps of size ``h``, exact to ``ERROR_BITS``. Raises NoUniqueStep if the
-        stage equations have no unique solution at this step size.
-        """
+        """Errors to ``ERROR_BITS``; NoUniqueStep if the stage equations are singular at h."""
         steps = linear.whole_steps(self.t_end, h)
         try:
             R = self.step.at(h)
@@ -110,12 +101,8 @@ class LinearSolver(Mutable):
         return replace(self, t_end=t_end)
 
     def timed(self, row: StepSizeRow) -> StepSizeRow:
-        """The row with the cost of its steps, in floats if these reach its error.
-
-        Rows with errors below ``MAX_DIGITS`` digits have no cost.
-
-        Raises:
-            StepFailed: the stage equations of a step were not solved.
+        """The row with the cost of its steps, in floats if these reach its error; without one below
+        ``MAX_DIGITS`` digits. Raises StepFailed if the stage equations were not solved.
         """
         steps = linear.whole_steps(self.t_end, row.h)
         y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
@@ -152,10 +139,9 @@ def linear_solver(
     tolerance: fmpq | None = None,
     predicted: int = 0,
 ) -> LinearSolver:
-    """Returns the solver of ``tableau`` on the oscillator up to ``t_end``.
-
-    ``predicted`` is the order of the method, a lower bound of the visible order. Raises
-    UsageProblem if the split does not suit the structure of the tableau.
+    """Returns the solver; the visible order is at least ``predicted``. Raises UsageProblem if the
+    split
+    does not suit the structure of the tableau.
     """
     implicit = LinearlyImplicit.of(tableau)
     if implicit is not None and implicit.taken != "exact":
@@ -185,11 +171,11 @@ def _solution(omega: fmpq, t: fmpq) -> tuple[arb, arb]:
 
 
 def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
-    """Error and energy error of y_n = Rⁿ y₀.
-
-    The loop ends because the error is not zero: R and y₀ are algebraic, cos ωt and sin ωt are not
-    (Lindemann). The energy error can be zero, so four times the bits suffice; then it is a ball
-    about 0.
+    """Error and energy error of y_n = Rⁿ y₀. The loop ends because the error is not zero: R and y₀
+    are
+    algebraic, cos ωt and sin ωt are not (Lindemann). The energy error can be zero, so four times
+    the
+    bits suffice; then it is a ball about 0.
     """
     bits, enough = _FIRST_BITS, 0
     is_conserved = linear.conserves_energy(R, omega)

@@ -35,9 +35,7 @@ _APART = 8  # times as many steps, between which it is seen how fast the error f
 
 
 def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
-    """The state after ``count`` steps of size ``h``; ``what`` names the work. Raises StepFailed if
-    the stage equations of a step were not solved.
-    """
+    """The state after ``count`` steps, or StepFailed; ``what`` names the work."""
     state = Stepper(made, h)
     each = max(1, count // _PIECES)
     with doing(what, count) as work:
@@ -48,10 +46,9 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
 
 
 class ReferenceSolution(Mutable):
-    """The solution of a problem at one time, with the most digits requested so far.
-
-    The problem is in one term. The error is below 10^(−``digits``) times the ``magnitude`` of the
-    solution; ``digits`` is 0 at first. ``y`` is (q, p) at ``t_end``, shape (2d,).
+    """The solution ``y`` at ``t_end``, shape (2d,), with the most digits requested so far: the
+    error is
+    below 10^(−``digits``) times its ``magnitude``, 0 digits at first.
     """
 
     problem: Problem
@@ -61,11 +58,9 @@ class ReferenceSolution(Mutable):
     steps: int = 0
 
     def to(self, digits: int) -> tuple[arb, ...]:
-        """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the
-        solution.
-
-        Raises ``UsageProblem`` if the problem has no solution up to there, or it comes too close to
-        a singularity, or is so sensitive that round-off drowns it.
+        """(q, p) with an error below 10^(−digits) times the ``magnitude``. Raises UsageProblem if
+        there is no
+        solution up to there, or it comes too close to a singularity, or round-off drowns it.
         """
         if digits > self.digits and self._is_known(digits):
             self.y = _exact(self.problem, self.t_end, digits)
@@ -103,12 +98,7 @@ def _kept(problem: Problem, t_end: fmpq) -> ReferenceSolution:
 
 
 def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tuple[arb, ...], int]:
-    """The solution by more and more steps, from ``steps`` on, until the last change is small
-    enough, and the number of these steps.
-
-    Raises:
-        UsageProblem: see ``Reference.to``.
-    """
+    """The solution by more steps until the last change is small enough, and their number."""
     runs = _Runs(problem, t_end, digits)
     fewer, before = 0, None
     changes: list[tuple[int, _Change]] = []
@@ -146,11 +136,10 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
 
 
 class _Change(Frozen):
-    """The change of a solution by more steps.
-
-    ``is_small`` says that the remaining error is small enough, ``is_far`` that the runs are
-    unrelated. ``factor`` is the factor of steps that is likely to suffice, ``decades`` the powers
-    of ten by which the change exceeds the allowed error.
+    """The change of a solution by more steps, ``is_far`` if the runs are unrelated. ``factor`` of
+    steps is
+    likely to suffice; ``decades`` are the powers of ten by which the change exceeds the allowed
+    error.
     """
 
     is_small: bool
@@ -160,9 +149,7 @@ class _Change(Frozen):
 
 
 def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
-    """The decades of steps that the error needs if it goes on falling as it has fallen; 0 if
-    unknown. ``changes`` are pairs of the smaller number of steps and the change, ascending.
-    """
+    """The decades of steps needed if the error goes on falling; 0 if unknown. Changes ascend."""
     steps, last = changes[-1]
     earlier = [x for x in changes if _APART * x[0] <= steps and not x[1].is_far]
     if not earlier:
@@ -173,9 +160,7 @@ def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
 
 
 class _Runs:
-    """A problem solved with different numbers of steps by one method. Hamiltonian problems are
-    solved by Gauss methods, others by Radau IIA methods, as they may be stiff.
-    """
+    """Runs by Gauss methods, or by Radau IIA methods if not Hamiltonian, as these may be stiff."""
 
     def __init__(self, problem: Problem, t_end: fmpq, digits: int) -> None:
         from garkcli.families.collocation import gauss, radau_iia
@@ -196,9 +181,7 @@ class _Runs:
         self.integrator = bind(method, problem).at(digits + spare)
 
     def end(self, steps: int) -> list[Any] | None:
-        """The state at the final time; None if a step fails and shorter ones may succeed. Raises
-        UsageProblem if there are too many steps, or shorter ones would fail too.
-        """
+        """Returns None if a step fails and shorter ones may succeed, else UsageProblem."""
         if steps > MAX_STEPS:
             raise UsageProblem(
                 f"the solution at t = {self.t_end} is not found to "
@@ -216,12 +199,13 @@ class _Runs:
             return None
 
     def change(self, before: Sequence[Any], fewer: int, y: Sequence[Any], steps: int) -> _Change:
-        """The change from ``fewer`` steps, which end at ``before``, to ``steps`` steps, which end
-        at ``y``.
+        """The change from ``fewer`` steps, ending at ``before``, to ``steps``, ending at ``y``.
 
         From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
-        (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is
-        taken to be (n/m)^s of it, but at least ``_CREDIT``, because round-off does not fall.
+        (n/m)^s
+        long before. The change bounds the larger of the two errors, so the smaller one is taken to
+        be
+        (n/m)^s of it, but at least ``_CREDIT``, because round-off does not fall.
         """
         s = self.stages
         with ctx.workprec(self.integrator.bits):
@@ -262,22 +246,18 @@ def magnitude(y: Sequence[Any], problem: Problem) -> arb:
 _PART = 64
 """The solution is computed for this part of the time of the problem."""
 _DIGITS = 24
-"""Digits of the solution."""
 _LEAST = 1e-12
-"""The smallest change relative to those by each coordinate that counts as one, not as an error of
-the solution.
-"""
+"""The smallest relative change that counts as one, not as an error of the solution."""
 _BITS = 4 * _DIGITS
 
 
 @doing("invariants along the solution")
 def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
-    after which it is measured.
-
-    The change of an invariant I has to be below the errors of the solution; it is compared with Σ
-    |∂I/∂y_i (y_i(t) − y_i(0))|, the change without cancellation. Empty if there is no solution, or
-    I has no value on it.
+    after which
+    it is measured. The change has to be below the errors of the solution; it is compared with Σ
+    |∂I/∂y_i
+    (y_i(t) − y_i(0))|, the change without cancellation. Empty without a solution or a value of I.
     """
     if not problem.invariants:
         return ()

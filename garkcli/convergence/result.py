@@ -17,9 +17,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
-"""The comparison of observed and visible order: undecided if no order is observed, reduced if
-unresolved steps of a stiff problem show a smaller one.
-"""
+"""Undecided if no order is observed, reduced if a stiff problem shows a smaller one."""
 MAX_ORDER = 120
 """Largest order that the certificate looks for."""
 CLOSE = 0.05
@@ -33,9 +31,9 @@ class Cost(Frozen):
     """The cost of the steps of one row.
 
     Attributes:
-        evaluations: evaluations of V^{l} or F^{l} at one stage, including those of Newton's method.
-        iterations: Newton iterations, over all steps and implicit blocks.
-        jacobians: Jacobians of implicit blocks, each with a factorisation.
+        evaluations: of V^{l} or F^{l} at one stage, including those of Newton's method.
+        iterations: of Newton's method, over all steps and implicit blocks.
+        jacobians: of implicit blocks, each with a factorisation.
         seconds: processor time in floats; None if more digits were needed.
     """
 
@@ -54,13 +52,13 @@ class StepSizeRow(Frozen):
 
     Attributes:
         h: the step size.
-        error: the distance from the exact solution at t_end: ‖(Δq, Δp)‖₂, and ‖(Δq, Δp/ω)‖₂ on the
-            oscillator. Its ball contains 0 only if the method makes no error.
+        error: ‖(Δq, Δp)‖₂ from the exact solution at t_end, ‖(Δq, Δp/ω)‖₂ on the oscillator. Its
+            ball contains 0 only if the method makes no error.
         slope: of log error over log h, between the row before and this one; None in the first row.
         energy_error: |H(t_end) − H(0)|; None if the problem has no energy.
         invariant_errors: |I(t_end) − I(0)| for each invariant of the problem besides H.
         digits: the digits of the computation, 15 for floats; None if nothing was rounded.
-        cost: the cost of the steps; None if they were not taken one by one.
+        cost: of the steps; None if they were not taken one by one.
     """
 
     h: fmpq
@@ -81,8 +79,9 @@ class Visible(Frozen):
 
     Attributes:
         order: the order of the method by these trees only.
-        is_sharp: whether no higher order can be observed. A problem may hide more trees than its
-            form suggests, or let errors cancel.
+        is_sharp: whether no higher order can be observed; a problem may hide more trees than its
+            form
+            suggests, or let errors cancel.
     """
 
     order: int
@@ -97,7 +96,8 @@ class Stiffness(Frozen):
         resolution: h ‖∂f/∂y‖ of the smallest step, far above 1.
         stage_order: the largest q for which B(q) and C(q) hold; None for a Rosenbrock method.
         weak_stage_order: the order up to which errors of the stages do not reach the new value;
-            None if the search stopped.
+            None
+            if the search stopped.
         is_stable: whether the error of the smallest step is a small part of the solution.
     """
 
@@ -113,21 +113,18 @@ class Convergence(Shown, Frozen):
     Attributes:
         problem: the problem and its split.
         t_end: the time at which errors are taken.
-        rows: from the largest step to the smallest; a single one with the error 0 if the method
-            makes no error.
-        plateau: the number of last rows that show the rounding of the coefficients, which are not
-            fitted.
+        rows: from the largest step to the smallest; a single one with the error 0 if there is none.
+        plateau: the number of last rows that show the rounding of the coefficients, not fitted.
         observed_order: extrapolated from the last rows before the plateau to h = 0; None for a
             single row.
         predicted_order: the order for every problem, by the certificate.
         visible: the trees that the problem sees; their order is at least the predicted one.
-        short_time: the time of the observation with tiny steps; None if it was not needed, and for
-            rounded coefficients.
+        short_time: of the observation with tiny steps; None if it was not needed, or rounded.
         short_order: the order observed over it.
         has_settled: whether the slopes before the plateau have settled.
         are_given: whether the caller chose the step sizes, which then have to show the order.
         stiff: the stiffness if no step size resolves the problem.
-        is_at_rest: whether there are no errors because the solution ends where it starts.
+        is_at_rest: whether errors are missing because the solution ends where it starts.
         method: the method, if more than its tableau is known.
         jacobian: the matrix that a Rosenbrock method used for the Jacobian.
 
@@ -170,9 +167,7 @@ class Convergence(Shown, Frozen):
 
     @property
     def exit_code(self) -> int:
-        """The exit code of ``gark converge``: 0 if the visible order is observed or the problem is
-        too stiff for it, 1 if another one is observed, 3 if none is.
-        """
+        """0 if the visible order is observed or it is too stiff, 1 for another, 3 for none."""
         return {"agree": 0, "reduced": 0, "disagree": 1, "undecided": 3}[self.verdict]
 
     @property
@@ -181,8 +176,10 @@ class Convergence(Shown, Frozen):
         some trees.
 
         Undecided if no order is observed: there are no errors, they grow as steps shrink, or the
-        rounding of the coefficients comes before the slopes have settled. Reduced if the steps are
-        too large for a stiff problem, unless tiny ones show another order.
+        rounding of
+        the coefficients comes before the slopes have settled. Reduced if the steps are too large
+        for a stiff
+        problem, unless tiny ones show another order.
         """
         if self.observed_order is None:
             return "undecided"
@@ -266,10 +263,10 @@ def slope_between(before: StepSizeRow | None, h: fmpq, error: arb) -> float | No
 
 def stiff_order(rows: Sequence[StepSizeRow]) -> float | None:
     """The order that slopes of a stiff problem show: extrapolated, but not far beyond the last
-    slope.
-
-    Two errors compete, h^p and a smaller multiple of a lower power; where they change places slopes
-    fall so fast that the extrapolation would end below both.
+    slope. Two
+    errors compete, h^p and a smaller multiple of a lower power; where they change places slopes
+    fall so
+    fast that the extrapolation would end below both.
     """
     order, last = observed_order(rows), rows[-1].slope
     if order is None or last is None or abs(order - last) <= _CROSSING:
@@ -278,10 +275,11 @@ def stiff_order(rows: Sequence[StepSizeRow]) -> float | None:
 
 
 def observed_order(rows: Sequence[StepSizeRow]) -> float | None:
-    """The order p in log error = log C + p log h + a h + b h² through the last four rows.
-
-    The slopes converge to p like h; with the first two terms of the expansion of the error the
-    estimate converges like h³. Fewer rows have fewer terms; one row has no order.
+    """The order p in log error = log C + p log h + a h + b h² through the last four rows. The
+    slopes
+    converge to p like h; with two terms of the expansion of the error the estimate converges like
+    h³.
+    Fewer rows have fewer terms; one row has no order.
     """
     last = rows[-_FITTED:]
     if len(last) < 2:

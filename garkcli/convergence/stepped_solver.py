@@ -1,8 +1,4 @@
-"""Solves a problem step by step, with as many digits as the errors need.
-
-Rows are computed in floats, or with more digits if the error would fall below round-off. The
-reference solution has more digits.
-"""
+"""Solves a problem step by step, with as many digits as the errors need, and a finer reference."""
 
 from __future__ import annotations
 
@@ -41,11 +37,7 @@ _DECADES = (6, 12, 18)
 
 
 class SteppedSolver(Mutable):
-    """A method on a problem, with results shared between step sizes; see ``Solver``.
-
-    The order of the ``visible`` trees determines the first number of digits; ``integrators`` are by
-    number of digits.
-    """
+    """A method on a problem, with results shared between step sizes and by digits."""
 
     bound: Binding
     t_end: fmpq
@@ -75,10 +67,10 @@ class SteppedSolver(Mutable):
         return fmpq(8)
 
     def is_too_short(self, h: fmpq) -> bool:
-        """Whether h² ‖∂f/∂y‖ is below ``_STIFF`` although a longer ladder is stiff.
-
-        There |R(h λ)| of a method with |R(∞)| = 1 is so far from 1 that it damps its errors, and
-        slopes belong to neither regime.
+        """Whether h² ‖∂f/∂y‖ is below ``_STIFF`` although a longer ladder is stiff: there |R(h λ)|
+        of a method
+        with |R(∞)| = 1 is so far from 1 that it damps its errors, and slopes belong to neither
+        regime.
         """
         last = self.t_end / 2 ** (ROWS - 1)
         is_stiff = self._slope * arb(last) ** 2 > _STIFF
@@ -96,7 +88,6 @@ class SteppedSolver(Mutable):
         return replace(self, t_end=t_end)
 
     def size(self) -> arb:
-        """The sum of the sizes of all numbers at the start and at the end."""
         return magnitude(self.reference.to(self._digits_of_reference(FLOAT_DIGITS)), self.problem)
 
     def rests(self) -> bool:
@@ -107,11 +98,7 @@ class SteppedSolver(Mutable):
         return not any(abs(now - arb(then)) > least for now, then in pairs)
 
     def row(self, h: fmpq, before: StepSizeRow | None) -> StepSizeRow:
-        """The errors of steps of size ``h``, with enough digits, and a slope from the row
-        ``before``; 0 if enough digits show no error.
-
-        Raises ``StepFailed`` if the stage equations of a step were not solved.
-        """
+        """Errors with enough digits, 0 if these show none; StepFailed if a step was not solved."""
         steps = whole_steps(self.t_end, h)
         digits = self._digits(h, before)
         while True:
@@ -142,11 +129,11 @@ class SteppedSolver(Mutable):
         return row
 
     def _shows_no_error(self, error: arb, digits: int) -> bool:
-        """Whether an error within round-off counts as zero.
-
-        Many digits agree only if nothing moves or the method is exact: the error of a long step of
-        order p is far above 10^(−8 p). If no visible tree fails up to the highest order, as for a
-        constant force, the error is round-off for any digits.
+        """Whether an error within round-off counts as zero. Many digits agree only if nothing moves
+        or the
+        method is exact: the error of a long step of order p is far above 10^(−8 p). If no visible
+        tree fails
+        up to the highest order, as for a constant force, the error is round-off for any digits.
         """
         if digits == MAX_DIGITS:
             return True
@@ -164,10 +151,11 @@ class SteppedSolver(Mutable):
             return total.sqrt().mid()
 
     def _round_off(self, digits: int, h: fmpq) -> arb:
-        """The uncertainty of a state at ``t_end`` from round-off.
-
-        Steps are summed with compensation, so their number does not count; the rounded increments
-        add up to the length of the solution's path, and the flow amplifies them.
+        """The uncertainty of a state at ``t_end`` from round-off. Steps are summed with
+        compensation, so their
+        number does not count; the rounded increments add up to the length of the solution's path,
+        and the
+        flow amplifies them.
         """
         precision = arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
         time = max(arb(1), arb(self.t_end))
@@ -181,9 +169,7 @@ class SteppedSolver(Mutable):
         return steepness(self.problem)
 
     def _amplified(self, h: fmpq) -> arb:
-        """The amplification of round-off of stages by a step: increments h f of stiff right-hand
-        sides are h ‖∂f/∂y‖ times as wrong.
-        """
+        """The amplification of round-off: stiff increments h f are h ‖∂f/∂y‖ times as wrong."""
         return max(arb(1), self._slope * arb(h))
 
     def _digits_of_reference(self, digits: int) -> int:
