@@ -1,16 +1,15 @@
 """Effective order: the order of a method up to a change of coordinates.
 
-Φ has effective order q if β Φ β⁻¹ has order q for some B-series β, a change of coordinates near the
-identity. For vector fields: e^{ad χ} b is that of the problem up to order q. The change is found
-order by order. If the transported field has the residual r at order n = k + 1, the part of order k
-of χ has to satisfy
+Φ has effective order q if β Φ β⁻¹ has order q for some B-series β near the identity. For vector
+fields: e^{ad χ} b is that of the problem up to order q. The change is found order by order. If the
+transported field has the residual r at order n = k + 1, the part of order k of χ has to satisfy
 
     [χ_k, δ] = −r,          δ(u) = 1 for single vertices, 0 for all other trees,
 
 a linear system with integer coefficients. If δ commutes only with its multiples, as free fields of
 the structure do, solutions are unique up to χ_1 = c δ, a shift of time by c h along the exact flow,
 which keeps the effective order. So if there is no solution, and the homogeneous systems before had
-only these, there is no such change, and the effective order is proved.
+only these, the effective order is proved.
 
 Source: J. C. Butcher, *The effective order of Runge–Kutta methods*, LNM 109 (1969) 133; Butcher and
 Sanz-Serna, *The number of conditions for a Runge–Kutta method to have effective order p*, Appl.
@@ -37,9 +36,7 @@ MAX_SOLVED = 1_000_000
 
 
 class EffectiveOrder(Frozen):
-    """The effective order of a method. ``is_proved`` says that no change of coordinates gives more;
-    otherwise it is a lower bound.
-    """
+    """A lower bound, or if proved the largest order with any change of coordinates."""
 
     order: int
     is_proved: bool

@@ -2,11 +2,8 @@
 
 H̃ = H + h^k H_k + …, truncated after some power of h, changes along the numerical solution by h^m
 (H_m(y) − H_m(y_0)) + …, with the next power h^m, up to times that grow exponentially with 1/h. So
-its error has order m, while that of H has the order of the method. Both are measured over step
-sizes.
-
-Source: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), theorem
-IX.8.1.
+its error has order m, while that of H has the order of the method. Source: Hairer, Lubich and
+Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), theorem IX.8.1.
 """
 
 from __future__ import annotations
@@ -48,9 +45,7 @@ _LOST = 4  # digits that steps and formulas lose, besides those of their number
 
 
 class Meter(Mutable):
-    """Steps and measures all truncations of the modified Hamiltonian. ``formulas`` are H and the
-    coefficients of ``powers`` of h, 0 first.
-    """
+    """Measures all truncations; ``formulas`` are H and coefficients of ``powers`` of h, 0 first."""
 
     bound: Binding
     formulas: Sequence[Any]
@@ -117,7 +112,6 @@ class Meter(Mutable):
 
 
 def are_above_noise(rows: Sequence[StepSizeRow]) -> bool:
-    """Whether every error is larger than rounding."""
     return not any(row.error.contains(0) for row in rows)
 
 
@@ -128,11 +122,7 @@ def slopes_have_settled(rows: Sequence[StepSizeRow]) -> bool:
 
 
 def _places(x: arb) -> int:
-    """The approximate number of zeros after the point of a small positive number.
-
-    >>> _places(arb("1e-30"))
-    30
-    """
+    """The approximate number of zeros after the point of a small positive number."""
     mantissa, exponent = x.mid().man_exp()
     bits = mantissa.bit_length() + int(exponent)
     return max(0, round(-bits * log10(2)))
@@ -147,11 +137,11 @@ class ModifiedEnergy(Frozen):
 
     Attributes:
         power: the power of its last term; 0 is H itself.
-        exact_order: the next power.
-        is_lower_bound: whether that power is the first that was not examined.
+        exact_order: the next power, or if it is a lower bound the first that was not examined.
+        is_lower_bound: whether that power was not examined.
         rows: step sizes and the root mean squares of H̃(y_n) − H̃(y_0) over time.
         observed_order: extrapolated from the last rows; None if errors are below round-off.
-        uncertainty: how much the last row has changed it; None without an order.
+        uncertainty: how much the last row has changed that; None without an order.
         has_settled: whether the slopes have settled, as in a convergence test.
     """
 
@@ -165,9 +155,7 @@ class ModifiedEnergy(Frozen):
 
     @property
     def verdict(self) -> Verdict:
-        """The comparison of observed and exact order. Undecided if slopes have not settled, or the
-        error is smaller than necessary, as on an orbit with constant H_m.
-        """
+        """Undecided if slopes have not settled, or errors are too small, as for constant H_m."""
         if self.observed_order is None or not self.has_settled:
             return "undecided"
         excess = self.observed_order - self.exact_order
@@ -185,8 +173,8 @@ class ModifiedRun(Shown, Frozen):
     Attributes:
         problem: in as many terms as the method has.
         t_end: the final time.
-        max_order: the order of the trees in the modified Hamiltonian.
-        digits: the digits of the steps.
+        max_order: of the trees in the modified Hamiltonian.
+        digits: of the steps.
         energies: by ascending powers of h, H first.
         method: the method, if more than its tableau is known.
     """
@@ -218,9 +206,11 @@ def modified_run(
     """Measures the error of a symplectic method on ``problem`` in its modified Hamiltonian.
 
     The problem is in as many terms as the tableau has, or in one with a natural split. Powers of h
-    go up to one less than ``max_order``; ``longest`` bounds the step size. Raises UsageProblem if
-    the method is not symplectic or not consistent, or there are too many trees or steps; StepFailed
-    if the stage equations of a step were not solved.
+    go
+    up to one less than ``max_order``; ``longest`` bounds the step size. Raises UsageProblem if the
+    method is not symplectic or not consistent, or there are too many trees or steps; StepFailed if
+    a
+    step was not solved.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau

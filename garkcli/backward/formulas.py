@@ -33,9 +33,7 @@ FormulaVector: TypeAlias = tuple[Formula, ...]
 
 
 class Differentials:
-    """F(u) and H(u) of a problem split by the colours of a tableau. The terms of the colours are
-    indices into ``energies``, the H^{l} as sympy expressions.
-    """
+    """F(u) and H(u); the terms of the colours are indices into ``energies``, the H^{l}."""
 
     def __init__(self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]) -> None:
         self.tableau = tableau
@@ -99,11 +97,9 @@ class VisibleTrees(Frozen):
     """A tableau with few trees, among them all that a problem sees.
 
     Attributes:
-        tableau: the tableau. If H^{l} = T(p) + U(q), its colours belong to two terms: derivatives
-            of H^{l} by momenta only are those of T.
-        energies: H^{l} of its terms, sympy expressions; both parts of a divided term have all of
-            it.
-        structure: the structure of the Hamiltonians of its colours; None if roots cannot move.
+        tableau: with two terms for H^{l} = T(p) + U(q), as ∂H^{l}/∂p is that of T.
+        energies: H^{l} of its terms; both parts of a divided term have all of it.
+        structure: of the Hamiltonians of its colours; None if roots cannot move.
     """
 
     tableau: Tableau
@@ -188,9 +184,7 @@ class ModifiedFormula(Shown, Frozen):
     is_consistent: bool
 
     def expanded(self) -> ModifiedFormula:
-        """The formula expanded, with like summands collected and vanishing powers dropped. Raises
-        UsageProblem if a formula is too long.
-        """
+        """Expanded, without vanishing powers; UsageProblem if a formula is too long."""
         terms = []
         for term in self.terms:
             formulas = tuple(_expanded(x, term.power) for x in term.formulas)
@@ -205,10 +199,8 @@ class ModifiedFormula(Shown, Frozen):
 
 @doing("modified Hamiltonian of the problem")
 def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> ModifiedFormula:
-    """Returns the modified Hamiltonian of a symplectic method, the modified equation of any other.
-
-    The problem is in as many terms as the tableau has, or in one with a natural split. Raises
-    UsageProblem if it does not suit the structure, or there are too many trees.
+    """Returns the modified Hamiltonian of a symplectic method, the modified equation of any other;
+    UsageProblem if the problem does not suit the structure, or there are too many trees.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau
@@ -262,7 +254,6 @@ def _of_hamiltonian(
 
 
 def _expanded(formula: Formula, power: int) -> Formula:
-    """A formula expanded; ``UsageProblem`` if it is too long."""
     import sympy
 
     expression = sympy.Integer(0) + formula
@@ -289,7 +280,7 @@ def _summands(expression: Formula) -> int:
 
 
 def in_sympy(number: Number) -> Any:
-    """An exact number as a sympy expression. Raises UsageProblem if it is not in radicals."""
+    """Returns a sympy expression; UsageProblem if a number is not in radicals."""
     import sympy
 
     if not isinstance(number, Algebraic):

@@ -34,7 +34,8 @@ class FreeTree(ConditionClass):
     @cached_property
     def rootings(self) -> tuple[tuple[Tree, int], ...]:
         """The rootings with a vector field, each once with its sign, the representative first. The
-        root has the first of its colours. The rootings of u∘u have both signs; one is given.
+        root has
+        the first of its colours. The rootings of u∘u have both signs; one is given.
         """
         signs: dict[Tree, int] = {self.representative: 1}
         for tree, sign in self._from_representative():
@@ -70,9 +71,7 @@ def free_trees(structure: Structure, order: int) -> Iterator[FreeTree]:
 
 
 def hamiltonian_structure(tableau: Tableau) -> Structure | None:
-    """The structure of the Hamiltonian problems H = Σ H^{l} of a tableau. None if the root of some
-    tree that the tableau sees cannot move.
-    """
+    """The structure of H = Σ H^{l}; None if the root of some tree cannot move."""
     tableau = with_joined_terms(tableau)
     natures = [(x.term, x.part) for x in tableau.colours]
     parts = {x.part for x in tableau.colours}
@@ -95,9 +94,7 @@ def hamiltonian_structure(tableau: Tableau) -> Structure | None:
 
 
 class HamiltonianTerm(Frozen):
-    """One term c · H(u) of h^(ρ−1) in the modified Hamiltonian. ``coefficient`` is b(u) of the
-    representative u of the free tree.
-    """
+    """One term of h^(ρ−1); ``coefficient`` is b(u) of the representative of the free tree."""
 
     tree: FreeTree
     coefficient: Number
@@ -109,11 +106,7 @@ class HamiltonianTerm(Frozen):
 
 
 def defect(equation: ModifiedEquation, tree: FreeTree, zero: fmpq = ZERO) -> bool:
-    """Returns whether the coefficients of the rootings of a free tree do not belong to a
-    Hamiltonian.
-
-    Differences up to ``zero`` count as zero, for rational coefficients of a rounded method.
-    """
+    """Whether rootings belong to no Hamiltonian, up to ``zero`` for rounded methods."""
     expected = equation[tree.representative]
     if not tree.has_hamiltonian and not is_zero(expected, zero):
         return True
@@ -129,13 +122,11 @@ def is_zero(x: Number, zero: fmpq) -> bool:
 
 
 def symplectic_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
-    """The order of symplecticity, at most that of the largest trees.
-
-    It is the largest q with MᵀJM = J + O(h^(q+1)) on all Hamiltonian problems: the first q terms of
-    the modified equation have a Hamiltonian. With elementary weights: a(u∘v) + a(v∘u) = a(u) a(v)
-    for ρ(u) + ρ(v) ≤ q.
-
-    Source: A. Aubry, P. Chartier, *Pseudo-symplectic Runge–Kutta methods*, BIT 38 (1998) 439.
+    """The order of symplecticity, at most that of the largest trees: the largest q with MᵀJM = J +
+    O(h^(q+1)) on all Hamiltonian problems: the first q terms of the modified equation have a
+    Hamiltonian. With elementary weights: a(u∘v) + a(v∘u) = a(u) a(v) for ρ(u) + ρ(v) ≤ q. Source:
+    A.
+    Aubry, P. Chartier, *Pseudo-symplectic Runge–Kutta methods*, BIT 38 (1998) 439.
     """
     for n in range(1, equation.max_order + 1):
         if any(defect(equation, tree, zero) for tree in free_trees(structure, n)):
@@ -155,13 +146,13 @@ def modified_hamiltonian(
 
 
 def energy_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
-    """The order to which steps conserve H = Σ H^{l}, at most that of the largest trees.
-
-    It is the largest r with H(y₁) = H(y₀) + O(h^(r+1)) for all Hamiltonian problems. The modified
-    field changes H by Σ_u h^(ρ(u)−1)/σ(u) b(u) H([u]), where [u] is u below a vertex of any term;
-    rootings at the leaves of one free tree agree up to sign.
-
-    Source: E. Celledoni, R. I. McLachlan, B. Owren, G. R. W. Quispel, *Energy-preserving
+    """The order to which steps conserve H = Σ H^{l}: the largest r with H(y₁) = H(y₀) + O(h^(r+1))
+    for all
+    problems, at most that of the largest trees. The modified field changes H by Σ_u h^(ρ(u)−1)/σ(u)
+    b(u) H([u]), where [u] is u below a vertex of any term; rootings at the leaves of one free tree
+    agree
+    up to sign. Source: E. Celledoni, R. I. McLachlan, B. Owren, G. R. W. Quispel,
+    *Energy-preserving
     integrators and the structure of B-series*, Found. Comput. Math. 10 (2010) 673.
     """
     for n in range(1, equation.max_order + 1):

@@ -32,9 +32,7 @@ class ModifiedEquation(Frozen):
         return self.forest.max_order
 
     def __getitem__(self, tree: Tree) -> Number:
-        """b(u); 0 for a tree that the method does not see. Raises KeyError if the tree is larger
-        than ``max_order``.
-        """
+        """b(u); 0 for a tree that the method does not see, KeyError beyond ``max_order``."""
         if tree.order > self.max_order:
             raise KeyError(tree)
         number = self.forest.number(tree)
@@ -69,11 +67,7 @@ class ModifiedEquation(Frozen):
 
 
 def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
-    """The modified equation of ``tableau`` in trees of up to ``order`` vertices.
-
-    Raises:
-        UsageProblem: there are too many trees.
-        MethodError: the tableau is no GARK method.
+    """Raises UsageProblem for too many trees, MethodError if the tableau is no GARK method.
 
     >>> from garkcli import loads
     >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau

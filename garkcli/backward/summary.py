@@ -40,13 +40,13 @@ class BackwardAnalysis(Shown, Frozen):
     Attributes:
         equation: the coefficients.
         order: the order of the method.
-        structure: the structure of its Hamiltonian problems, or None.
+        structure: of its Hamiltonian problems, or None.
         is_symplectic: whether the coefficients are symplectic, exactly or within the tolerance.
         symplectic: the order of symplecticity; None without a structure.
         energy: the order to which steps conserve energy; None without a structure.
         effective: the order up to a change of coordinates.
         hamiltonian: the terms of the modified Hamiltonian; None if there is none.
-        tolerance: the rounding of the coefficients. With one the three orders are lower bounds.
+        tolerance: of the coefficients; then the three orders are lower bounds.
 
     >>> from garkcli import backward_analysis
     >>> found = backward_analysis("implicit-midpoint", 4)
@@ -74,13 +74,10 @@ class BackwardAnalysis(Shown, Frozen):
 def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None
 ) -> BackwardAnalysis:
-    """The backward analysis of ``tableau`` with trees of up to ``max_order`` vertices.
-
-    With a ``tolerance`` it is that of the method that the digits are taken to mean; other methods
-    within it may have larger orders.
-
-    Raises:
-        UsageProblem: there are too many trees.
+    """The backward analysis with trees of up to ``max_order`` vertices; with a ``tolerance`` of the
+    method
+    that the digits mean, while others may have larger orders. Raises UsageProblem for too many
+    trees.
 
     >>> from garkcli import loads
     >>> found = backward_analysis(loads("methods: [{family: rk4}]").tableau, 6)
