@@ -38,7 +38,7 @@ weights; different; not known.
 
 
 WITH_TIME = "order with time"
-"""The name of the order for ẏ = f(t, y), with the nodes as given."""
+"""The order for ẏ = f(t, y), with the nodes as given."""
 
 
 class OrderPair(Frozen):
@@ -64,8 +64,6 @@ class OrderPair(Frozen):
 
 
 class PropertyPair(Frozen):
-    """A property in which two methods differ, and their tolerances."""
-
     key: str
     one: Verdict
     other: Verdict
@@ -80,17 +78,17 @@ class Comparison(Shown, Frozen):
     """Similarities and differences of two methods.
 
     Attributes:
-        one: a method.
-        other: another.
-        forms: what kind of tableau each is.
-        gaps: where entries differ; empty where the numbers of colours differ.
-        sameness: in what sense they are the same method; None if they are not.
-        obstacle: why that is not known; empty where it is.
-        allowed: how far the rounding that the files admit may move equal entries apart.
+        one: the first method.
+        other: the second.
+        forms: the kinds of their tableaus.
+        gaps: where entries differ; empty for different numbers of colours.
+        sameness: how they are the same method; None if they are not.
+        obstacle: why that is not known; empty if it is.
+        allowed: the distance by which the rounding of the files may move equal entries apart.
         orders: their orders, of the method, its embedded weights, its conjugate and its pair.
-        met: the conditions that one meets and the other does not; None if the methods are the
-            same, or have different numbers of colours.
-        properties: those that differ, or that are decided of one method alone.
+        met: the conditions that only one meets; None if the methods are the same, or have different
+            numbers of colours.
+        properties: those that differ, or are decided of one method alone.
 
     >>> from garkcli import compare
     >>> found = compare("rk4", "kutta-38")
@@ -168,12 +166,11 @@ class Comparison(Shown, Frozen):
 
 @doing("differences")
 def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
-    """Compare two methods.
+    """Compares two methods.
 
-    Methods are the same if renumbering stages or colours turns one into the other, after colours
-    that share stages were given copies of them, and equal or redundant stages were removed. Orders
-    are sought up to ``limit``. Raises MethodError for methods of different kinds, if one is a
-    Rosenbrock, Nyström or nonlinearly partitioned method, or a multirate one with ``fast: exact``.
+    They are the same if renumbering stages or colours turns one into the other, after colours that
+    share stages were given copies of them, and equal or redundant stages were removed. Orders are
+    sought up to ``limit``. Raises MethodError for methods of different kinds.
 
     >>> from garkcli.methodfile.load import loads
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
@@ -333,13 +330,14 @@ OF_OTHER_KINDS: dict[str, _Only] = {
     "mdrk": lambda gaps, _: gaps,
     "mri": lambda gaps, _: _of_slow_parts(gaps),
 }
-"""For each kind of methods that are not GARK methods, the function that selects their gaps."""
+"""For each other kind of methods, the function that selects their gaps."""
 
 
 def form_of(tableau: Tableau) -> str:
-    """Returns the kind of a tableau: ``rk``, ``ark``, ``gark``, ``prk``, ``pair`` (other
-    partitioned methods), ``row`` (Rosenbrock), ``rkn`` (Nyström), ``nprk`` (nonlinearly
-    partitioned), ``mdrk`` (with derivatives) or ``mri`` (multirate, with an exact fast part).
+    """Returns the kind: ``rk``, ``ark``, ``gark``, ``prk``, ``pair`` (other partitioned), ``row``
+    (Rosenbrock), ``rkn`` (Nyström), ``nprk`` (nonlinearly partitioned), ``mdrk`` (with
+    derivatives),
+    ``mri`` (multirate, with an exact fast part).
     """
     if is_rosenbrock(tableau):
         return "row"
@@ -372,5 +370,4 @@ def _differ(pair: PropertyPair) -> bool:
 
 
 def _text(verdict: Verdict) -> tuple[str, bool, bool]:
-    """Returns the parts of a verdict that are compared, without its reason."""
     return str(verdict.value), verdict.is_undecided, verdict.is_at_least

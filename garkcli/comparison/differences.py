@@ -18,9 +18,7 @@ from garkcli.tableau.pointwise import Block, Cell
 
 
 class EntryGap(Frozen):
-    """An entry that differs. ``row`` and ``entry`` count from 0; ``row`` is None in weights and
-    nodes. ``is_open`` says that enclosures cannot tell the two apart.
-    """
+    """An entry that differs, counted from 0; open if enclosures cannot tell the two apart."""
 
     row: int | None
     entry: int
@@ -38,9 +36,10 @@ class BlockGap(Frozen):
 
     ``kind`` is ``A``, ``b``, ``c``, ``embedded`` or ``dense``; ``alpha``, ``beta`` or ``c + d`` of
     Rosenbrock methods; ``Abar``, ``bbar`` or ``embedded bbar`` of Nyström methods. ``colour`` is
-    that of its stages, from 0, ``seen`` the second colour of a block, ``power`` that of θ in dense
-    weights. If the shapes differ, ``shapes`` has them in words, and ``entries``, the number of
-    entries, is 0.
+    that
+    of its stages, from 0, ``seen`` the second one of a block, ``power`` that of θ. Different
+    ``shapes``
+    are in words, with 0 ``entries``.
     """
 
     kind: str
@@ -53,7 +52,6 @@ class BlockGap(Frozen):
 
     @property
     def largest(self) -> EntryGap | None:
-        """The entry with the largest difference; the first one if several are as large."""
         return max(self.gaps, key=_size, default=None)
 
 
@@ -84,8 +82,6 @@ def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]
 
 
 class _Compare:
-    """Compares blocks and rows."""
-
     def __init__(self, likeness: Likeness) -> None:
         self.likeness = likeness
 
@@ -136,13 +132,11 @@ def _shape(block: Block, is_row: bool) -> str:
 
 
 MAX_CONDITIONS = 2000
-"""The largest number of conditions compared, of all orders together."""
+"""Most conditions that are compared, of all orders together."""
 
 
 class Met(Frozen):
-    """The conditions that only one of two methods fulfils. All conditions up to ``order`` were
-    compared; ``pairs`` has the conditions of both methods for the trees with different verdicts.
-    """
+    """The conditions up to ``order`` that only one method fulfils, in ``pairs`` of both methods."""
 
     order: int
     pairs: tuple[tuple[Condition, Condition], ...]
@@ -157,11 +151,7 @@ class Met(Frozen):
 
 
 def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) -> Met:
-    """Returns the conditions that only one of two methods fulfils, up to the first order at which
-    both fail, or up to ``MAX_CONDITIONS`` conditions.
-
-    ``orders`` are the orders that the methods are known to have.
-    """
+    """Returns the conditions that only one fulfils, up to the first order at which both fail."""
     tableau = printed(one)
     graph = _in_both(coupling_graph(tableau), coupling_graph(printed(other)))
     # root colours, one of each group whose conditions are the same in both methods

@@ -1,7 +1,4 @@
-"""Methods as compared: by colours and entries.
-
-Two entries are equal exactly, or within the rounding that their files admit.
-"""
+"""Methods as compared: by entries, equal exactly or within the rounding that their files admit."""
 
 from __future__ import annotations
 
@@ -26,10 +23,9 @@ CellRows: TypeAlias = tuple[Row, ...]
 
 
 class Grid(Frozen):
-    """The entries of a method in which each colour has its own stages.
-
-    ``A[l][m]`` is a block or None; ``powers`` are the coefficients of θ, θ², … in the dense
-    weights; ``kinds`` are those of the vertices of each colour.
+    """The entries of a method in which each colour has its own stages: blocks ``A[l][m]`` or None,
+    and
+    ``powers``, the coefficients of θ, θ², … in the dense weights.
     """
 
     A: tuple[tuple[Block, ...], ...]
@@ -121,7 +117,7 @@ def _ball(cell: Cell) -> arb:
 
 
 class Likeness(Frozen):
-    """The comparison of entries that rounding may have moved apart by ``allowed``."""
+    """Compares entries that rounding may have moved apart by ``allowed``."""
 
     allowed: fmpq = ZERO
 
@@ -155,7 +151,6 @@ class Likeness(Frozen):
 
 
 def have_one_shape(one: Grid, other: Grid) -> bool:
-    """Returns whether methods have the same colours, stages and kinds of weights."""
     if one.stages != other.stages or one.kinds != other.kinds:
         return False
     if (one.embedded is None) != (other.embedded is None):

@@ -26,13 +26,10 @@ Images: TypeAlias = tuple[tuple[int, ...], ...]
 """For each colour, the corresponding stages of the other method."""
 _Candidates: TypeAlias = dict[Stage, list[int]]
 MAX_TRIALS = 3000
-"""The search stops after this number of trials."""
 
 
 def find_matching(one: grids.Grid, other: grids.Grid, likeness: grids.Likeness) -> Images | None:
-    """Returns the stages of ``other`` that correspond to those of ``one``, or None if the methods
-    differ. Raises LimitExceeded after ``MAX_TRIALS`` trials.
-    """
+    """Returns stages of ``other`` for those of ``one``, or None; LimitExceeded if too many."""
     if not grids.have_one_shape(one, other):
         return None
     candidates: _Candidates = {}
@@ -108,12 +105,11 @@ MOST_COLOURS = 5
 
 
 class Sameness(Frozen):
-    """The correspondence of two methods, with numbers from 0.
-
-    ``colours`` and ``stages`` have the colours and stages of the second method for those of the
-    first. ``is_reduced`` says that redundant or equal stages were removed, ``step_only`` that the
-    further weights differ. ``allowed`` is the rounding within which entries are equal, 0 if
-    exactly.
+    """The correspondence of two methods: ``colours`` and ``stages`` of the second for those of the
+    first,
+    from 0; ``is_reduced`` if redundant or equal stages were removed, ``step_only`` if further
+    weights
+    differ.
     """
 
     colours: tuple[int, ...]
@@ -137,7 +133,7 @@ class Sameness(Frozen):
 
 
 class SamenessResult(Frozen):
-    """The result of a search for a correspondence; None if unknown because of ``obstacle``."""
+    """The result of a search; None if unknown because of ``obstacle``."""
 
     sameness: Sameness | None
     obstacle: str = ""
@@ -152,7 +148,6 @@ class Views(Frozen):
 
 
 def views_of(one: GarkMethod, other: GarkMethod) -> Views:
-    """Returns the entries of both methods, exact if possible."""
     sheets = grids.common_sheets(one, other)
     if sheets is None:
         return Views(grids.enclosed_grid(one), grids.enclosed_grid(other), None)
@@ -162,11 +157,7 @@ def views_of(one: GarkMethod, other: GarkMethod) -> Views:
 def find_sameness(
     one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq
 ) -> SamenessResult:
-    """Returns how two methods correspond: with equal entries, with stages or colours renumbered, or
-    after reduction.
-
-    ``allowed`` is the largest distance by which rounding may have moved equal entries apart.
-    """
+    """Returns how methods correspond, if rounding moves entries apart by ``allowed`` at most."""
     if views.sheets is None and _same_algebra(one.tableau, other.tableau):
         return SamenessResult(_plainly(views.one))
     try:
@@ -237,9 +228,7 @@ def _matched(one: grids.Grid, other: grids.Grid, allowed: fmpq) -> Sameness | No
 
 
 def _orders(one: grids.Grid, other: grids.Grid) -> Iterator[tuple[int, ...]]:
-    """Yields the orders of the colours of ``other`` in which the numbers of stages agree, the given
-    order first.
-    """
+    """Yields orders of colours of ``other`` with equal stages, the given one first."""
     if one.size != other.size:
         return
     colours = tuple(range(one.size))
