@@ -7,7 +7,6 @@ from typing import Any
 
 
 def read(name: str) -> dict[str, Any]:
-    """Returns the entries of a file in ``data``, in their order."""
     from importlib.resources import files
 
     path = f"data/{name}.toml"
@@ -15,7 +14,7 @@ def read(name: str) -> dict[str, Any]:
 
 
 def parsed(path: str, text: str) -> dict[str, Any]:
-    r"""Returns the entries of a text; an error names the file and the line, as for a doubled key.
+    r"""Returns the entries of a text; an error, as for a doubled key, names the file and the line.
 
     >>> parsed("data/fields.toml", "a = 1\na = 2\n")
     Traceback (most recent call last):

@@ -1,8 +1,5 @@
-"""The meaning of errors and findings.
-
-Each kind of fault has a code, given where the error is raised, and its messages, so that ``gark
-explain`` recognises a pasted message. The fixed words of the messages are in
-``data/faults-*.toml``; a cause has the same code wherever it is reported.
+"""The meaning of errors and findings: ``data/faults-*.toml`` has the codes with the fixed words of
+messages, so that ``gark explain`` recognises a pasted one. A cause has one code everywhere.
 """
 
 from __future__ import annotations
@@ -32,11 +29,9 @@ _SHORT = 6
 
 
 class FaultKind(Frozen):
-    """A kind of fault.
-
-    ``code`` is its name in reports for machines. ``says`` are its messages, with ``{}`` for the
-    parts that vary. ``example`` is a method file, or a command after ``$``; empty if more than a
-    few lines were needed.
+    """A kind of fault: messages ``says`` have ``{}`` for varying parts; ``example`` is a method
+    file, or a
+    command after ``$``.
     """
 
     code: str
@@ -67,12 +62,9 @@ def by_code() -> Mapping[str, FaultKind]:
 
 
 def code_of(message: str, least: int = 1) -> str:
-    """Returns the code of the kind of fault of a message.
-
-    If several kinds match, the one with the most fixed words wins. The place before a colon and
-    quotations from a file are ignored.
-
-    ``least`` is the least number of letters that the fixed words need.
+    """Returns the code whose message has the most fixed words, of at least ``least`` letters. The
+    place
+    before a colon and quotations from a file are ignored.
 
     >>> code_of("A^{1,1}, row 1, entry 1: 'gama' is not a parameter")
     'unknown-name'
@@ -116,7 +108,6 @@ class _Message(Frozen):
 
 @lru_cache(maxsize=1)
 def _messages() -> tuple[_Message, ...]:
-    """Returns the messages of all kinds, those with the most fixed words first."""
     messages = []
     for kind in by_code().values():
         for said in kind.says:
@@ -129,8 +120,6 @@ COMMANDS = {"check": "docs/ci.md", "audit": "docs/audit.md"}
 
 
 class FindingKind(Frozen):
-    """A kind of finding."""
-
     code: str
     text: str
     cure: str

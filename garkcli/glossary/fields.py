@@ -32,12 +32,8 @@ def field_entries() -> Mapping[str, str]:
 
 
 def field_text(path: Sequence[str]) -> str:
-    """Returns the meaning of a field; empty if there is no entry.
+    """Returns the meaning of a field by its path from the report on; empty if there is no entry.
 
-    ``path`` holds the report, the parent fields and the name.
-
-    >>> field_text(("diff", "first"))
-    'The first method.'
     >>> field_text(("diff", "orders", "first"))
     'The result for the first method.'
     """

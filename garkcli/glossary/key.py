@@ -10,16 +10,7 @@ from garkcli.upward import answered
 
 
 class FileKind(Frozen):
-    """A kind of file.
-
-    Attributes:
-        files: the name of all such files.
-        keys: the keys that distinguish it from other files.
-        smallest: the smallest file, in words.
-        start: how to begin one.
-        use: the command that uses it.
-        is_imported: whether ``gark import`` makes it of files in other formats.
-    """
+    """A kind of file, with the name of all such files, and the keys that distinguish it."""
 
     name: str
     files: str
@@ -72,11 +63,7 @@ KINDS = {
 
 
 class KeyMeaning(Frozen):
-    """The meaning of a key.
-
-    ``path`` includes the parent keys, as ``compose.steps``; ``example`` is a line of a file;
-    ``default`` is None without a default. With ``is_word`` the key is also found by its own name.
-    """
+    """The meaning of a key by its path, as ``compose.steps``, or, ``is_word``, by its name."""
 
     path: str
     text: str

@@ -55,9 +55,4 @@ def key_of(label: str) -> str:
 
 
 def label_of(key: str) -> str:
-    """Returns the label for a key.
-
-    >>> label_of("a_stable"), label_of("pair_order")
-    ('A-stable', 'symplectic pair')
-    """
     return LABELS.get(key) or key.replace("_", " ")

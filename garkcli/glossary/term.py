@@ -11,13 +11,10 @@ from garkcli.glossary import read
 PAPER = (
     "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
 )
-"""The source called paper; its sections are cited."""
 
 
 class Term(Frozen):
-    """A term and its meaning. ``labels`` are its other names, also in reports, ``see`` related
-    terms.
-    """
+    """A term and its meaning; ``labels`` are its other names, also in reports."""
 
     name: str
     text: str
@@ -39,7 +36,7 @@ TOPICS = {
 
 @lru_cache(maxsize=len(TOPICS))
 def terms_of(topic: str) -> tuple[Term, ...]:
-    """Returns the terms of a topic. ``short`` in its file has abbreviations of sources."""
+    """Returns the terms of a topic; ``short`` in its file has abbreviations of sources."""
     entries = read(f"terms-{topic}")
     short = {"paper": PAPER, **entries.pop("short", {})}
 
@@ -61,8 +58,7 @@ def terms_of(topic: str) -> tuple[Term, ...]:
 
 
 def plain(word: str) -> str:
-    """Returns a word for comparison: lower case, spaces for hyphens and underscores, no final
-    colon.
+    """Returns a word for comparison.
 
     >>> plain("Stiffly-Accurate:")
     'stiffly accurate'
