@@ -32,8 +32,8 @@ def method_of(given: AnyMethod, tolerance: object = None, is_any_kind: bool = Fa
     """The method for an argument, with its entries as printed.
 
     Args:
-        given: a method, a tableau; a path, or a name of the catalogue; a tuple ``(A, b)``,
-            ``(A, b, c)`` or ``(A, b, c, embedded)``, or a mapping of arguments of ``from_arrays``.
+        given: a method, a tableau; a path, or a name of the catalogue; ``(A, b)``, ``(A, b, c)`` or
+            ``(A, b, c, embedded)``, or a mapping of arguments of ``from_arrays``.
         tolerance: the rounding of arrays without one of their own.
         is_any_kind: whether the method may be other than a GARK method.
 
@@ -43,8 +43,6 @@ def method_of(given: AnyMethod, tolerance: object = None, is_any_kind: bool = Fa
 
     >>> method_of(([[0, 0], [1, 0]], ["1/2", "1/2"])).stages
     (2,)
-    >>> method_of("rk4").name
-    'the classical Runge-Kutta method'
     """
     found = _method_of(given, tolerance)
     if not is_any_kind:
@@ -73,19 +71,14 @@ def _method_of(given: AnyMethod, tolerance: object) -> GarkMethod:
 
 
 def tableau_of(given: AnyMethod) -> Tableau:
-    """Returns the tableau for an argument; raises MethodError or MethodFileError as ``method_of``
-    does.
-    """
+    """Returns the tableau for an argument; errors are those of ``method_of``."""
     if isinstance(given, Tableau):
         return given
     return method_of(given).tableau
 
 
 def tolerance_of(method: object, given: object = None) -> fmpq | None:
-    """Returns the given tolerance, or that of the method's file.
-
-    Raises MethodError unless it lies between 0 and 1.
-    """
+    """Returns the given tolerance, or that of the file; MethodError unless it is in [0, 1)."""
     if given is None:
         return method.tolerance if isinstance(method, GarkMethod) else None
     value = rational_of(given, "tolerance", is_rounded=True)
@@ -96,9 +89,7 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
 
 
 def refuse_rounded(method: GarkMethod) -> None:
-    """Raises MethodError for the conjugate or the pair of a rounded method, whose coefficients have
-    larger errors than the tolerance.
-    """
+    """Raises MethodError for a derived rounded method, whose errors exceed the tolerance."""
     derivation = method.derivation
     if derivation and method.tolerance is not None:
         message = f"the coefficients are rounded, and those of the {derivation} by more"
@@ -108,7 +99,6 @@ def refuse_rounded(method: GarkMethod) -> None:
 def with_tolerance(
     given: AnyMethod, tolerance: object = None, is_any_kind: bool = False
 ) -> tuple[GarkMethod, fmpq | None]:
-    """Returns a method, and the tolerance within which it is judged: the given one, or its own."""
     method = method_of(given, tolerance, is_any_kind)
     if tolerance is not None and (method.embedded_tolerance or method.dense_tolerance):
         # that of its further weights is another too
@@ -119,9 +109,7 @@ def with_tolerance(
 def meant_of(
     given: AnyMethod, tolerance: object = None, is_any_kind: bool = False
 ) -> tuple[GarkMethod, AnyTableau]:
-    """Returns a method, and its tableau with the rounding within which it is judged: the given one,
-    or its own.
-    """
+    """Returns a method, and its tableau within the given or its own rounding."""
     method, near = with_tolerance(given, tolerance, is_any_kind)
     return method, as_meant(method) if tolerance is None else meant(method.tableau, near)
 

@@ -14,7 +14,6 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 
 SOURCE = "<arrays>"
-"""The name of the file in error messages."""
 
 
 def from_arrays(
@@ -88,7 +87,7 @@ class _ArrayWriter:
 
 
 def _called(where: str, place: tuple[int, ...]) -> str:
-    """Returns the name of an entry in messages, with colours, rows and entries counted from 1.
+    """Returns the name of an entry in messages, counted from 1.
 
     >>> _called("A", (1, 2)), _called("b", (3,)), _called("A", (1, 2, 3, 4)), _called("b", (2, 1))
     ('A, row 1, entry 2', 'b, entry 3', 'A{1,2}, row 3, entry 4', 'b{2}, entry 1')
@@ -103,10 +102,7 @@ def _called(where: str, place: tuple[int, ...]) -> str:
 
 
 def _in_rows(value: Any, where: str) -> Any:
-    """Returns nested lists for a mapping by colours counted from 1; other values are unchanged.
-
-    Raises MethodError for a key that is not a colour, or a pair of colours.
-    """
+    """Returns nested lists for a mapping by colours from 1; MethodError for other keys."""
     if not isinstance(value, Mapping):
         return value
     is_of_blocks = where == "A"
@@ -159,8 +155,7 @@ def _depth(value: Any) -> int:
 
 
 def _triangle(A: Any) -> Any:
-    """Returns an explicit matrix without its last column as rows that end before the diagonal;
-    other values are unchanged.
+    """Returns an explicit matrix without its last column as rows that end before the diagonal.
 
     >>> _triangle([[0], ["1/2"]]), _triangle([[1], ["1/2"]])
     ([[], ['1/2']], [[1], ['1/2']])

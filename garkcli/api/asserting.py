@@ -46,20 +46,18 @@ def assert_order(
     bound. They are decided exactly, or within the tolerance of the method.
 
     Args:
-        method: a method, a tableau; a path, or a name of the catalogue; ``(A, b)``, ``(A, b, c)``
-            or ``(A, b, c, embedded)`` as for ``from_arrays``, or a mapping of its arguments.
+        method: as for ``find_order``, or a mapping of arguments of ``from_arrays``.
         order: the order of the method.
         embedded: the order of its embedded weights.
         conjugate: the order of its symplectic conjugate.
         pair: the order of the symplectic pair.
         w: the order of a Rosenbrock method with any matrix for the Jacobian.
         index_1: its order on differential-algebraic equations of index 1.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
     Raises:
-        AssertionError: an order differs; the message has the tree whose condition fails, its weight
-            and the required value, and the entry that would restore the order.
+        AssertionError: with the tree whose condition fails, and the entry that would restore the
+            order.
         MethodError: there is no such method, no order is given, or it has no embedded weights.
         MethodFileError: a file cannot be read as a method.
 
@@ -86,8 +84,8 @@ def assert_order(
 
 
 def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]:
-    """The orders of a method, its embedded weights, its conjugate and its pair, within its
-    tolerance, as ``assert_order`` takes them.
+    """The orders of a method, its embedded weights, its conjugate and its pair, as ``assert_order``
+    takes them.
 
     Args:
         method: as for ``assert_order``.
@@ -118,11 +116,9 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
 
 
 class _OrderPart(Frozen):
-    """Part of a method with an order of its own.
-
-    ``words`` follow the name of the method in messages; ``of`` returns the method with this order;
-    ``exists`` says whether a method has it, unless a weight is 0; ``which`` is ``conjugate`` or
-    ``pair`` if their entries are to blame.
+    """Part of a method with an order of its own. ``words`` follow the name of the method in
+    messages;
+    ``which`` is ``conjugate`` or ``pair`` if their entries are to blame.
     """
 
     words: str
@@ -132,10 +128,7 @@ class _OrderPart(Frozen):
 
 
 def _embedded(method: GarkMethod) -> GarkMethod:
-    """Returns the method with the embedded weights in place of b.
-
-    Raises MethodError without any.
-    """
+    """Raises MethodError without embedded weights."""
     if method.embedded is None:
         message = f"{_called(method)} has no embedded weights"
         cure = "from_arrays(A, b, c, embedded), or embedded: […] in its file"
@@ -222,10 +215,7 @@ def _failure(method: GarkMethod, part: _OrderPart, value: Any, tolerance: Any) -
 
 
 def _read(value: Any) -> int | AtLeast:
-    """Reads a wanted order.
-
-    Raises MethodError for anything else.
-    """
+    """Reads a wanted order, or raises MethodError."""
     if isinstance(value, str):
         match = _AT_LEAST.fullmatch(value)
         if match is not None:
@@ -237,7 +227,6 @@ def _read(value: Any) -> int | AtLeast:
 
 
 def _blamed(tableau: Tableau, part: _OrderPart, found: AnyOrder, claimed: int) -> Iterator[str]:
-    """Yields the entries whose change would restore the order."""
     missed = MissedOrder(found.order + 1, claimed, part.which or "order")
     method = tableau if isinstance(found, Order) else methods.meant(tableau, found.tolerance)
     blame = blame_of(method, missed)

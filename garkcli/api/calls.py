@@ -57,7 +57,6 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
 
 
 def refuse_unknown(keys: Iterable[str]) -> None:
-    """Raises UsageProblem for an unknown claim."""
     for key in keys:
         if key not in CLAIMS:
             raise UsageProblem(f"no claim {key!r}", did_you_mean(key, CLAIMS), code="unknown-word")
@@ -74,8 +73,7 @@ def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
 
 
 def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
-    """The text of a method file with its true claims, as ``gark claims --write`` and ``gark new``
-    write it.
+    """The text of a method file with its true claims, as ``gark claims --write`` writes it.
 
     Args:
         method: from a file, a text or arrays, or a path or a name of the catalogue.
@@ -110,16 +108,14 @@ def find_stability(
 
     Args:
         method: whatever ``method_of`` takes.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
         ratios: the ratios r_2/r_1 of further additive SSP radii of a method of two colours with
             exact coefficients.
         seconds: of processor time, after which the rest stays undecided; None for no limit.
         at: points z = x + iy, such as ``"0.01+2i"``, at which R(z) and |R(z)| are computed.
 
     Raises:
-        MethodError: ratios do not apply to the method, one is not positive, or the method has no
-            R(z) for a value at a point.
+        MethodError: ratios do not apply or are not positive, or there is no R(z) for a point.
         NotDecided: the time is not enough for R.
 
     >>> found = find_stability("gauss-3")
@@ -161,8 +157,7 @@ def find_stability(
 def two_springs(
     method: AnyMethod, slow: Number | tuple[Number, Number], fast: Whole = 1
 ) -> TwoFrequencies | SlowInterval:
-    """The step sizes at which a method is stable on a fast and a slow spring:
-    ``gark stability --slow --fast``.
+    """The step sizes at which a method is stable on two springs: ``gark stability --slow --fast``.
 
     Args:
         method: whatever ``method_of`` takes; its coefficients are exact.
@@ -170,8 +165,8 @@ def two_springs(
         fast: the colour of the fast spring, counted from 1.
 
     Returns:
-        The result for one slow frequency, or for the whole interval: ``stable`` are the
-        x = (hω_f)² with all powers of the step matrix bounded.
+        ``stable`` are the x = (hω_f)² with all powers of the step matrix bounded, for all of
+            ``slow``.
 
     Raises:
         MethodError: the coefficients are rounded, a number is negative, or there is no such colour.
@@ -220,16 +215,15 @@ def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof
 
 
 def prove_method_exists(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> ExistenceProof:
-    """A proof that some method within the rounding of a printed one has its order, and none a
-    higher one.
+    """A proof that some method within the rounding of a printed one has its order, and none more.
 
     Args:
         method: whatever ``method_of`` takes; its coefficients are rounded.
         limit: the order at which to stop.
 
     Raises:
-        MethodError: the coefficients are exact, or there is no proof, for instance because
-            conditions depend on each other.
+        MethodError: the coefficients are exact, or there is no proof, as conditions may be
+            dependent.
 
     >>> prove_method_exists("kvaerno-3")
     <ExistenceProof of order 3>

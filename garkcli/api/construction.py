@@ -26,7 +26,7 @@ def diagonal_method(name: str, stages: Whole | None = None) -> GarkMethod:
 
     Args:
         name: the name of the family, as in ``gark list families``.
-        stages: the number of stages; may be left out for a family of one method.
+        stages: may be left out for a family of one method.
 
     Raises:
         UnknownFamily: there is no such family, or no member with that many stages.
@@ -47,14 +47,13 @@ def gark(
 
     Args:
         methods: methods of one colour each, whatever ``method_of`` takes.
-        transfer: a rule for all blocks, as ``gark list transfer`` shows it; or the blocks between
-            them, by pairs (l, m) of colours counted from 1, of shape (s_l, s_m). A block that is
-            left out is absent.
+        transfer: a rule, as in ``gark list transfer``; or blocks of shape (s_l, s_m) by pairs (l,
+            m) of colours counted from 1. A block that is left out is absent.
         degree: the degree of the rule ``legendre``; by default it is chosen.
 
     Raises:
         MethodError: there is no such rule, or it has no degree; a method has several colours, or a
-            block fits none of them.
+            block does not fit.
 
     >>> gark(["gauss-2", "lobatto-iiia-3"])
     <GarkMethod 2 colours, stages 2, 3>
@@ -97,10 +96,7 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
 
 
 def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
-    """Returns the colour of each method with numbers from one field.
-
-    Raises CannotConvert if there is none.
-    """
+    """Returns the colour of each method with numbers from one field; CannotConvert without one."""
     tableaus = [method.tableau for method in methods]
     if len({id(x.field) for x in tableaus if x.field is not None}) > 1:
         tableaus = [sheet.tableau for sheet in in_one_field([*map(sheet_of, methods)])]

@@ -39,22 +39,16 @@ AnyFamily: TypeAlias = "Family | str | os.PathLike[str]"
 """The result of ``load_family`` and ``loads_family``, or the path of a file."""
 
 DIGITS = 15
-"""Digits of claims without simple radicals."""
 HEADS = {
     "exact": "exact",
     "exists": "proved to exist, with these decimals",
     "numerical": "numerical, nothing is proved",
 }
-"""The certainty of the methods that a search finds."""
 STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable", "i-stable")
 
 
 def family_of(given: AnyFamily, is_free: bool = True) -> Family:
-    """Returns the family for an argument.
-
-    With ``is_free`` a file needs a free parameter. Raises MethodFileError with all faults of a
-    file, MethodError without a free parameter.
-    """
+    """Returns the family; MethodFileError for faults, MethodError without any free parameter."""
     if isinstance(given, (str, os.PathLike)):
         return families.load_family(path_of(given), is_free=is_free)
     if isinstance(given, Family):
@@ -67,10 +61,7 @@ def family_of(given: AnyFamily, is_free: bool = True) -> Family:
 
 
 def exact_family_of(given: AnyFamily, what: str, is_free: bool = True) -> Family:
-    """Returns the family for an argument whose coefficients are exact.
-
-    ``what`` is named in the message. Raises MethodError for rounded coefficients.
-    """
+    """Returns the family of an argument; MethodError for rounded coefficients, naming ``what``."""
     family = family_of(given, is_free)
     if is_rounded(family):
         message = f"{what} needs exact coefficients, and those of the file are rounded"
@@ -305,9 +296,7 @@ def found_methods(
 
 
 class FoundFile(Frozen):
-    """A method that was found, and the text of its file: how it was found, and the claim about
-    it.
-    """
+    """A method that was found, and the text of its file."""
 
     family: FamilyFile
     member: Chosen | FoundMethod
@@ -317,10 +306,7 @@ class FoundFile(Frozen):
 
     @property
     def text(self) -> str:
-        """The text of its file.
-
-        Raises MethodError if its values cannot be written in a method file.
-        """
+        """Raises MethodError if its values cannot be written in a method file."""
         text = with_values(self.family, self.member.values, self.head, self.claim)
         if not self.is_exact and "tolerance:" not in text:
             text += f"tolerance: {TOLERANCE}\n"
@@ -330,10 +316,7 @@ class FoundFile(Frozen):
 def found_files(
     found: Design | DesignWithin | Minimum | SearchResult, family: FamilyFile, wishes: str = ""
 ) -> Iterator[FoundFile]:
-    """Yields the files of the methods; the head of each is the command line that finds it again.
-
-    ``wishes`` are options of that line that neither the family nor what was found shows.
-    """
+    """Yields the files; each head is the command line, with ``wishes``, that finds it again."""
     path = family.source if family.source.startswith("<") else shlex.quote(family.source)
     source = f"found by gark design {path}"
     source += "".join(f" --set {shlex.quote(f'{k}={v}')}" for k, v in family.settings.items())
@@ -381,7 +364,6 @@ def _aim(family: Family, whose: Whose, order: int) -> str:
 
 
 def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Iterator[FoundFile]:
-    """Yields the files for values within a tolerance."""
     step = found.best
     for values in () if step is None else (x for x in step.found if x.is_admitted):
         texts = {name: values.text(name, found.digits) for name in family.parameters}
@@ -395,7 +377,6 @@ def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Itera
 
 
 def _orders(method: Chosen, whose: Whose) -> str:
-    """Returns the claims about orders for the file of a method."""
     beside = "" if method.embedded is None else f", embedded-order: {method.embedded}"
     return f"{CLAIMS[whose]}: {method.order}{beside}"
 
@@ -408,7 +389,6 @@ def _wanted(family: Family, whose: Whose) -> str:
 
 
 def _claim(minimum: Minimum) -> str:
-    """Returns the claim about the greatest level."""
     objective = minimum.objective
     if not isinstance(objective, LevelObjective) or objective.claim is None:
         return ""

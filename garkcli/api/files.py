@@ -69,10 +69,7 @@ def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> Metho
 
 
 def references_in(given: AnyMethod) -> tuple[str, tuple[Work, ...]]:
-    """Returns the name of a method, a file or a family, and its publications; arrays have none.
-
-    Raises MethodFileError if there is no such file, it is not YAML, or the reference has a fault.
-    """
+    """Returns the name and the publications, arrays having none; MethodFileError for faults."""
     if not isinstance(given, (str, os.PathLike)):
         method = method_of(given)
         if isinstance(method, MethodFile):
@@ -253,10 +250,7 @@ def convert(
 
 
 def path_of(given: object) -> str:
-    """Returns the path, or the name of the catalogue.
-
-    Raises MethodError for other types.
-    """
+    """Returns the path, or the name of the catalogue; MethodError for other types."""
     if isinstance(given, (str, bytes, os.PathLike)):
         return os.fsdecode(given)
     message = f"a path or a name is expected, not {type(given).__name__}"
@@ -265,10 +259,7 @@ def path_of(given: object) -> str:
 
 
 def _text(given: object) -> str:
-    """Returns the text.
-
-    Raises MethodError for other types.
-    """
+    """Raises MethodError for other types."""
     if isinstance(given, str):
         return given
     message = f"a text is expected, not {type(given).__name__}"

@@ -1,7 +1,6 @@
-"""The most frequent questions about a method: its order, its conjugate, its pair, its analysis.
-
-All functions take anything that stands for a method, and decide within the tolerance of its file
-unless another is given.
+"""The most frequent questions about a method: its order, its conjugate, its pair, its analysis,
+within
+the tolerance of its file unless another is given.
 """
 
 from __future__ import annotations
@@ -42,8 +41,7 @@ def find_order(
     Args:
         method: whatever ``method_of`` takes.
         limit: the order at which to stop, at least 1.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
     Returns:
         An ``Order``, or a ``RoundedOrder`` within a tolerance; both have ``order``, ``witness`` and
@@ -73,8 +71,7 @@ def analyse(
     Args:
         method: whatever ``method_of`` takes.
         limit: where the search for orders stops, at least 1.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
     Returns:
         An ``Analysis`` for a GARK method. That of a Rosenbrock method has ``order``, ``w_order``,
@@ -104,8 +101,7 @@ def simplifying(
     Args:
         method: whatever ``method_of`` takes.
         limit: where each search stops, at least 1.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
     Returns:
         ``B`` has a number for each colour, ``C`` and ``D`` one for each block, in rows, None for
@@ -120,8 +116,7 @@ def simplifying(
 
 
 def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
-    """Whether a method is its own conjugate, or for a partitioned method whether its parts are
-    conjugate to each other; within its tolerance, if it has one.
+    """Whether a method is its own conjugate, or the parts of a partitioned one are.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -137,7 +132,7 @@ def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
 
 
 class _OfSameKind(Protocol):
-    """A function that returns a tableau for a tableau, and a method for any other argument."""
+    """Returns a tableau for a tableau, and a method for any other argument."""
 
     @overload
     def __call__(self, method: Tableau) -> Tableau: ...
@@ -148,15 +143,13 @@ class _OfSameKind(Protocol):
 
 
 def _of_same_kind(make: Callable[[AnyMethod], Tableau | GarkMethod]) -> _OfSameKind:
-    """Returns the function with a type that says so."""
     return cast(_OfSameKind, make)
 
 
 @_of_same_kind
 def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
-    """The symplectic conjugate, with the name and the tolerance of the method.
-
-    The conjugate of a conjugate is the method itself; for a tableau the result is a tableau.
+    """The symplectic conjugate, with the name and the tolerance of the method; of a tableau a
+    tableau.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -180,10 +173,8 @@ def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
 def pair(method: AnyMethod) -> Tableau | GarkMethod:
     """The symplectic pair (Q, P) of a method and its conjugate: 2N colours V¹…Vᴺ, F¹…Fᴺ.
 
-    For a tableau the result is a tableau.
-
     Args:
-        method: whatever ``method_of`` takes.
+        method: whatever ``method_of`` takes; of a tableau the result is a tableau.
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.
@@ -211,11 +202,10 @@ def _derived(method: GarkMethod, tableau: Tableau, derivation: Derivation) -> Ga
 def symplectic_pair(
     method: AnyMethod, velocities: Iterable[Whole], forces: Iterable[Whole]
 ) -> GarkMethod:
-    """The pair (Q, P) of a method and its conjugate, for the vector fields of a problem.
-
-    The colours are V^l for l in ``velocities`` and F^l for l in ``forces``, which share their
-    stages. With all colours in both it is ``pair``; {1} and {1, 2} are for semi-separable problems,
-    {1} and {2} for separable ones, eqs. (varGARK).
+    """The pair (Q, P) of a method and its conjugate, for the vector fields of a problem: V^l for l
+    in
+    ``velocities``, F^l for l in ``forces``, which share their stages. {1} and {1, 2} are for
+    semi-separable problems, {1} and {2} for separable ones, eqs. (varGARK).
 
     Args:
         method: whatever ``method_of`` takes.
@@ -245,8 +235,7 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
     Args:
         method: whatever ``method_of`` takes.
         key: the name of the property, as method files claim it.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
     Raises:
         UsageProblem: there is no such property.

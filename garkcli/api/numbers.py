@@ -23,10 +23,7 @@ Settings: TypeAlias = "Mapping[str, Number]"
 
 
 def rational(given: Number, where: str) -> fmpq:
-    """Returns the rational number for an argument.
-
-    ``where`` names the argument in messages. Raises MethodError for other values: not a number,
-    irrational, or a float that is rounded.
+    """Returns a rational number; MethodError, with ``where`` for the argument, for others.
 
     >>> rational(0.25, "h"), rational("1/3 - 1/4", "h")
     (1/4, 1/12)
@@ -39,19 +36,14 @@ def rational_or_none(given: Number | None, where: str) -> fmpq | None:
 
 
 def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
-    """Returns several rational numbers.
-
-    Raises MethodError with the index of the first wrong one.
-    """
+    """Raises MethodError with the index of the first wrong number."""
     if not _is_list(given):
         raise MethodError(f"{where}: {given!r} is not a list", "give a list", code="wrong-value")
     return [rational_of(x, f"{where}[{i}]") for i, x in enumerate(given)]
 
 
 def points(given: Iterable[Point], where: str) -> list[tuple[fmpq, fmpq]]:
-    """Returns complex numbers with rational parts.
-
-    Raises MethodError for other values.
+    """Returns complex numbers with rational parts; MethodError for others.
 
     >>> points(["0.01+2i", 2j, ("1/3", 0)], "at")
     [(1/100, 2), (0, 2), (1/3, 0)]
@@ -75,13 +67,7 @@ def _point(given: Point, where: str) -> tuple[fmpq, fmpq]:
 
 
 def whole(given: Any, where: str, least: int = 0) -> int:
-    """Returns an integer that is at least ``least``.
-
-    Raises MethodError for other values.
-
-    >>> whole(3.0, "order"), whole("12", "order")
-    (3, 12)
-    """
+    """Returns an integer from ``least`` on, such as 3.0 or "12"; MethodError for others."""
     value = rational_of(given, where)
     if value.q != 1 or value < least:
         message = f"{where}: {given} is not a whole number from {least} on"
@@ -90,13 +76,7 @@ def whole(given: Any, where: str, least: int = 0) -> int:
 
 
 def colour_of(given: Any, where: str, count: int) -> int:
-    """Returns a colour counted from 0, for one counted from 1.
-
-    Raises MethodError if the method lacks it.
-
-    >>> colour_of(2, "forces", 2)
-    1
-    """
+    """Returns a colour counted from 0, for one counted from 1; MethodError if there is none."""
     colour = whole(given, where)
     if not 1 <= colour <= count:
         some = counted(count, "colour")
@@ -106,13 +86,7 @@ def colour_of(given: Any, where: str, count: int) -> int:
 
 
 def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
-    """Returns colours counted from 0, for a list of them counted from 1.
-
-    Raises MethodError if the method lacks one.
-
-    >>> colours_of([1, 2], "forces", 2)
-    [0, 1]
-    """
+    """Returns colours counted from 0, for a list of them counted from 1; MethodError for others."""
     if not _is_list(given):
         cure = "give a list of colours, such as [1]"
         raise MethodError(f"{where}: {given!r} is not a list", cure, code="wrong-value")
@@ -120,10 +94,7 @@ def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
 
 
 def texts(given: Settings, where: str) -> dict[str, str]:
-    """Returns the values of parameters as texts of coefficients.
-
-    Raises MethodError if one is not exact, or they are not a mapping.
-    """
+    """Returns values as texts of coefficients; MethodError if one is not exact."""
     if not _is_mapping(given):
         cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"
         raise MethodError(f"{where}: {given!r} is not a mapping", cure, code="wrong-value")

@@ -20,7 +20,6 @@ from garkcli.tableau.tableau import Tableau
 AnyProblem: TypeAlias = "Problem | Oscillator | str | os.PathLike[str]"
 """A problem; the name of a built-in one, or the path of a problem file."""
 OSCILLATOR = "oscillator"
-"""The name of the problem with exact step maps."""
 
 
 def problem(
@@ -68,7 +67,6 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
 
 
 def demand_name(given: object) -> None:
-    """Raises MethodError unless the argument is the name of a problem or a path."""
     if not isinstance(given, (str, os.PathLike)):
         message = f"a problem is expected, not {type(given).__name__}"
         cure = "give the name of a built-in one, or what load_problem returns"
@@ -83,12 +81,10 @@ def problem_for(
     omega: fmpq | None = None,
     split: str | None = None,
 ) -> Problem | Oscillator:
-    """Returns the problem for an argument; a named one has as many terms as the method has fields.
-
-    ``seed`` and ``omega`` are 1 by default; ``split`` are the shares of the energies of the
-    oscillator, as for ``parse_shares``. Raises UsageProblem if there is no such problem, it has no
-    seed or stiffness, or another number of terms; MethodFileError for faults of a file; MethodError
-    for other arguments.
+    """Returns the problem; a named one has as many terms as the method has fields, by default with
+    ``seed`` and ``omega`` 1, and the oscillator the shares ``split``. Raises UsageProblem if there
+    is no
+    such problem, or an option does not apply; MethodFileError for faults of a file.
     """
     if isinstance(given, (Problem, Oscillator)):
         return given
@@ -115,15 +111,12 @@ def _to_step(
 
 
 def split_for(problem: Problem, tableau: Tableau) -> Problem:
-    """Returns a problem with as many terms as a method has fields.
-
-    Raises UsageProblem if it has no natural split.
-    """
+    """Raises UsageProblem if the problem has no natural split."""
     return split_into(problem, terms_of(with_joined_terms(tableau)))
 
 
 def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Problem:
-    """Returns the problem for an argument, to be stepped in numbers, not by exact step maps."""
+    """Raises UsageProblem for exact step maps."""
     found = problem_for(given, tableau, seed)
     if isinstance(found, Problem):
         return found
@@ -132,7 +125,7 @@ def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Pro
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
-    """Returns the Hamiltonian problem for an argument; raises UsageProblem for others."""
+    """Raises UsageProblem for a problem that is not Hamiltonian."""
     found = _to_step(OSCILLATOR, tableau, seed) if given == OSCILLATOR else None
     found = found or to_step(given, tableau, seed)
     if isinstance(found, Hamiltonian):

@@ -29,13 +29,14 @@ WITH_VELOCITIES = "damped-pendulum"
 def stepped(
     tableau: Tableau, tolerance: fmpq | None, problem: AnyProblem | None
 ) -> tuple[Tableau, AnyProblem | None, int | None]:
-    """Returns the tableau that takes the steps of a method, the problem, and the order unless it is
-    that of the tableau.
+    """Returns the tableau that takes the steps, the problem, and the order unless it is that of the
+    tableau.
 
     A Nyström method solves q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as a method
-    whose two vector fields drive all unknowns; a nonlinearly partitioned method solves f₁(y) +
-    f₂(y). Raises UsageProblem if the problem is not q″ = g(q, q′), or has q′ although the method is
-    for q″ = g(q).
+    whose
+    two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) + f₂(y). Raises
+    UsageProblem if the problem is not q″ = g(q, q′), or has q′ although the method is for q″ =
+    g(q).
     """
     if is_nprk(tableau):
         made = additive(tableau)

@@ -22,10 +22,7 @@ AnyTree: TypeAlias = "Tree | str"
 
 
 def tree_of(given: AnyTree) -> Tree:
-    """Returns the tree for an argument.
-
-    Raises TreeError for a text that is not a tree, with the place; MethodError for other types.
-    """
+    """Returns the tree; TreeError for a text that is not one, MethodError for other types."""
     if isinstance(given, Tree):
         return given
     if isinstance(given, str):
@@ -77,8 +74,8 @@ def count_trees(
     Args:
         order: the number of vertices, at least 1.
         colours: the number N of colours.
-        edges: shape (N, N), whether a vertex of the colour of the row may carry a branch whose root
-            has the colour of the column; by default all may.
+        edges: shape (N, N), whether a vertex of the row's colour may carry a branch whose root has
+            the column's colour; by default all may.
         linear: colours, counted from 1, whose vertices have at most one branch.
 
     Raises:
@@ -102,12 +99,10 @@ def conditions(
     Args:
         method: whatever ``method_of`` takes.
         trees: trees, or their texts; or one of them.
-        tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
-            none.
+        tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
     Raises:
-        MethodError: the method has no such condition: its colours are not coupled so, or there is
-            no such colour.
+        MethodError: the method has no such condition, or no such colour.
 
     >>> [(str(x.tree), x.value, x.residual) for x in conditions("heun", ["[[],[]]", "[[[]]]"])]
     [('[[],[]]', 1/2, 1/6), ('[[[]]]', 0, -1/6)]
@@ -153,10 +148,7 @@ def elementary_weight(method: AnyMethod, tree: AnyTree) -> Exact:
 
 
 def _fitting(given: AnyTree, tableau: Tableau) -> Tree:
-    """Returns a tree whose colours the method has.
-
-    Raises MethodError if one is missing.
-    """
+    """Raises MethodError if the method lacks a colour."""
     tree = tree_of(given)
     largest = max(tree.colours) + 1
     if largest > tableau.size:
