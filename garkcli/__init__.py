@@ -64,9 +64,7 @@ NAMES = {
         "ExpressionError TreeError UsageProblem"
     },
 }
-"""Every public name by topic and module. ``__init__.pyi`` is generated from it for type checkers; a
-test compares them.
-"""
+"""Every public name by topic and module; ``__init__.pyi`` is generated from it."""
 HOMES = {
     name: home
     for homes in NAMES.values()
@@ -102,7 +100,6 @@ ANSWERS = {
     "ModifiedRun.html=html BackwardAnalysis.html=html Convergence.html=html LongRun.html=html",
     "plots.calls": "GarkMethod.plot=plot_method",
 }
-"""Questions that values of lower rooms pass upwards, and the functions that answer."""
 _ANSWERING = {
     question: (room, function)
     for room, answers in ANSWERS.items()

@@ -1,10 +1,10 @@
 """Time limits: a deadline holds for all work inside it.
 
 Whoever limits work writes ``with within(seconds):`` around it. Loops that may take long call
-``check_time``, which raises ``NotDecided`` once the time is over. A call of a library in C cannot
-be interrupted; ``garkcli.exact.apart`` does large ones in a process of their own.
-
-Limits that users set are by the clock. Default limits are of processor time, so a busy machine
+``check_time``. A call in C cannot be interrupted; ``garkcli.exact.apart`` does large ones in
+another
+process. Limits that users set are by the clock; default ones are of processor time, so a busy
+machine
 decides no less.
 """
 
@@ -30,7 +30,6 @@ _moment: ContextVar[float | None] = ContextVar("moment", default=None)
 _spent: ContextVar[float | None] = ContextVar("spent", default=None)
 """The reading of ``processor_time`` at which the work is given up; None for never."""
 _is_small: ContextVar[bool] = ContextVar("is_small", default=False)
-"""Whether only work that is small is done."""
 
 
 @contextmanager
@@ -98,13 +97,11 @@ def is_only_small() -> bool:
 
 
 def clock_left() -> float | None:
-    """The seconds of the clock that are left, at least 0; None without a limit."""
     moment = _moment.get()
     return None if moment is None else max(0.0, moment - monotonic())
 
 
 def work_left() -> float | None:
-    """The processor seconds that are left, at least 0; None without a limit."""
     spent = _spent.get()
     return None if spent is None else max(0.0, spent - processor_time())
 
@@ -122,11 +119,7 @@ def check_time() -> None:
 
 
 def checked(items: Iterable[T]) -> Iterator[T]:
-    """Yields items until the time is over; there may be very many.
-
-    Raises:
-        NotDecided: it is.
-    """
+    """Yields items until the time is over, then raises NotDecided."""
     for item in items:
         check_time()
         yield item

@@ -1,8 +1,6 @@
-"""The current work, for whoever waits for it.
-
-Work that may take long names itself: ``with doing("reference solution", steps) as work``, and says
-how far it is by ``work.reach(done)``. Without a listener that is all that happens; the one of the
-command line is in ``garkcli.page.progress``.
+"""The current work, for whoever waits for it: ``with doing("reference solution", steps) as work``,
+and
+``work.reach(done)``. The listener of the command line is in ``garkcli.page.progress``.
 """
 
 from __future__ import annotations
@@ -30,11 +28,7 @@ class Listener(Protocol):
 
 
 class Work(Mutable, eq=False):
-    """A piece of work.
-
-    Attributes:
-        total: the number of its parts; None if unknown.
-    """
+    """A piece of work; ``total`` is the number of its parts, None if unknown."""
 
     what: str
     total: int | None = None
@@ -96,11 +90,7 @@ def doing(what: str, total: int | None = None) -> Iterator[Work]:
 
 
 def counting(what: str, items: Iterable[T], total: int | None = None) -> Iterator[T]:
-    """The items, counted as they go by.
-
-    >>> list(counting("trees", "ab", 2))
-    ['a', 'b']
-    """
+    """The items, counted as they go by."""
     if _listener.get() is None:
         yield from items
         return

@@ -1,8 +1,9 @@
 """Ends runs on signals: at once, or after cleaning up.
 
-Python hears of a signal between two of its own steps. A call in C, of python-flint say, may go on
-for minutes, so the system ends the run, and Python handles signals only where there is something to
-undo: a file that is half written, processes that work for this one.
+Python hears of a signal between two of its own steps, and a call in C may go on for minutes. So the
+system ends the run, and Python handles signals only where there is something to undo: a file that
+is
+half written, processes that work for this one.
 """
 
 from __future__ import annotations
@@ -31,12 +32,7 @@ class Ended(BaseException):
 
 
 class _RunningWork(Mutable, eq=False):
-    """A run of the command line.
-
-    Attributes:
-        undoing: the number of things that have to be undone.
-        ended: the signal that asked it to end; 0 for none.
-    """
+    """A run of the command line, with things to undo, and the signal that ended it or 0."""
 
     signals: list[int]
     undoing: int = 0
@@ -49,10 +45,11 @@ _run: ContextVar[_RunningWork | None] = ContextVar("run", default=None)
 
 @contextmanager
 def at_once() -> Iterator[None]:
-    """Lets signals end the process by themselves inside, except inside ``undone``.
-
-    One that is ignored (``nohup``) or handled already stays so. Windows has an exit code of its own
-    for a process that an interrupt ends, so that Python handles it there.
+    """Lets signals end the process by themselves inside, except inside ``undone``. One that is
+    ignored
+    (``nohup``) or handled already stays so. Windows has an exit code of its own for a process that
+    an
+    interrupt ends, so that Python handles it there.
     """
     by_system = hasattr(signal, "SIGHUP")
     inside = signal.SIG_DFL if by_system else signal.default_int_handler
@@ -74,9 +71,7 @@ def at_once() -> Iterator[None]:
 
 @contextmanager
 def undone() -> Iterator[None]:
-    """Raise ``KeyboardInterrupt`` or ``Ended`` at a signal inside: the code can clean up. Calls in
-    C inside should be short: nothing ends the process while they go on.
-    """
+    """Raises KeyboardInterrupt or Ended at a signal inside; calls in C inside should be short."""
     run = _run.get()
     if run is None or threading.current_thread() is not threading.main_thread():
         yield
@@ -97,9 +92,7 @@ def undone() -> Iterator[None]:
 
 
 def raise_if_ended() -> None:
-    """Raises ``Ended`` again if a signal asked the run to end and a library in C lost the exception
-    that told so.
-    """
+    """Raises ``Ended`` again if a library in C lost that exception."""
     run = _run.get()
     if run is not None and run.ended:
         raise Ended(run.ended)

@@ -39,7 +39,7 @@ class GarkError(Exception):
         message: what is wrong, and where.
         help: the cure, or empty.
         code: the kind of error, as ``gark explain`` knows it.
-        meant: the word that was meant in place of the wrong one, or empty.
+        meant: the word that was meant, or empty.
 
     >>> print(GarkError("no order is given", "write 4", code="missing-key"))
     no order is given; write 4
@@ -60,7 +60,6 @@ class GarkError(Exception):
         return f"{self.message}; {self.help}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles an error with its attributes."""
         return _made_again, (type(self), self.args), self.__dict__
 
 
@@ -165,8 +164,6 @@ class ZeroWeight(MethodError):
 
 
 class VanishingDenominator(MethodError, ZeroDivisionError):
-    """A coefficient has a pole at the values of the parameters."""
-
     code = "division-by-zero"
 
 
@@ -197,11 +194,7 @@ class NoLegendreTransform(GarkError):
 
 
 class NotDecided(GarkError):
-    """Work takes longer than the time that it has, or is not small.
-
-    Attributes:
-        is_late: whether the time is over.
-    """
+    """Work takes longer than the time that it has (``is_late``), or is not small."""
 
     code = "not-found"
 
@@ -240,7 +233,7 @@ class Remark(Frozen):
         code: as ``gark explain`` knows it.
         level: how bad it is.
         claims: of a table, the declarations that are not true, as claims of a method file.
-        meant: the word that was meant in place of the one there, or empty.
+        meant: the word that was meant, or empty.
     """
 
     message: str
@@ -264,8 +257,6 @@ WORDS_SHOWN = 20
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """The cure for a misspelt word: the nearest known one, those it begins, or all known words.
 
-    >>> did_you_mean("colocation", ["collocation", "interpolation"])
-    "did you mean 'collocation'?"
     >>> did_you_mean("radau", ["radau-ia", "radau-iia", "gauss"])
     "did you mean 'radau-ia' or 'radau-iia'?"
     """
@@ -289,9 +280,7 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """The known word that a misspelt one was meant to be; empty where none is near.
-
-    Capitals, hyphens, blanks and underscores do not count.
+    """The known word that a misspelt one was meant to be, by letters and digits alone; or empty.
 
     >>> nearest("LobattoIIIA", ["lobatto-iiia", "lobatto-iiib"]), nearest("Euler", ["gauss"])
     ('lobatto-iiia', '')
@@ -313,7 +302,6 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def _that_begin_like(word: str, known: list[str]) -> list[str]:
-    """The known words that are worth a comparison."""
     if len(known) <= MANY_WORDS:
         return known
     first, own = word[:1].lower(), _pieces(word)
@@ -323,9 +311,8 @@ def _that_begin_like(word: str, known: list[str]) -> list[str]:
 
 
 MOST_NEAR = 20
-"""Most words that are compared letter by letter: those that share the most letters and pairs."""
+"""Words that are compared letter by letter: those that share the most letters and pairs."""
 MAX_WORD = 100
-"""No known word is as long as this."""
 
 
 @lru_cache(MOST_WORDS * 4)
@@ -335,16 +322,11 @@ def _pieces(word: str) -> frozenset[str]:
 
 
 def _letters(word: str) -> str:
-    """A word without capitals, hyphens, blanks and underscores."""
     return "".join(x for x in word.lower() if x not in "-_ ")
 
 
 def printable(text: str) -> str:
-    r"""A text from outside on one line, with control characters escaped.
-
-    >>> print(printable("a\x1b[2Jb"))
-    a\x1b[2Jb
-    """
+    r"""A text from outside on one line, with control characters escaped."""
     if text.isprintable():
         return text
     return "".join(x if x.isprintable() else repr(x)[1:-1] for x in text)
@@ -363,8 +345,7 @@ def counted(count: int, noun: str, plural: str = "") -> str:
 
 
 class MethodFileError(GarkError):
-    """A file that cannot be read as a method or a problem; its text has every fault with its place,
-    its line, and its cure.
+    """A file that cannot be read; its text has every fault with its place, its line, and its cure.
 
     Attributes:
         source: the file as it was named.
@@ -387,7 +368,6 @@ class MethodFileError(GarkError):
         self.text = text
 
     def __str__(self) -> str:
-        """Every fault with its place, its line, and its cure."""
         lines = self.text.splitlines()
         parts: list[str] = []
         for fault in self.faults:

@@ -20,14 +20,14 @@ _inputs: ContextVar[set[tuple[int, int]] | None] = ContextVar("inputs", default=
 
 
 class NotAFile(OSError):
-    """A folder, or what nobody may ever write to: a named pipe, a device, a socket."""
+    """A folder, a named pipe, a device, a socket."""
 
     def __init__(self) -> None:
         super().__init__(0, "not a regular file")
 
 
 def own_stream(path: str) -> int | None:
-    """The descriptor of this process that a path means, such as ``/dev/fd/63``; or None.
+    """The descriptor of this process that a path means, or None.
 
     >>> own_stream("/dev/fd/63"), own_stream("/dev/stdin"), own_stream("m.yaml")
     (63, 0, None)
@@ -41,19 +41,15 @@ def own_stream(path: str) -> int | None:
 
 
 def is_stream(path: str) -> bool:
-    """Whether a path is standard input, or another stream of this process."""
     return path == STDIN or own_stream(path) is not None
 
 
 def read_bytes(path: str, most: int) -> bytes:
-    """The content of a file or stream of this process, at most ``most`` bytes and one more.
-
-    Devices and pipes other than its own streams are not opened, as they may never end or begin.
-
-    Raises:
-        NotAFile: it is not a regular file.
-        OSError: it cannot be read, or standard input is closed.
-        ValueError: no file has such a name.
+    """The content of a file or own stream, at most ``most`` bytes and one more. Other devices and
+    pipes
+    are not opened, as they may never end or begin: NotAFile. OSError if it cannot be read,
+    ValueError
+    if no file has such a name.
     """
     note_input(path)
     if path == STDIN:
@@ -66,13 +62,7 @@ def read_bytes(path: str, most: int) -> bytes:
 
 
 def begin_of(path: str, most: int) -> bytes:
-    """The first bytes of a file or stream of this process, without noting it as an input.
-
-    Raises:
-        NotAFile: it is neither of them.
-        OSError: it cannot be read.
-        ValueError: no file has such a name.
-    """
+    """As ``read_bytes``, without noting an input."""
     is_named = own_stream(path) is not None
     if not is_named and not stat.S_ISREG(os.stat(path).st_mode):
         raise NotAFile
@@ -99,7 +89,6 @@ _BLOCK = 2**20
 
 
 def _read(descriptor: int, most: int) -> bytes:
-    """The bytes from a descriptor until its end, at most ``most``."""
     blocks = []
     while block := os.read(descriptor, min(most, _BLOCK)):
         blocks.append(block)
@@ -128,7 +117,6 @@ def note_input(path: str) -> None:
 
 
 def is_input(status: os.stat_result) -> bool:
-    """Whether a file is a noted input, by any name."""
     known = _inputs.get()
     return known is not None and (status.st_dev, status.st_ino) in known
 
@@ -142,13 +130,11 @@ def is_inside(path: str, folder: str) -> bool:
 
 
 def leads_away(path: str, folder: str) -> bool:
-    """Whether a file below a folder is a link out of it, and out of the folder we are in."""
+    """Whether a file below a folder is a link out of it, and out of the current folder."""
     return not is_inside(path, folder) and not is_inside(path, os.curdir)
 
 
 def is_elsewhere(path: str) -> bool:
-    """Whether a file is not where its path says, as a link leads out of there. A path below the
-    folder we are in says that the file is there, any other that it is in the folder that is named.
-    """
+    """Whether a link leads a file out of the current folder, or of that in its path."""
     is_here = os.path.abspath(path).startswith(os.path.join(os.path.abspath(os.curdir), ""))
     return leads_away(path, os.curdir if is_here else os.path.dirname(path))

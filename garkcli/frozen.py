@@ -1,7 +1,5 @@
-"""Base classes of values: named fields, by which they are compared and shown.
-
-msgspec makes these classes in C. A dataclass compiles the code of its methods when it is imported,
-which takes thirty times as long; a command starts with a hundred such classes.
+"""Base classes of values: named fields, by which they are compared and shown. msgspec makes these
+classes in C; a dataclass takes thirty times as long to import, and a command starts with a hundred.
 """
 
 from __future__ import annotations

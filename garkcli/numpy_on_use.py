@@ -6,7 +6,7 @@ from typing import Any
 
 
 def __getattr__(name: str) -> Any:
-    """A name of numpy. Raises UsageProblem if numpy is not installed."""
+    """Raises UsageProblem if numpy is not installed."""
     if name.startswith("__"):
         raise AttributeError(name)
     try:

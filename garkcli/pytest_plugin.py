@@ -1,7 +1,7 @@
 """Method files as tests of pytest: each claim under ``expect`` is an item.
 
-Nothing is collected unless it is requested: by ``--gark``, by the setting ``gark_files``, or by the
-name of a file on the command line. Nothing of gark is imported before (docs/ci.md).
+Nothing of gark is imported before an item is requested: by ``--gark``, by ``gark_files``, or by the
+name of a file (docs/ci.md).
 
 PYTEST_DONT_REWRITE: no assertion here is one of a test, and it may have been imported already.
 """
@@ -91,7 +91,6 @@ class GarkFile(pytest.File):
     """One method file, checked once, when the first of its items runs."""
 
     def collect(self) -> Iterator[GarkItem]:
-        """One item for each claim, or one for the file without claims."""
         is_first = True
         for name, place in self._claims():
             yield GarkItem.from_parent(self, name=name, place=place, is_first=is_first)
@@ -130,8 +129,6 @@ class ClaimFails(Exception):
 
 
 class GarkItem(pytest.Item):
-    """One claim of a file."""
-
     def __init__(self, *, place: Place, is_first: bool, **settings: Any) -> None:
         super().__init__(**settings)
         self.place = place
@@ -140,9 +137,7 @@ class GarkItem(pytest.Item):
         self.funcargs: dict[str, object] = {}
 
     def runtest(self) -> None:
-        """Checks the claim; skips it if it is undecided. Raises ``ClaimFails`` if it fails, or the
-        file cannot be read.
-        """
+        """Skips an undecided claim; raises ClaimFails if it fails, or the file cannot be read."""
         from garkcli.check.findings import findings
 
         assert isinstance(self.parent, GarkFile)
@@ -193,7 +188,8 @@ class GarkItem(pytest.Item):
 @pytest.fixture(scope="session")
 def gark_method(request: pytest.FixtureRequest) -> Load:
     """A function that loads a method, each once in a session. It takes a name of the catalogue, or
-    a path from the root of the project.
+    a path
+    from the root of the project.
     """
     from garkcli.methodfile.load import load
 

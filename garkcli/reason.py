@@ -16,12 +16,7 @@ class Value(Protocol):
 
 
 class Place(Frozen):
-    """An entry of a block or of a row, or the whole of it.
-
-    Attributes:
-        letter: a, b, c, A, â or Â.
-        colours: their names; none in a method of one colour.
-        indices: of the entry, counted from 0; none for the whole.
+    """An entry of a block or of a row, counted from 0, or the whole of it; one colour has no name.
 
     >>> print(Place("a", ("q", "p"), (1, 0)), Place("b", (), (1,)), Place("A", ("q", "p")))
     a{q,p}[2,1] b[2] A{q,p}
@@ -67,11 +62,7 @@ class Code(Frozen):
 
 
 class Reason:
-    """A reason; false if empty.
-
-    Attributes:
-        template: the sentence, with ``{}`` for each value.
-        values: words, or values that a dialect words.
+    """A sentence with ``{}`` for each value, words or to be worded by a dialect; false if empty.
 
     >>> print(Reason("{} is {}", Place("b", (), (0,)), Formula("-1/4")))
     b[1] is -1/4

@@ -17,13 +17,10 @@ class Reference(Frozen, kw_only=True):
         authors: each as printed, such as ``J. C. Butcher``.
         year: four digits, perhaps with a letter.
         type: one of ``WORKS``; empty if the other fields determine it.
-        number: the number of the issue or report.
+        number: of the issue or report.
         book: the title of the book of a chapter, or of proceedings.
-        editors: the editors of that book.
-        institution: the institution of a report or thesis.
         where: the place in the work, such as ``table 2``.
         url: an address of its own.
-        note: anything else that readers need.
         coefficients: the source of the digits of the file.
     """
 
@@ -59,7 +56,6 @@ class Reference(Frozen, kw_only=True):
         return ", ".join(part for part in parts if part)
 
     def _issue(self) -> str:
-        """The journal with volume, number and year, or the publisher."""
         home = self.journal or self.publisher or self.institution
         number = f"({self.number})" if self.number and self.volume else ""
         volume = f"{self.volume}{number}" or self.number
@@ -78,4 +74,3 @@ ZANNA = Reference(
     year="2020",
     url=f"{ARXIV}2001.07185",
 )
-"""The paper that gark implements."""

@@ -9,12 +9,7 @@ T = TypeVar("T")
 
 
 class Remade(Generic[T]):
-    """A function that is pickled as the call that makes it.
-
-    Args:
-        function: a function that need not be picklable, such as a closure.
-        make: a module-level function with ``make(*arguments)`` equal to ``function``.
-        arguments: picklable arguments.
+    """A picklable function, equal to ``make(*arguments)`` of a module-level one.
 
     >>> import pickle
     >>> from operator import itemgetter

@@ -1,8 +1,8 @@
-"""Off-diagonal blocks made from the diagonal methods, section "Some techniques to construct the
-transfer matrices".
+"""Off-diagonal blocks from diagonal methods, "Some techniques to construct the transfer matrices".
 
 A stage vector of m is lifted to its polynomial of degree < s_m and reduced to the stages of l.
-Every function returns a block A^{l,m} of shape (s_l, s_m).
+Every function returns a block A^{l,m} of shape (s_l, s_m); CoincidingNodes if nodes of m are equal,
+BlockTooLarge beyond ``MAX_WORK``.
 """
 
 from __future__ import annotations
@@ -23,20 +23,13 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
 
 MAX_WORK = 100_000_000
-"""Most bits in a block by interpolation, each entry as long as their common denominator; such a
-block is decided on in about a minute, with all simplifying conditions.
-"""
+"""Most bits in a block by interpolation, each entry as long as their common denominator."""
 
 Rule: TypeAlias = Callable[[Method, Method], Matrix]
 
 
 def collocation(l: Method, m: Method) -> Matrix:
-    """a_{ij} = ∫_0^{c_i^l} L_j^m, eq. (coll).
-
-    Raises:
-        CoincidingNodes: two nodes of ``m`` are equal.
-        BlockTooLarge: the block would have more than ``MAX_WORK`` bits.
-    """
+    """a_{ij} = ∫_0^{c_i^l} L_j^m, eq. (coll)."""
     from garkcli.tableau.polynomial_space import antiderivative
 
     _refuse_large(l, m)
@@ -47,12 +40,7 @@ def collocation(l: Method, m: Method) -> Matrix:
 
 
 def interpolation(l: Method, m: Method) -> Matrix:
-    """A^{l,m} = L^m(c^l) A^{m,m}, eq. (interp).
-
-    Raises:
-        CoincidingNodes: two nodes of ``m`` are equal.
-        BlockTooLarge: the block would have more than ``MAX_WORK`` bits.
-    """
+    """A^{l,m} = L^m(c^l) A^{m,m}, eq. (interp)."""
     _refuse_large(l, m)
     columns = [l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()]
     return multiply(transpose(tuple(columns)), m.A)
@@ -63,9 +51,10 @@ MAX_DEGREE = 100
 
 def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
     """Returns A^{l,m} g = Σ (2j + 1) b_m(P_j g) ∫_0^x P_j over j ≤ K = ``degree``, with the
-    Legendre polynomials P_j of [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md.
-
-    A^{m,l} is then the symplectic conjugate. Nodes may coincide, and weights may be zero.
+    Legendre
+    polynomials P_j of [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md. A^{m,l}
+    is
+    then the symplectic conjugate. Nodes may coincide, and weights may be zero.
     """
     if degree is None:
         degree = legendre_degree([gark([l], {}), gark([m], {})])
@@ -85,7 +74,8 @@ def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
 
 def legendre_degree(methods: Iterable[AnyTableau]) -> int:
     """K = ⌊p/2⌋, with p the least order that the criterion proves for the pairs of the diagonal
-    methods: among all transfers whose pair keeps the order p this one has the least error.
+    methods:
+    among all transfers whose pair keeps the order p this one has the least error.
     """
     from garkcli.order.pair_order import pair_criterion  # few transfers ask for it
 
@@ -117,9 +107,7 @@ def _refuse_large(l: Method, m: Method) -> None:
 
 
 def conjugate_rule(rule: Rule) -> Rule:
-    """The rule whose block is Â^{l,m}, the conjugate of the block A^{m,l} that ``rule`` makes. The
-    new rule raises ``ZeroWeight`` if the conjugate would divide by zero.
-    """
+    """The rule for Â^{l,m}, the conjugate of the A^{m,l} of ``rule``, or ZeroWeight."""
 
     def conjugated(l: Method, m: Method) -> Matrix:
         return conjugate_block(rule(m, l), l.space, l.b, m.space, m.b)
@@ -128,12 +116,7 @@ def conjugate_rule(rule: Rule) -> Rule:
 
 
 class _Entry(Frozen):
-    """A transfer rule of method files.
-
-    Attributes:
-        rule: makes a block, or the first of two for a pair.
-        makes_both: whether the opposite block is its symplectic conjugate.
-    """
+    """Makes a block, or the first of two, the other being its symplectic conjugate."""
 
     rule: Rule
     summary: str
@@ -194,12 +177,9 @@ def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -
 def symplectic_blocks(
     rule: Rule, methods: Sequence[Method], base: int, other: int
 ) -> dict[Edge, Matrix]:
-    """A^{other,base} by ``rule``, and A^{base,other} as its symplectic conjugate.
-
-    The off-diagonal blocks are then conjugate to each other, so Â^{l,m} = A^{l,m} for l ≠ m.
-
-    Raises:
-        ZeroWeight: ``base`` has a zero weight.
+    """A^{other,base} by ``rule``, and A^{base,other} as its symplectic conjugate, so Â^{l,m} =
+    A^{l,m} for
+    l ≠ m. Raises ZeroWeight if ``base`` has a zero weight.
     """
     l, m = methods[other], methods[base]
     block = rule(l, m)

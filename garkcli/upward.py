@@ -1,7 +1,6 @@
-"""Lets values of low rooms call higher rooms.
-
-``method.order`` is an attribute of data at the bottom, the search for orders lies above it. No room
-names one above it: on import the package installs the table ``ANSWERS`` of ``garkcli/__init__.py``.
+"""Lets values of low rooms call higher rooms: ``method.order`` is an attribute of data, the search
+for
+orders lies above. On import the package installs the table ``ANSWERS`` of ``garkcli/__init__.py``.
 """
 
 from __future__ import annotations
