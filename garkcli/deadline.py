@@ -2,10 +2,8 @@
 
 Whoever limits work writes ``with within(seconds):`` around it. Loops that may take long call
 ``check_time``. A call in C cannot be interrupted; ``garkcli.exact.apart`` does large ones in
-another
-process. Limits that users set are by the clock; default ones are of processor time, so a busy
-machine
-decides no less.
+another process. Limits that users set are by the clock; default ones are of processor time, so a
+busy machine decides no less.
 """
 
 from __future__ import annotations

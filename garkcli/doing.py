@@ -1,6 +1,5 @@
 """The current work, for whoever waits for it: ``with doing("reference solution", steps) as work``,
-and
-``work.reach(done)``. The listener of the command line is in ``garkcli.page.progress``.
+and ``work.reach(done)``. The listener of the command line is in ``garkcli.page.progress``.
 """
 
 from __future__ import annotations

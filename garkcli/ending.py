@@ -2,8 +2,7 @@
 
 Python hears of a signal between two of its own steps, and a call in C may go on for minutes. So the
 system ends the run, and Python handles signals only where there is something to undo: a file that
-is
-half written, processes that work for this one.
+is half written, processes that work for this one.
 """
 
 from __future__ import annotations
@@ -46,10 +45,8 @@ _run: ContextVar[_RunningWork | None] = ContextVar("run", default=None)
 @contextmanager
 def at_once() -> Iterator[None]:
     """Lets signals end the process by themselves inside, except inside ``undone``. One that is
-    ignored
-    (``nohup``) or handled already stays so. Windows has an exit code of its own for a process that
-    an
-    interrupt ends, so that Python handles it there.
+    ignored (``nohup``) or handled already stays so. Windows has an exit code of its own for a
+    process that an interrupt ends, so that Python handles it there.
     """
     by_system = hasattr(signal, "SIGHUP")
     inside = signal.SIG_DFL if by_system else signal.default_int_handler

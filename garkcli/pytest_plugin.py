@@ -188,8 +188,7 @@ class GarkItem(pytest.Item):
 @pytest.fixture(scope="session")
 def gark_method(request: pytest.FixtureRequest) -> Load:
     """A function that loads a method, each once in a session. It takes a name of the catalogue, or
-    a path
-    from the root of the project.
+    a path from the root of the project.
     """
     from garkcli.methodfile.load import load
 

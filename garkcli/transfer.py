@@ -51,10 +51,8 @@ MAX_DEGREE = 100
 
 def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
     """Returns A^{l,m} g = Σ (2j + 1) b_m(P_j g) ∫_0^x P_j over j ≤ K = ``degree``, with the
-    Legendre
-    polynomials P_j of [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md. A^{m,l}
-    is
-    then the symplectic conjugate. Nodes may coincide, and weights may be zero.
+    Legendre polynomials P_j of [0, 1] and without P_{K+1} in the last integral; docs/pair-order.md.
+    A^{m,l} is then the symplectic conjugate. Nodes may coincide, and weights may be zero.
     """
     if degree is None:
         degree = legendre_degree([gark([l], {}), gark([m], {})])
@@ -74,8 +72,7 @@ def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
 
 def legendre_degree(methods: Iterable[AnyTableau]) -> int:
     """K = ⌊p/2⌋, with p the least order that the criterion proves for the pairs of the diagonal
-    methods:
-    among all transfers whose pair keeps the order p this one has the least error.
+    methods: among all transfers whose pair keeps the order p this one has the least error.
     """
     from garkcli.order.pair_order import pair_criterion  # few transfers ask for it
 
@@ -178,8 +175,7 @@ def symplectic_blocks(
     rule: Rule, methods: Sequence[Method], base: int, other: int
 ) -> dict[Edge, Matrix]:
     """A^{other,base} by ``rule``, and A^{base,other} as its symplectic conjugate, so Â^{l,m} =
-    A^{l,m} for
-    l ≠ m. Raises ZeroWeight if ``base`` has a zero weight.
+    A^{l,m} for l ≠ m. Raises ZeroWeight if ``base`` has a zero weight.
     """
     l, m = methods[other], methods[base]
     block = rule(l, m)

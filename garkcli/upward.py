@@ -1,6 +1,6 @@
 """Lets values of low rooms call higher rooms: ``method.order`` is an attribute of data, the search
-for
-orders lies above. On import the package installs the table ``ANSWERS`` of ``garkcli/__init__.py``.
+for orders lies above. On import the package installs the table ``ANSWERS`` of
+``garkcli/__init__.py``.
 """
 
 from __future__ import annotations

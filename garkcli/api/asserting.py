@@ -117,8 +117,7 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
 
 class _OrderPart(Frozen):
     """Part of a method with an order of its own. ``words`` follow the name of the method in
-    messages;
-    ``which`` is ``conjugate`` or ``pair`` if their entries are to blame.
+    messages; ``which`` is ``conjugate`` or ``pair`` if their entries are to blame.
     """
 
     words: str

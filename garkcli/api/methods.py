@@ -1,6 +1,5 @@
 """The most frequent questions about a method: its order, its conjugate, its pair, its analysis,
-within
-the tolerance of its file unless another is given.
+within the tolerance of its file unless another is given.
 """
 
 from __future__ import annotations
@@ -203,8 +202,7 @@ def symplectic_pair(
     method: AnyMethod, velocities: Iterable[Whole], forces: Iterable[Whole]
 ) -> GarkMethod:
     """The pair (Q, P) of a method and its conjugate, for the vector fields of a problem: V^l for l
-    in
-    ``velocities``, F^l for l in ``forces``, which share their stages. {1} and {1, 2} are for
+    in ``velocities``, F^l for l in ``forces``, which share their stages. {1} and {1, 2} are for
     semi-separable problems, {1} and {2} for separable ones, eqs. (varGARK).
 
     Args:

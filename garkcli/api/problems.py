@@ -83,8 +83,7 @@ def problem_for(
 ) -> Problem | Oscillator:
     """Returns the problem; a named one has as many terms as the method has fields, by default with
     ``seed`` and ``omega`` 1, and the oscillator the shares ``split``. Raises UsageProblem if there
-    is no
-    such problem, or an option does not apply; MethodFileError for faults of a file.
+    is no such problem, or an option does not apply; MethodFileError for faults of a file.
     """
     if isinstance(given, (Problem, Oscillator)):
         return given

@@ -33,10 +33,9 @@ def stepped(
     tableau.
 
     A Nyström method solves q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as a method
-    whose
-    two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) + f₂(y). Raises
-    UsageProblem if the problem is not q″ = g(q, q′), or has q′ although the method is for q″ =
-    g(q).
+    whose two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) + f₂(y).
+    Raises UsageProblem if the problem is not q″ = g(q, q′), or has q′ although the method is for q″
+    = g(q).
     """
     if is_nprk(tableau):
         made = additive(tableau)

@@ -206,11 +206,9 @@ def modified_run(
     """Measures the error of a symplectic method on ``problem`` in its modified Hamiltonian.
 
     The problem is in as many terms as the tableau has, or in one with a natural split. Powers of h
-    go
-    up to one less than ``max_order``; ``longest`` bounds the step size. Raises UsageProblem if the
-    method is not symplectic or not consistent, or there are too many trees or steps; StepFailed if
-    a
-    step was not solved.
+    go up to one less than ``max_order``; ``longest`` bounds the step size. Raises UsageProblem if
+    the method is not symplectic or not consistent, or there are too many trees or steps; StepFailed
+    if a step was not solved.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau

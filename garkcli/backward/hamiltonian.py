@@ -34,8 +34,7 @@ class FreeTree(ConditionClass):
     @cached_property
     def rootings(self) -> tuple[tuple[Tree, int], ...]:
         """The rootings with a vector field, each once with its sign, the representative first. The
-        root has
-        the first of its colours. The rootings of u∘u have both signs; one is given.
+        root has the first of its colours. The rootings of u∘u have both signs; one is given.
         """
         signs: dict[Tree, int] = {self.representative: 1}
         for tree, sign in self._from_representative():
@@ -125,8 +124,7 @@ def symplectic_order(equation: ModifiedEquation, structure: Structure, zero: fmp
     """The order of symplecticity, at most that of the largest trees: the largest q with MᵀJM = J +
     O(h^(q+1)) on all Hamiltonian problems: the first q terms of the modified equation have a
     Hamiltonian. With elementary weights: a(u∘v) + a(v∘u) = a(u) a(v) for ρ(u) + ρ(v) ≤ q. Source:
-    A.
-    Aubry, P. Chartier, *Pseudo-symplectic Runge–Kutta methods*, BIT 38 (1998) 439.
+    A. Aubry, P. Chartier, *Pseudo-symplectic Runge–Kutta methods*, BIT 38 (1998) 439.
     """
     for n in range(1, equation.max_order + 1):
         if any(defect(equation, tree, zero) for tree in free_trees(structure, n)):
@@ -147,13 +145,11 @@ def modified_hamiltonian(
 
 def energy_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
     """The order to which steps conserve H = Σ H^{l}: the largest r with H(y₁) = H(y₀) + O(h^(r+1))
-    for all
-    problems, at most that of the largest trees. The modified field changes H by Σ_u h^(ρ(u)−1)/σ(u)
-    b(u) H([u]), where [u] is u below a vertex of any term; rootings at the leaves of one free tree
-    agree
-    up to sign. Source: E. Celledoni, R. I. McLachlan, B. Owren, G. R. W. Quispel,
-    *Energy-preserving
-    integrators and the structure of B-series*, Found. Comput. Math. 10 (2010) 673.
+    for all problems, at most that of the largest trees. The modified field changes H by Σ_u
+    h^(ρ(u)−1)/σ(u) b(u) H([u]), where [u] is u below a vertex of any term; rootings at the leaves
+    of one free tree agree up to sign. Source: E. Celledoni, R. I. McLachlan, B. Owren, G. R. W.
+    Quispel, *Energy-preserving integrators and the structure of B-series*, Found. Comput. Math. 10
+    (2010) 673.
     """
     for n in range(1, equation.max_order + 1):
         for tree in free_trees(structure, n + 1):

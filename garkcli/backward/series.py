@@ -257,10 +257,8 @@ def bracket(forest: Forest, c: Coefficients, b: Coefficients) -> list[Number]:
 
 def transported(forest: Forest, b: Coefficients, c: Coefficients, lowest: int) -> list[Number]:
     """e^{ad c} b: the field B(b, y) in the coordinates z = χ(y), χ the flow of B(c, y) over time 1.
-    For
-    small c it is f(z) − f'(z) g + g' f = f + [g, f], with f of b and g of c. ``lowest`` ≥ 1 is the
-    least
-    order of a tree with c ≠ 0.
+    For small c it is f(z) − f'(z) g + g' f = f + [g, f], with f of b and g of c. ``lowest`` ≥ 1 is
+    the least order of a tree with c ≠ 0.
     """
     result = list(b)
     nested: list[Number] = list(b)

@@ -75,9 +75,8 @@ def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None
 ) -> BackwardAnalysis:
     """The backward analysis with trees of up to ``max_order`` vertices; with a ``tolerance`` of the
-    method
-    that the digits mean, while others may have larger orders. Raises UsageProblem for too many
-    trees.
+    method that the digits mean, while others may have larger orders. Raises UsageProblem for too
+    many trees.
 
     >>> from garkcli import loads
     >>> found = backward_analysis(loads("methods: [{family: rk4}]").tableau, 6)

@@ -134,8 +134,7 @@ def carried(
     """Returns the ranges of the parameters left, cut by those of the fixed ones.
 
     ``fixed`` has numbers, or polynomials in those left. Raises MethodError if no value is left, or
-    a
-    range does not become one of a single parameter.
+    a range does not become one of a single parameter.
     """
     left_ranges = {name: ranges[name] for name in left}
     for name, value in fixed.items():

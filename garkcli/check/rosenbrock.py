@@ -20,8 +20,7 @@ from garkcli.tableau.tableau import Tableau
 
 class RosenbrockOrders(order_facts.ClaimedOrders):
     """The orders of weights at the stages of a Rosenbrock method: with the Jacobian, with any
-    matrix,
-    with one that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the file.
+    matrix, with one that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the file.
 
     A rounded ``method`` has a search of its own, refined by each order on DAEs, so that the results
     are consistent.
@@ -44,8 +43,7 @@ class RosenbrockOrders(order_facts.ClaimedOrders):
     @cached_property
     def index_1_order(self) -> AnyOrder | None:
         """The order on ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1))
-        of a step
-        in y and O(h^p) in z. None if α + γ is singular.
+        of a step in y and O(h^p) in z. None if α + γ is singular.
         """
         return self._on_dae("on_dae", self.order)
 

@@ -336,8 +336,7 @@ OF_OTHER_KINDS: dict[str, _Only] = {
 def form_of(tableau: Tableau) -> str:
     """Returns the kind: ``rk``, ``ark``, ``gark``, ``prk``, ``pair`` (other partitioned), ``row``
     (Rosenbrock), ``rkn`` (Nyström), ``nprk`` (nonlinearly partitioned), ``mdrk`` (with
-    derivatives),
-    ``mri`` (multirate, with an exact fast part).
+    derivatives), ``mri`` (multirate, with an exact fast part).
     """
     if is_rosenbrock(tableau):
         return "row"

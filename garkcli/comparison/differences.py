@@ -36,10 +36,8 @@ class BlockGap(Frozen):
 
     ``kind`` is ``A``, ``b``, ``c``, ``embedded`` or ``dense``; ``alpha``, ``beta`` or ``c + d`` of
     Rosenbrock methods; ``Abar``, ``bbar`` or ``embedded bbar`` of Nyström methods. ``colour`` is
-    that
-    of its stages, from 0, ``seen`` the second one of a block, ``power`` that of θ. Different
-    ``shapes``
-    are in words, with 0 ``entries``.
+    that of its stages, from 0, ``seen`` the second one of a block, ``power`` that of θ. Different
+    ``shapes`` are in words, with 0 ``entries``.
     """
 
     kind: str

@@ -24,8 +24,7 @@ CellRows: TypeAlias = tuple[Row, ...]
 
 class Grid(Frozen):
     """The entries of a method in which each colour has its own stages: blocks ``A[l][m]`` or None,
-    and
-    ``powers``, the coefficients of θ, θ², … in the dense weights.
+    and ``powers``, the coefficients of θ, θ², … in the dense weights.
     """
 
     A: tuple[tuple[Block, ...], ...]

@@ -106,10 +106,8 @@ MOST_COLOURS = 5
 
 class Sameness(Frozen):
     """The correspondence of two methods: ``colours`` and ``stages`` of the second for those of the
-    first,
-    from 0; ``is_reduced`` if redundant or equal stages were removed, ``step_only`` if further
-    weights
-    differ.
+    first, from 0; ``is_reduced`` if redundant or equal stages were removed, ``step_only`` if
+    further weights differ.
     """
 
     colours: tuple[int, ...]

@@ -32,9 +32,8 @@ from garkcli.tableau.tableau import Tableau
 
 def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
     """Returns the problem that sees the most trees and suits all methods, or most of them;
-    UsageProblem
-    if there is none. It is Hamiltonian unless no method steps such a one, as when a linear colour
-    drives all unknowns.
+    UsageProblem if there is none. It is Hamiltonian unless no method steps such a one, as when a
+    linear colour drives all unknowns.
 
     >>> from garkcli import loads
     >>> seeing_problem([loads("methods: [{family: rk4}]").tableau])
@@ -57,8 +56,7 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
 
 def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem]:
     """Returns a problem for each method, with one sum for all: its coefficients depend on the
-    number of
-    terms, so all get that of the method with the most, with terms added up for fewer.
+    number of terms, so all get that of the method with the most, with terms added up for fewer.
     """
     terms = [terms_of(with_joined_terms(tableau)) for tableau in tableaux]
     most = max(terms)
@@ -96,19 +94,14 @@ def converge(
     """Tests the convergence of ``tableau`` on ``problem``.
 
     The problem is in as many terms as the tableau has, or in one with a natural split; the
-    oscillator is
-    solved by the exact step map; by default coefficients are random and every tree is seen.
-    ``tolerance`` is the rounding of the coefficients; slopes may then end on a plateau.
-    ``is_timed``
-    measures the time of steps in floats. ``order`` is given if more than the coefficients is known,
-    as
-    for the pair of a rounded method.
+    oscillator is solved by the exact step map; by default coefficients are random and every tree is
+    seen. ``tolerance`` is the rounding of the coefficients; slopes may then end on a plateau.
+    ``is_timed`` measures the time of steps in floats. ``order`` is given if more than the
+    coefficients is known, as for the pair of a rounded method.
 
     Raises UsageProblem if the problem does not suit the structure, a step does not divide
-    ``t_end``, or
-    the stage equations of a given step are singular; StepFailed if Newton's method fails for a
-    given
-    step size, or for all of the default ladder.
+    ``t_end``, or the stage equations of a given step are singular; StepFailed if Newton's method
+    fails for a given step size, or for all of the default ladder.
 
     >>> from garkcli import hamiltonian, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau
@@ -238,8 +231,7 @@ def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[result.StepSizeRo
 
 def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
     """A short time with a whole order over it. If only the visible order is possible, shorter times
-    follow
-    while it is larger: a nearly satisfied condition shows only at smaller steps.
+    follow while it is larger: a nearly satisfied condition shows only at smaller steps.
     """
     short, order = usual, None
     for decades in solver.decades:

@@ -60,10 +60,9 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[StepSizeRow], int
     coefficients.
 
     Step sizes that are too large for Newton's method, and poles of a step map, are left out;
-    without an
-    error there is a single row. With ``is_timed`` the ladder keeps its coarse steps, as costs are
-    compared for large errors too. Raises StepFailed if Newton's method fails for steps that are not
-    coarse.
+    without an error there is a single row. With ``is_timed`` the ladder keeps its coarse steps, as
+    costs are compared for large errors too. Raises StepFailed if Newton's method fails for steps
+    that are not coarse.
     """
     rows: list[StepSizeRow] = []
     is_small: list[bool] = []
@@ -100,8 +99,8 @@ def is_part(row: StepSizeRow, size: arb) -> bool:
 
 def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
     """t_end/n with n doubled without end. The first step is at most ``longest``, and at most a unit
-    of
-    time if that is shorter and cannot be doubled. Raises UsageProblem if the time is not positive.
+    of time if that is shorter and cannot be doubled. Raises UsageProblem if the time is not
+    positive.
 
     >>> from itertools import islice
     >>> [str(h) for h in islice(halvings(fmpq(12), fmpq(1), fmpq(8)), 4)]
@@ -144,8 +143,7 @@ def _start(rows: Sequence[StepSizeRow], is_small: Sequence[bool]) -> int:
 
 def has_settled(rows: Sequence[StepSizeRow]) -> bool:
     """Whether slope and extrapolated order agree and one of them is steady, or the latter is very
-    steady.
-    The order of a method is an integer, so otherwise something has not settled yet.
+    steady. The order of a method is an integer, so otherwise something has not settled yet.
     """
     before, last = rows[-2].slope, rows[-1].slope
     estimated = observed_order(rows[:-1])
@@ -188,9 +186,8 @@ def unspoilt_order(solver: Solver, h: fmpq) -> int:
 
 def plateau(rows: Sequence[StepSizeRow], order: int, rounding: arb) -> int:
     """Returns the number of rows at the end that show rounded coefficients instead of ``order``:
-    from the
-    first flat row whose error may come from ``rounding``, and rows before it with an error not far
-    above.
+    from the first flat row whose error may come from ``rounding``, and rows before it with an error
+    not far above.
     """
     limit = rounding * _ABOVE
     flat = 0  # the first flat row

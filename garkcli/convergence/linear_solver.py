@@ -140,8 +140,7 @@ def linear_solver(
     predicted: int = 0,
 ) -> LinearSolver:
     """Returns the solver; the visible order is at least ``predicted``. Raises UsageProblem if the
-    split
-    does not suit the structure of the tableau.
+    split does not suit the structure of the tableau.
     """
     implicit = LinearlyImplicit.of(tableau)
     if implicit is not None and implicit.taken != "exact":
@@ -172,10 +171,8 @@ def _solution(omega: fmpq, t: fmpq) -> tuple[arb, arb]:
 
 def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
     """Error and energy error of y_n = Rⁿ y₀. The loop ends because the error is not zero: R and y₀
-    are
-    algebraic, cos ωt and sin ωt are not (Lindemann). The energy error can be zero, so four times
-    the
-    bits suffice; then it is a ball about 0.
+    are algebraic, cos ωt and sin ωt are not (Lindemann). The energy error can be zero, so four
+    times the bits suffice; then it is a ball about 0.
     """
     bits, enough = _FIRST_BITS, 0
     is_conserved = linear.conserves_energy(R, omega)

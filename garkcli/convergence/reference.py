@@ -47,8 +47,7 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
 
 class ReferenceSolution(Mutable):
     """The solution ``y`` at ``t_end``, shape (2d,), with the most digits requested so far: the
-    error is
-    below 10^(−``digits``) times its ``magnitude``, 0 digits at first.
+    error is below 10^(−``digits``) times its ``magnitude``, 0 digits at first.
     """
 
     problem: Problem
@@ -59,8 +58,8 @@ class ReferenceSolution(Mutable):
 
     def to(self, digits: int) -> tuple[arb, ...]:
         """(q, p) with an error below 10^(−digits) times the ``magnitude``. Raises UsageProblem if
-        there is no
-        solution up to there, or it comes too close to a singularity, or round-off drowns it.
+        there is no solution up to there, or it comes too close to a singularity, or round-off
+        drowns it.
         """
         if digits > self.digits and self._is_known(digits):
             self.y = _exact(self.problem, self.t_end, digits)
@@ -137,9 +136,8 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
 
 class _Change(Frozen):
     """The change of a solution by more steps, ``is_far`` if the runs are unrelated. ``factor`` of
-    steps is
-    likely to suffice; ``decades`` are the powers of ten by which the change exceeds the allowed
-    error.
+    steps is likely to suffice; ``decades`` are the powers of ten by which the change exceeds the
+    allowed error.
     """
 
     is_small: bool
@@ -202,10 +200,8 @@ class _Runs:
         """The change from ``fewer`` steps, ending at ``before``, to ``steps``, ending at ``y``.
 
         From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
-        (n/m)^s
-        long before. The change bounds the larger of the two errors, so the smaller one is taken to
-        be
-        (n/m)^s of it, but at least ``_CREDIT``, because round-off does not fall.
+        (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is
+        taken to be (n/m)^s of it, but at least ``_CREDIT``, because round-off does not fall.
         """
         s = self.stages
         with ctx.workprec(self.integrator.bits):
@@ -254,10 +250,9 @@ _BITS = 4 * _DIGITS
 @doing("invariants along the solution")
 def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
-    after which
-    it is measured. The change has to be below the errors of the solution; it is compared with Σ
-    |∂I/∂y_i
-    (y_i(t) − y_i(0))|, the change without cancellation. Empty without a solution or a value of I.
+    after which it is measured. The change has to be below the errors of the solution; it is
+    compared with Σ |∂I/∂y_i (y_i(t) − y_i(0))|, the change without cancellation. Empty without a
+    solution or a value of I.
     """
     if not problem.invariants:
         return ()

@@ -176,10 +176,8 @@ class Convergence(Shown, Frozen):
         some trees.
 
         Undecided if no order is observed: there are no errors, they grow as steps shrink, or the
-        rounding of
-        the coefficients comes before the slopes have settled. Reduced if the steps are too large
-        for a stiff
-        problem, unless tiny ones show another order.
+        rounding of the coefficients comes before the slopes have settled. Reduced if the steps are
+        too large for a stiff problem, unless tiny ones show another order.
         """
         if self.observed_order is None:
             return "undecided"
@@ -263,10 +261,8 @@ def slope_between(before: StepSizeRow | None, h: fmpq, error: arb) -> float | No
 
 def stiff_order(rows: Sequence[StepSizeRow]) -> float | None:
     """The order that slopes of a stiff problem show: extrapolated, but not far beyond the last
-    slope. Two
-    errors compete, h^p and a smaller multiple of a lower power; where they change places slopes
-    fall so
-    fast that the extrapolation would end below both.
+    slope. Two errors compete, h^p and a smaller multiple of a lower power; where they change places
+    slopes fall so fast that the extrapolation would end below both.
     """
     order, last = observed_order(rows), rows[-1].slope
     if order is None or last is None or abs(order - last) <= _CROSSING:
@@ -276,10 +272,8 @@ def stiff_order(rows: Sequence[StepSizeRow]) -> float | None:
 
 def observed_order(rows: Sequence[StepSizeRow]) -> float | None:
     """The order p in log error = log C + p log h + a h + b h² through the last four rows. The
-    slopes
-    converge to p like h; with two terms of the expansion of the error the estimate converges like
-    h³.
-    Fewer rows have fewer terms; one row has no order.
+    slopes converge to p like h; with two terms of the expansion of the error the estimate converges
+    like h³. Fewer rows have fewer terms; one row has no order.
     """
     last = rows[-_FITTED:]
     if len(last) < 2:

@@ -68,9 +68,8 @@ class SteppedSolver(Mutable):
 
     def is_too_short(self, h: fmpq) -> bool:
         """Whether h² ‖∂f/∂y‖ is below ``_STIFF`` although a longer ladder is stiff: there |R(h λ)|
-        of a method
-        with |R(∞)| = 1 is so far from 1 that it damps its errors, and slopes belong to neither
-        regime.
+        of a method with |R(∞)| = 1 is so far from 1 that it damps its errors, and slopes belong to
+        neither regime.
         """
         last = self.t_end / 2 ** (ROWS - 1)
         is_stiff = self._slope * arb(last) ** 2 > _STIFF
@@ -130,10 +129,9 @@ class SteppedSolver(Mutable):
 
     def _shows_no_error(self, error: arb, digits: int) -> bool:
         """Whether an error within round-off counts as zero. Many digits agree only if nothing moves
-        or the
-        method is exact: the error of a long step of order p is far above 10^(−8 p). If no visible
-        tree fails
-        up to the highest order, as for a constant force, the error is round-off for any digits.
+        or the method is exact: the error of a long step of order p is far above 10^(−8 p). If no
+        visible tree fails up to the highest order, as for a constant force, the error is round-off
+        for any digits.
         """
         if digits == MAX_DIGITS:
             return True
@@ -152,10 +150,8 @@ class SteppedSolver(Mutable):
 
     def _round_off(self, digits: int, h: fmpq) -> arb:
         """The uncertainty of a state at ``t_end`` from round-off. Steps are summed with
-        compensation, so their
-        number does not count; the rounded increments add up to the length of the solution's path,
-        and the
-        flow amplifies them.
+        compensation, so their number does not count; the rounded increments add up to the length of
+        the solution's path, and the flow amplifies them.
         """
         precision = arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
         time = max(arb(1), arb(self.t_end))

@@ -30,8 +30,7 @@ _SHORT = 6
 
 class FaultKind(Frozen):
     """A kind of fault: messages ``says`` have ``{}`` for varying parts; ``example`` is a method
-    file, or a
-    command after ``$``.
+    file, or a command after ``$``.
     """
 
     code: str
@@ -63,8 +62,7 @@ def by_code() -> Mapping[str, FaultKind]:
 
 def code_of(message: str, least: int = 1) -> str:
     """Returns the code whose message has the most fixed words, of at least ``least`` letters. The
-    place
-    before a colon and quotations from a file are ignored.
+    place before a colon and quotations from a file are ignored.
 
     >>> code_of("A^{1,1}, row 1, entry 1: 'gama' is not a parameter")
     'unknown-name'

@@ -186,10 +186,8 @@ def _verdict(
     excused: float,
 ) -> histories.Verdict:
     """The verdict from the step map and the errors. A drift that is at most ``excused``, the error
-    from
-    rounded coefficients, is undecided. A step multiplies areas, and the mean energy to first order,
-    by
-    det R: no line fits an energy that decays to nothing, but det R − 1 shows it.
+    from rounded coefficients, is undecided. A step multiplies areas, and the mean energy to first
+    order, by det R: no line fits an energy that decays to nothing, but det R − 1 shows it.
     """
     if errors.is_exact:
         return "exact"
@@ -212,8 +210,7 @@ def _shape(verdict: histories.Verdict, line: FittedLine) -> Shape:
 
 def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
     """The values of ``Exchange`` along the exact solution: q̇p̈ and ṗq̈ are −ω²p² and ω⁴q², whose
-    sizes sum
-    to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
+    sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
     """
     first = energy / max(time, 1e-300)
     second = 2 * to_float(omega) ** 2 * energy

@@ -95,10 +95,9 @@ Doubt: TypeAlias = Literal[
     "steps", "turns", "rest", "value", "round-off", "modulation", "level", "symplectic", "rounding"
 ]
 """Why a verdict is undecided: too few steps; coordinates hardly turn back; nothing moves; the
-quantity
-has no value at some step; rounding may be as large as the quantity; a slow modulation may be the
-slope; a single move to another level; a rise or fall throughout, for symplectic methods usually a
-slow oscillation; a drift that the rounding of the coefficients may cause.
+quantity has no value at some step; rounding may be as large as the quantity; a slow modulation may
+be the slope; a single move to another level; a rise or fall throughout, for symplectic methods
+usually a slow oscillation; a drift that the rounding of the coefficients may cause.
 """
 State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
 """A time, and (q, p) at it, shape (2d,)."""

@@ -61,13 +61,11 @@ def long_run(
 
     The problem is in as many terms as the tableau has, or in one with a natural split. Up to
     ``FLOAT_DIGITS`` digits are floats; steps of the oscillator are exact. About ``points`` times
-    are
-    kept. A drift that ``tolerance`` can cause is undecided.
+    are kept. A drift that ``tolerance`` can cause is undecided.
 
     Raises UsageProblem if the problem does not suit the structure, the step does not divide the
-    time,
-    there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are singular;
-    StepFailed if a step fails before the energy has blown up.
+    time, there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are
+    singular; StepFailed if a step fails before the energy has blown up.
 
     >>> from garkcli import hamiltonian, loads, pair
     >>> midpoint = pair(loads("methods: [{family: gauss, stages: 1}]").tableau)
@@ -108,8 +106,7 @@ def long_run(
 @doing("round-off")
 def _noise(record: RunRecord, bound: Binding, step: fmpq, digits: int) -> Floats:
     """The uncertainty of the errors at the end, as powers of ten: each step rounds each summand of
-    an
-    invariant once, to leading order; at least that found on the first steps.
+    an invariant once, to leading order; at least that found on the first steps.
     """
     if record.blew_up or not record.has_moved:
         return np.zeros(len(record.largest))

@@ -22,10 +22,8 @@ if TYPE_CHECKING:
 
 class Measure:
     """Evaluates conserved quantities, energy first, relative to the start. ``scale`` is the sum of
-    the
-    sizes of the summands of the first there; 1 if all are zero. Raises UsageProblem if one has no
-    value
-    at the start.
+    the sizes of the summands of the first there; 1 if all are zero. Raises UsageProblem if one has
+    no value at the start.
     """
 
     def __init__(self, problem: problems.Problem, digits: int) -> None:

@@ -29,10 +29,8 @@ class Excursions:
     """Counts the turns of all coordinates, and the extent of each position up to its last turn.
 
     A position has escaped at the end if it had turned back twice, and is now twice as far from zero
-    as
-    before it or its momentum turned for the last time. An angle that begins to rotate does not
-    escape:
-    its momentum goes on oscillating.
+    as before it or its momentum turned for the last time. An angle that begins to rotate does not
+    escape: its momentum goes on oscillating.
     """
 
     def __init__(self) -> None:

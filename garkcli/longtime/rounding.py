@@ -96,10 +96,8 @@ def invariant_rate(
     states: Iterable[tuple[float, Sequence[Any]]],
 ) -> float:
     """The change of the first invariant I per unit of time that rounded coefficients can cause: a
-    stage
-    with too much weight moves I by h ∂I/∂y·f^{l}, which cancels only in the sum. ``states`` are
-    pairs
-    of time and y; those at which I has no slope are ignored.
+    stage with too much weight moves I by h ∂I/∂y·f^{l}, which cancels only in the sum. ``states``
+    are pairs of time and y; those at which I has no slope are ignored.
     """
     if tolerance is None:
         return 0.0
@@ -121,10 +119,8 @@ def invariant_rate(
 
 def sensitivity(tableau: Tableau) -> tuple[float, float]:
     """The changes of the conditions of orders 1 and 2 when coefficients change by one unit: the
-    number of
-    stages if positions and momenta have weights of their own, whose sums can differ, else 0; and
-    Σ_l
-    Σ_i |c^l_i| + s |b^l_i|.
+    number of stages if positions and momenta have weights of their own, whose sums can differ, else
+    0; and Σ_l Σ_i |c^l_i| + s |b^l_i|.
     """
     printed = entries(tableau)
     stages = max(len(row) for row in printed.b)

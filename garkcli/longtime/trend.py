@@ -65,8 +65,7 @@ LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
 """A drift has at least so many times its uncertainty, which none of 480 runs of symplectic methods
-on
-systems of two planets has, see docs/energy.md.
+on systems of two planets has, see docs/energy.md.
 """
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
@@ -106,9 +105,8 @@ class Trend(Frozen):
 
 class Trends:
     """Collects signals of the same length, in pieces, as sums to which trends are fitted. ``count``
-    is N,
-    ``largest`` the largest |error| of each signal, ``ranges`` the minimum and maximum of each half,
-    shape (2, 2, signals).
+    is N, ``largest`` the largest |error| of each signal, ``ranges`` the minimum and maximum of each
+    half, shape (2, 2, signals).
     """
 
     def __init__(self, count: int, signals: int) -> None:
@@ -260,8 +258,7 @@ def _uncertainty(found: Windows) -> float:
 
 def _climbs(found: Windows, least: float) -> bool:
     """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly from
-    eighth
-    to eighth, or by its height from eighth to eighth and clearly in total.
+    eighth to eighth, or by its height from eighth to eighth and clearly in total.
     """
     levels = found.levels[OF_EIGHTHS]
     heights = found.heights[OF_EIGHTHS]

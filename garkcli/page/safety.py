@@ -53,8 +53,8 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
     r"""Returns a report with nonprintable characters escaped.
 
     Control characters could command a terminal, bidirectional ones disguise the text; lone
-    surrogates
-    cannot be encoded. ``coloured`` keeps colours, and links that show a part of their site.
+    surrogates cannot be encoded. ``coloured`` keeps colours, and links that show a part of their
+    site.
 
     >>> print(written_out("a\x1b[2Jb \u202ec\n"), end="")
     a\x1b[2Jb \u202ec

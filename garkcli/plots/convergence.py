@@ -28,10 +28,8 @@ def place_line(
     beside: Sequence[scene.Curve], slope: int, curves: Sequence[scene.Curve], is_whole: bool = False
 ) -> scene.RuledLine:
     """Returns a line of given slope near one of its curves, away from all others, labelled on the
-    far
-    side. With ``is_whole`` it is as long as the curve, without label; otherwise it spans three
-    points,
-    those of the smallest errors if there is space.
+    far side. With ``is_whole`` it is as long as the curve, without label; otherwise it spans three
+    points, those of the smallest errors if there is space.
     """
     figure = _Figure.of(curves)
     parts: list[_Points] = []

@@ -77,9 +77,8 @@ def outlines(level: Sequence[Row], tolerance: float) -> list[list[Point]]:
 
 def _pieces(padded: Sequence[Row]) -> Iterator[tuple[_Edge, _Edge]]:
     """Yields the pieces of outlines in all cells, as start and end edges. Going around a cell, one
-    starts
-    where the region ends, and ends where it starts: at the next such place if the middle is inside,
-    otherwise at the previous one.
+    starts where the region ends, and ends where it starts: at the next such place if the middle is
+    inside, otherwise at the previous one.
     """
     inside = [[value <= 0 for value in row] for row in padded]
     for i, (below, above) in enumerate(pairwise(inside)):

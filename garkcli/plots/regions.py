@@ -160,8 +160,7 @@ def stability_scene(
     plane: SpringsPlane | None = None,
 ) -> scene.Scene:
     """Returns the scene of methods that all have a linear part or all an oscillator, of order
-    stars, |R(z)|
-    > |e^z|, or of a ``plane`` of two frequencies.
+    stars, |R(z)| > |e^z|, or of a ``plane`` of two frequencies.
     """
     (name, found), *others = methods
     title = f"{len(methods)} methods" if others else name

@@ -207,8 +207,7 @@ Shape: TypeAlias = Curve | Area | RuledLine
 
 class Panel(Frozen):
     """Axes and the shapes between them, the last ones on top. ``description`` is for screen
-    readers. In a
-    plane the scales of both axes are equal, and ``height`` is the largest height.
+    readers. In a plane the scales of both axes are equal, and ``height`` is the largest height.
     """
 
     title: str

@@ -50,8 +50,7 @@ def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker
 
 def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
     """Returns a problem split into ``terms`` terms, with stiffness 1 by default. Raises
-    UsageProblem if it
-    is unknown or has no stiffness.
+    UsageProblem if it is unknown or has no stiffness.
 
     >>> problem("van-der-pol", 2, stiffness=fmpq(1000)).terms[0]
     (z, 0)
@@ -74,8 +73,7 @@ def check_stiffness(name: str) -> None:
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     """Returns a Hamiltonian problem split into ``terms`` terms; ``seed`` is for random
-    coefficients.
-    Raises UsageProblem if it is unknown or not Hamiltonian.
+    coefficients. Raises UsageProblem if it is unknown or not Hamiltonian.
 
     >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
     ['px**2/2', '1 - cos(x)']

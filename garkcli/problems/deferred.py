@@ -1,6 +1,5 @@
 """Expressions of built-in problems, made by sympy on first use; files in ``known/``, written by
-``make
-known``, answer most questions without sympy.
+``make known``, answer most questions without sympy.
 """
 
 from __future__ import annotations
@@ -26,8 +25,7 @@ _record: ContextVar[Record | None] = ContextVar("record", default=None)
 
 class Deferred(Sequence[Expr]):
     """Several sympy expressions, made on first use. Equal names mean equal expressions; a name
-    begins with
-    that of the problem and a blank. ``total`` is their sum, if it has a name.
+    begins with that of the problem and a blank. ``total`` is their sum, if it has a name.
     """
 
     def __init__(

@@ -54,8 +54,7 @@ def nystrom(terms: int, seed: int) -> Hamiltonian:
 
 def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
     """f^{l} = Σ_k v_k (1 + a_k·y)^7, with random rational v_k and a_k: every component of every
-    term has
-    every derivative. The terms in ``linear`` are Σ_k v_k (1 + a_k·y).
+    term has every derivative. The terms in ``linear`` are Σ_k v_k (1 + a_k·y).
     """
     draw = Draw(seed)
     split = [_forms(draw, len(UNKNOWNS), len(UNKNOWNS), 100 * terms) for _ in range(terms)]
@@ -110,8 +109,7 @@ _Term = Callable[[Exprs, Exprs], Expr]  # of positions and momenta
 
 def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
     """Σ_k c_k (1 + a_k·y)^8 in q, p, or both. Powers of linear forms span all polynomials; with
-    three no
-    derivative vanishes, and they are cheap to evaluate.
+    three no derivative vanishes, and they are cheap to evaluate.
     """
     forms = _forms(draw, len(groups) * len(VARIABLES), 1, 1600 * terms)
 

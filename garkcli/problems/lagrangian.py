@@ -93,8 +93,7 @@ class _QuadraticForm(Frozen):
 
 def _by_form(L: Expr, equations: Equations) -> list[SolvedVelocities]:
     """Solves for v if L depends on it by one quadratic form, and linearly otherwise. Then p − b =
-    φ'(a) G
-    v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
+    φ'(a) G v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
     """
     import sympy
 
@@ -203,8 +202,8 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> SolvedVelocities:
 
 def _smooth(solved: SolvedVelocities, p: Vector) -> list[SolvedVelocities]:
     """Replaces |y| by y and by −y if y is made of momenta only: an analytic velocity that is right
-    near
-    the start is right as far as it is analytic. Empty if a value is not real or has other kinks.
+    near the start is right as far as it is analytic. Empty if a value is not real or has other
+    kinks.
     """
     import sympy
 
@@ -279,12 +278,9 @@ def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Exp
     """Returns the Hamiltonian of a Lagrangian, sympy expressions both.
 
     With L = ½ v·Mv + b·v + c, H = ½ (p − b)·M⁻¹(p − b) − c exactly, where M, b and c may depend on
-    the
-    positions. Other equations are solved for velocities one by one, or together if they occur in
-    one
-    quadratic form only, as in √(1 − v·v); such solutions are tested at the start and at random
-    places
-    near it, with 90 digits.
+    the positions. Other equations are solved for velocities one by one, or together if they occur
+    in one quadratic form only, as in √(1 − v·v); such solutions are tested at the start and at
+    random places near it, with 90 digits.
 
     ``start`` has q(0), and known velocities or momenta, which select one of several solutions;
     NoLegendreTransform if the mass matrix is singular, or no solution was found.
@@ -340,8 +336,7 @@ def initial_momenta(
 ) -> list[arb]:
     """Returns the p(0) for which q̇(0) is the given velocity, shape (d,): ∂L/∂q̇ for one term with
     velocities, else the solution of q̇ = Σ_l ∂H^{l}/∂p. Raises NoLegendreTransform if several terms
-    have
-    velocities, and not all are quadratic in them.
+    have velocities, and not all are quadratic in them.
     """
     v, p = velocities(variables), symbols(variables, "p")
     moving = [L for L in lagrangians if L.free_symbols & set(v)]

@@ -1,6 +1,5 @@
 """Problems H = T + V, split into terms: the kinetic energy first, then a part of the potential each
-if
-the numbers fit, otherwise equal shares.
+if the numbers fit, otherwise equal shares.
 """
 
 from __future__ import annotations

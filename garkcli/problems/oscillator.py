@@ -1,8 +1,7 @@
 """The harmonic oscillator q̈ = −ω²q, split among the vector fields of a tableau.
 
 H = ½p² + ½ω²q² is the sum of H^{l} = ½ k_l p² + ½ ω² v_l q², with Σ k_l = Σ v_l = 1. A colour
-drives
-the whole field of its term, or its position or momentum part only.
+drives the whole field of its term, or its position or momentum part only.
 """
 
 from __future__ import annotations
@@ -112,8 +111,7 @@ def terms_of(tableau: Tableau) -> int:
 
 def parse_shares(text: str, terms: int) -> Shares:
     """Parses ``kinetic:potential`` for each term, separated by commas. Raises UsageProblem for a
-    wrong
-    number of pairs, numbers that are not rational, or a column that does not sum to 1.
+    wrong number of pairs, numbers that are not rational, or a column that does not sum to 1.
 
     >>> parse_shares("1:0, 0:1/2, 0:1/2", 3)
     ((1, 0), (0, 1/2), (0, 1/2))
@@ -156,8 +154,7 @@ def _share(text: str) -> fmpq:
 
 def check_structure(tableau: Tableau, problem: Oscillator) -> None:
     """Raises UsageProblem unless each share has a colour that drives it, and the stages of colour l
-    see
-    colour m if L^l L^m ≠ 0.
+    see colour m if L^l L^m ≠ 0.
     """
     terms = terms_of(tableau)
     if len(problem.shares) != terms:

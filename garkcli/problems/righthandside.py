@@ -1,6 +1,5 @@
 """Right-hand sides ẏ = Σ_l f^{l}(t, y), one for each colour: problems that need not be Hamiltonian.
-No
-text is ever evaluated.
+No text is ever evaluated.
 """
 
 from __future__ import annotations

@@ -11,8 +11,7 @@ def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
     """Returns candidates for u with f(u) = c; some are wrong, and some solutions may be missing.
 
     Functions of u are inverted from outside in; the rest is solved if it has degree 1 or 2 in u or
-    u²,
-    possibly after squaring away a square root.
+    u², possibly after squaring away a square root.
 
     >>> from sympy.abc import u, c
     >>> solutions(1 + 2 * u**2, u, c)

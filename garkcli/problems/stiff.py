@@ -20,8 +20,7 @@ CELLS = 8
 
 def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
     """ẏ = φ'(t) − λ (y − φ(t)) with φ(t) = cos t and λ the stiffness; y = φ(t). Source: Prothero
-    and
-    Robinson, Math. Comp. 28 (1974), 145–162.
+    and Robinson, Math. Comp. 28 (1974), 145–162.
     """
     variables = ("y",)
 
@@ -51,10 +50,8 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
 
 def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
     """ẏ = z, ż = ((1 − y²) z − y)/ε with 1/ε the stiffness. Source: Hairer and Wanner, Solving
-    Ordinary
-    Differential Equations II, section VI.3; the start is the expansion of the smooth solution at y
-    = 2
-    up to ε³.
+    Ordinary Differential Equations II, section VI.3; the start is the expansion of the smooth
+    solution at y = 2 up to ε³.
     """
     variables = ("y", "z")
     small = 1 / stiffness
@@ -85,10 +82,8 @@ _SMOOTH_START = (fmpq(10, 81), fmpq(-292, 2187), fmpq(15266, 59049))
 
 def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a closed line of cells, with k
-    the
-    stiffness, r_i growing. It starts near the limit of fast diffusion: at 1/4 + w/k, which balances
-    the
-    reaction.
+    the stiffness, r_i growing. It starts near the limit of fast diffusion: at 1/4 + w/k, which
+    balances the reaction.
     """
     cells = range(CELLS)
     variables = tuple(f"u{i + 1}" for i in cells)
@@ -131,8 +126,8 @@ def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
 
 def robertson(terms: int, stiffness: fmpq) -> RightHandSide:
     """Three reactions of very different speeds, the fast ones times the stiffness. Source:
-    Robertson 1966;
-    Hairer and Wanner, Solving Ordinary Differential Equations II, equation (IV.1.4).
+    Robertson 1966; Hairer and Wanner, Solving Ordinary Differential Equations II, equation
+    (IV.1.4).
     """
     variables = ("y1", "y2", "y3")
 

@@ -41,10 +41,8 @@ BALLS: Mapping[str, Any] = {
 
 class StraightLineCode(Frozen):
     """Straight-line code for several expressions of the same arguments: texts with ``{a0}``, … for
-    these,
-    ``{t0}``, … for temporaries in terms of earlier ones, and ``{k0}``, … for constants, rational or
-    None
-    for π.
+    these, ``{t0}``, … for temporaries in terms of earlier ones, and ``{k0}``, … for constants,
+    rational or None for π.
     """
 
     arguments: int

@@ -63,8 +63,7 @@ def logistic(terms: int, _: int) -> RightHandSide:
 
 def lotka_volterra(terms: int, _: int) -> RightHandSide:
     """u̇ = u (1 − v), v̇ = v (u − 1): prey and predator, with u − ln u + v − ln v constant. Source:
-    Hairer,
-    Lubich and Wanner, Geometric Numerical Integration, section I.1.1.
+    Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.1.1.
     """
     variables = ("u", "v")
 

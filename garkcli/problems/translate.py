@@ -159,8 +159,8 @@ def _bits(x: Expr) -> int:
 
 def size_of_derivatives(expression: Expr) -> int:
     """Returns an estimate of the operations in all second derivatives, without differentiating. A
-    product
-    of n factors has n (n − 1) products there, so the length can grow like the cube of the text.
+    product of n factors has n (n − 1) products there, so the length can grow like the cube of the
+    text.
 
     >>> from sympy.abc import x, y
     >>> size_of_derivatives(x + y), size_of_derivatives(x * y)

@@ -19,8 +19,7 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
     """Whether an entry between stages of families is nonzero; None unless one node is rational.
 
     With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
-    value
-    of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
+    value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
     """
     k, m = place
     here = tableau.spaces[k]

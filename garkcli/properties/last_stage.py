@@ -27,8 +27,7 @@ class FirstSameAsLast(Frozen):
 
 def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Returns whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage
-    i. For a
-    GARK method globally (A. Sandu, M. Günther 2015).
+    i. For a GARK method globally (A. Sandu, M. Günther 2015).
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark

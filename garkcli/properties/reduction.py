@@ -25,9 +25,8 @@ from garkcli.tableau.tableau import Tableau
 
 def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
     """Returns the smallest method with the same step; the same object if nothing can be left out,
-    None if
-    the nodes have no simple radicals. An empty stage space keeps one stage, with zero row and
-    weight.
+    None if the nodes have no simple radicals. An empty stage space keeps one stage, with zero row
+    and weight.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -88,9 +87,8 @@ def sizes(tableau: Tableau) -> list[int]:
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Returns whether every stage has a weight, and all stages of a space have different row sums,
-    for all
-    of the rounding: then every stage is used and no two are equal. Those of a family differ if A𝟙 =
-    c.
+    for all of the rounding: then every stage is used and no two are equal. Those of a family differ
+    if A𝟙 = c.
     """
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
@@ -174,8 +172,8 @@ def _joined(tableau: Tableau, classes: Sequence[Sequence[Sequence[int]]]) -> Tab
 @doing("smallest method")
 def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
     """Returns the smallest method with further weights; a stage that any row of weights needs
-    stays. The
-    same object if nothing can be left out; None if stages at irrational nodes had to be compared.
+    stays. The same object if nothing can be left out; None if stages at irrational nodes had to be
+    compared.
 
     >>> from garkcli.methodfile.load import loads
     >>> method = loads("{A: [[0, 0], [1, 0]], b: [1, 0], embedded: [1/2, 1/2]}")

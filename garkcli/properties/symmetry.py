@@ -39,8 +39,8 @@ _Images: TypeAlias = dict[Vertex, list[int]]
 
 class Symmetry(Frozen):
     """The result of the search: None if there are too many renumberings, or rounding leaves it
-    open;
-    ``images`` by stage spaces, None for x → 1 − x in a stage algebra, empty if it does not hold.
+    open; ``images`` by stage spaces, None for x → 1 − x in a stage algebra, empty if it does not
+    hold.
     """
 
     holds: bool | None
@@ -49,8 +49,7 @@ class Symmetry(Frozen):
 
 def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
     """Returns whether a method is its own adjoint, with the renumbering of the stages. An equation
-    between
-    three coefficients has three times their ``tolerance``.
+    between three coefficients has three times their ``tolerance``.
 
     >>> from garkcli.methodfile.load import loads
     >>> symmetry(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau)

@@ -1,6 +1,5 @@
 """Polynomials with balls as coefficients, lowest first: signs, roots, common factors, first
-negative
-point, decided for all polynomials in the balls at once, or None.
+negative point, decided for all polynomials in the balls at once, or None.
 
 The first negative point is bracketed. Pieces of the line are taken from the left: one with a
 positive enclosure of the polynomial is passed; others are halved until they are short. Beyond the

@@ -151,8 +151,7 @@ class ImexPair(Frozen):
 
     def _ray(self, E: Sequence[Polynomial], is_in_squares: bool) -> Ray | None:
         """Returns the largest x with all of [0, x] damped; None if undecided. ``E`` by powers of y
-        is in x =
-        |z_E| on the imaginary axis, or, ``is_in_squares``, by powers of y² in x = −z_E.
+        is in x = |z_E| on the imaginary axis, or, ``is_in_squares``, by powers of y² in x = −z_E.
         """
         zero = RealRoot.rational(ZERO)
         if not self.has_fixed_poles:

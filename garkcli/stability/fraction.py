@@ -108,10 +108,8 @@ def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None
     """P/Q in lowest terms from the quotients on lines; None if a line is special.
 
     Except on special lines the denominators in lowest terms have one degree. The interpolated
-    fraction
-    is multiplied out, so it is right or rejected. Its denominator has the least possible degree,
-    which
-    is not less than on a line.
+    fraction is multiplied out, so it is right or rejected. Its denominator has the least possible
+    degree, which is not less than on a line.
     """
     axes = Q.variables - 1
     over = {}

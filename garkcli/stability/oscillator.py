@@ -50,10 +50,8 @@ class Ratio(Frozen):
 
 class PhaseError(Frozen):
     """The phase lag z − θ with z = hω and cos θ = tr M / (2 √det M): constant · z^(order+1) + …,
-    positive
-    if the numerical solution turns by less than the exact one. For a Runge–Kutta method θ is arg
-    R(iz).
-    Source: van der Houwen and Sommeijer, SIAM J. Numer. Anal. 24 (1987), 595–617.
+    positive if the numerical solution turns by less than the exact one. For a Runge–Kutta method θ
+    is arg R(iz). Source: van der Houwen and Sommeijer, SIAM J. Numer. Anal. 24 (1987), 595–617.
 
     Attributes:
         order: the phase-lag order; None if the frequency is exact.
@@ -93,8 +91,7 @@ class OscillatorStability(Frozen):
     @property
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
         """The quadratic form α (ωq)² + β ωqp + γ p² that every step conserves, as (α, β, γ) in z: y
-        ↦ det(y,
-        My), up to a factor, for det M = 1; else None.
+        ↦ det(y, My), up to a factor, for det M = 1; else None.
         """
         if not self.determinant.is_one:
             return None
@@ -152,8 +149,7 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
 
 def _even(p: Polynomial) -> Polynomial:
     """A polynomial in z with even powers only, in x = z². The fields exchange ωq and p, so
-    reflecting ωq
-    replaces z by −z and keeps traces and determinants.
+    reflecting ωq replaces z by −z and keeps traces and determinants.
     """
     assert not any(p.coefficients[1::2])
     return Polynomial(p.coefficients[::2])
@@ -165,12 +161,9 @@ def stable_set(
     """Returns the x ≥ 0 for which all powers of M are bounded.
 
     ``off_diagonal`` are two polynomials with the roots of the entries off the diagonal: with a
-    double
-    eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc, so M = ±I if both
-    are
-    zero. ``poles`` is the denominator of M in lowest terms: an entry off the diagonal can have a
-    pole
-    where trace and determinant have none; there is no step there.
+    double eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc, so M = ±I if
+    both are zero. ``poles`` is the denominator of M in lowest terms: an entry off the diagonal can
+    have a pole where trace and determinant have none; there is no step there.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator
@@ -197,8 +190,8 @@ def stable_set(
 
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     """The leading term of the phase lag z − θ, by power series in x. With cos θ = tr M / (2 √det
-    M), cos²
-    θ − cos² z = 2 sin z cos z (z − θ) + …, where the left-hand side has exact coefficients.
+    M), cos² θ − cos² z = 2 sin z cos z (z − θ) + …, where the left-hand side has exact
+    coefficients.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator

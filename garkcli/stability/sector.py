@@ -30,14 +30,11 @@ def critical_polynomials(
     member: Callable[[fmpq], Polynomial], points: Sequence[fmpq]
 ) -> list[Polynomial]:
     """Polynomials in x between whose roots one x decides for all: real roots of p_x appear or
-    disappear
-    only if two roots meet or one passes through infinity.
+    disappear only if two roots meet or one passes through infinity.
 
     They are the leading coefficient of p_x and the first subresultant of p_x and its derivative
-    that is
-    not zero for all x: where that is nonzero p_x has a fixed number of distinct roots (G. E.
-    Collins
-    1975). ``points`` are more rational x than the degree of the discriminant.
+    that is not zero for all x: where that is nonzero p_x has a fixed number of distinct roots (G.
+    E. Collins 1975). ``points`` are more rational x than the degree of the discriminant.
     """
     members = [member(x) for x in points]
     degree = max(p.degree for p in members)
@@ -51,8 +48,7 @@ def critical_polynomials(
 
 def _with_derivative(p: Polynomial, degree: int, k: int) -> Number:
     """The subresultant of index k of p and p′, for p of nominal ``degree``: 0 if the leading
-    coefficient
-    is. Then the values belong to one polynomial in x, with that as a factor.
+    coefficient is. Then the values belong to one polynomial in x, with that as a factor.
     """
     if p.degree < degree:
         return ZERO
@@ -63,8 +59,7 @@ def roots_between(
     polynomials: Sequence[Polynomial], low: RealRoot, high: RealRoot | None
 ) -> list[RealRoot]:
     """Numbers between two others, None for ∞, ascending, that include all roots of polynomials
-    there. Over
-    a number field they are the roots of the norms; further numbers do no harm.
+    there. Over a number field they are the roots of the norms; further numbers do no harm.
     """
     norms = (Polynomial.from_flint(p.norm()) for p in polynomials if p)
     return [x for x in roots_of(norms) if low < x and (high is None or x < high)]

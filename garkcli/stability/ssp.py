@@ -33,8 +33,7 @@ class SspCoefficient(Frozen):
 
 class AdditiveRadius(Frozen):
     """The largest ``radius`` r with (r q_1, …, r q_N) in the region of absolute monotonicity for
-    the
-    direction q_l ≥ 0 of ``ratios``; None if undecided.
+    the direction q_l ≥ 0 of ``ratios``; None if undecided.
     """
 
     ratios: tuple[Number, ...]
@@ -135,10 +134,8 @@ def _conditions(
     whole: Matrix, parts: Sequence[Matrix], with_zeros: bool = False
 ) -> Iterator[Polynomial]:
     """Polynomials in r that must not be negative from 0 to the radius. (I + rK)⁻¹ = Σ (−r)^k K^k,
-    and d ·
-    (I + rK)⁻¹ with d(r) = det(I + rK) is a polynomial of degree at most n: finitely many terms of
-    the
-    product of the series determine it.
+    and d · (I + rK)⁻¹ with d(r) = det(I + rK) is a polynomial of degree at most n: finitely many
+    terms of the product of the series determine it.
     """
     n = len(whole)
     minus_whole = scale(-ONE, whole)

@@ -71,8 +71,7 @@ class TwoFrequencies(Frozen):
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:
     """The fast spring for one term, the slow one for the others with potential energy; all kinetic
-    energy
-    is in the first. Raises UsageProblem if no term is left for the slow spring.
+    energy is in the first. Raises UsageProblem if no term is left for the slow spring.
     """
     terms = terms_of(tableau)
     if terms < 2:
@@ -129,8 +128,7 @@ def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> l
 
 def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
     """D = det(I − W) and the entries of D · M, as polynomials in (a, x), in which W is linear:
-    their total
-    degree is at most its size. Raises UsageProblem if the split does not suit.
+    their total degree is at most its size. Raises UsageProblem if the split does not suit.
     """
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)

@@ -19,8 +19,8 @@ from garkcli.tableau.tableau import Colour, Part, Tableau
 
 def split_into(problem: Problem, terms: int) -> Problem:
     """``problem`` in as many terms: their sum, or if it has one, summands with momenta first and
-    those with
-    positions only shared equally by the others. Raises UsageProblem if there is no natural split.
+    those with positions only shared equally by the others. Raises UsageProblem if there is no
+    natural split.
     """
     found = len(problem.terms)
     if found == terms:
@@ -180,8 +180,7 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
 @doing("what the problem sees")
 def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     """The tableau whose trees the problem sees, of the observed order: each nonzero field has a
-    colour and
-    stages of its own, and no stage sees what its field does not depend on.
+    colour and stages of its own, and no stage sees what its field does not depend on.
     """
     colours, spaces = [], []
     for k, ((m, group), field) in enumerate(fields.items()):

@@ -51,8 +51,7 @@ def stage_system(
     tableau: Tableau, fields: Sequence[Matrix], pattern: Sequence[Matrix] | None = None
 ) -> StageSystem:
     """Returns the linear system of the stages for the L^m of the colours, shape (d, d). ``pattern``
-    is
-    nonzero where some parameters make L^m nonzero, so that the unknowns agree for all. Raises
+    is nonzero where some parameters make L^m nonzero, so that the unknowns agree for all. Raises
     MethodError if the tableau is no GARK method.
     """
     tableau.demand_fields("a step on a linear problem")
@@ -220,8 +219,7 @@ def conserves_energy(R: Matrix, omega: fmpq) -> bool:
 
 def deviations(step: LinearStep) -> Iterator[arb]:
     """The distances of the coefficients of h, h², … in R(h) from those of exp(hL), without end:
-    each the
-    largest of four entries, in units with ω = 1; zero if and only if all are.
+    each the largest of four entries, in units with ω = 1; zero if and only if all are.
     """
     omega = step.problem.omega
     L: Matrix = ((ZERO, ONE), (-omega * omega, ZERO))
@@ -241,10 +239,9 @@ def deviations(step: LinearStep) -> Iterator[arb]:
 
 def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
     """Returns the largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees,
-    exactly, by
-    unbranched trees along which the split is nonzero. The search ends because R is rational in h
-    and cos
-    ωh is not, or, with a ``tolerance`` for the ``deviations``, when 1/r! is as small.
+    exactly, by unbranched trees along which the split is nonzero. The search ends because R is
+    rational in h and cos ωh is not, or, with a ``tolerance`` for the ``deviations``, when 1/r! is
+    as small.
     """
     limit = fmpq(0) if tolerance is None else tolerance
     coefficient = ONE

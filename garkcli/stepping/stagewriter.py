@@ -38,8 +38,7 @@ class StageSum(Frozen):
 
 class StageWriter:
     """Writes stage values and evaluations, and keeps the names of their results. ``weights`` has
-    the names
-    of w by texts of coefficients, ``first`` the first occurrence of each.
+    the names of w by texts of coefficients, ``first`` the first occurrence of each.
     """
 
     def __init__(

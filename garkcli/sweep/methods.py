@@ -34,10 +34,8 @@ STARTS = 20
 
 class Template(Frozen):
     """A method file of a sweep, with parameters that get values. A search for other unknowns has
-    ``order``,
-    0 without, and ``starts`` for each of ``seeds``. ``is_drawn``: the transfer is drawn from those
-    whose
-    pair has the order.
+    ``order``, 0 without, and ``starts`` for each of ``seeds``. ``is_drawn``: the transfer is drawn
+    from those whose pair has the order.
     """
 
     name: str

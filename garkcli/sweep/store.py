@@ -19,8 +19,8 @@ _BLOCK = 1 << 16
 
 class RowStore:
     """A file of rows that is read once and then appended to; without ``is_resumed`` one with rows
-    gets no
-    further ones. Raises UsageProblem if it is not a file of rows, or another process writes to it.
+    gets no further ones. Raises UsageProblem if it is not a file of rows, or another process writes
+    to it.
     """
 
     def __init__(self, path: str, is_resumed: bool) -> None:

@@ -1,6 +1,5 @@
 """Formulas of reports as MathML, for browsers and screen readers. The input is LaTeX from the
-program,
-never the text of a file.
+program, never the text of a file.
 """
 
 from __future__ import annotations

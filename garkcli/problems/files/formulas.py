@@ -39,8 +39,7 @@ class FormulaReader(Mutable):
         self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
         """Returns the expression of a text; None after a fault. ``names`` maps names to "", or to
-        the cure if
-        they are not allowed here; None allows all, and parameters always are.
+        the cure if they are not allowed here; None allows all, and parameters always are.
         """
         if is_null(node):
             message = f"{where}: nothing is here"

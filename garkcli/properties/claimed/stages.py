@@ -156,8 +156,7 @@ def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
 
 def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
     """The method with the row b_m/2, its own image in the adjoint, in a last stage without
-    influence: an
-    empty stage space keeps one.
+    influence: an empty stage space keeps one.
     """
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
