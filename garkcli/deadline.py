@@ -1,9 +1,9 @@
-"""Time limits: a deadline holds for all work inside it.
-
-Whoever limits work writes ``with within(seconds):`` around it. Loops that may take long call
-``check_time``. A call in C cannot be interrupted; ``garkcli.exact.apart`` does large ones in
-another process. Limits that users set are by the clock; default ones are of processor time, so a
-busy machine decides no less.
+"""Time limits: ``with within(seconds):`` holds for all work inside, in which loops call
+``check_time``.
+A call in C cannot be interrupted; ``garkcli.exact.apart`` does large ones in another process.
+Limits
+that users set are by the clock; default ones are of processor time, so a busy machine decides no
+less.
 """
 
 from __future__ import annotations
@@ -85,7 +85,6 @@ def only_small() -> Iterator[None]:
 
 
 def forget() -> None:
-    """Removes all limits, in a process that another one ends."""
     _moment.set(None)
     _spent.set(None)
 

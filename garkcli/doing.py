@@ -40,7 +40,6 @@ class Work(Mutable, eq=False):
             self.listener.changed()
 
     def __str__(self) -> str:
-        """The name of the work, and its progress if it has more than one part."""
         if self.total is not None and self.total > 1:
             return f"{self.what}, {self.done} of {self.total}"
         return f"{self.what}, {self.done}" if self.done else self.what
@@ -71,11 +70,6 @@ def hush() -> None:
 
 @contextmanager
 def doing(what: str, total: int | None = None) -> Iterator[Work]:
-    """Names the work inside.
-
-    >>> with doing("steps", 2) as work:
-    ...     work.reach(1)
-    """
     who = _listener.get()
     work = Work(what, total, who)
     if who is None:

@@ -68,11 +68,7 @@ def _made_again(kind: type[GarkError], args: tuple[Any, ...]) -> GarkError:
 
 
 class ExpressionError(GarkError):
-    """A text is not an exact number.
-
-    Attributes:
-        start: the offset of the fault in the text, from 0.
-        end: the offset behind it.
+    """A text is not an exact number; ``start`` and ``end`` are offsets of the fault, from 0.
 
     >>> from garkcli.exact.expression import parse
     >>> try:
@@ -333,11 +329,6 @@ def printable(text: str) -> str:
 
 
 def counted(count: int, noun: str, plural: str = "") -> str:
-    """A number of things.
-
-    >>> counted(1, "entry", "entries"), counted(2, "stage")
-    ('1 entry', '2 stages')
-    """
     if count == 1:
         return f"{count} {noun}"
     several = plural or noun + "s"

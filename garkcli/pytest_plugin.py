@@ -175,7 +175,6 @@ class GarkItem(pytest.Item):
         return "\n".join(lines)
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """The findings only; a fault of gark itself with its traceback."""
         if isinstance(excinfo.value, ClaimFails):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
@@ -187,9 +186,7 @@ class GarkItem(pytest.Item):
 
 @pytest.fixture(scope="session")
 def gark_method(request: pytest.FixtureRequest) -> Load:
-    """A function that loads a method, each once in a session. It takes a name of the catalogue, or
-    a path from the root of the project.
-    """
+    """Loads a method once in a session, by a name of the catalogue or a path from the root."""
     from garkcli.methodfile.load import load
 
     root = request.config.rootpath

@@ -11,16 +11,14 @@ WORKS = ("article", "book", "chapter", "report", "software", "thesis", "web")
 
 
 class Reference(Frozen, kw_only=True):
-    """A publication, with the fields of method files.
+    """A publication, with the fields of method files; ``type`` is empty if the others determine it.
 
     Attributes:
         authors: each as printed, such as ``J. C. Butcher``.
         year: four digits, perhaps with a letter.
-        type: one of ``WORKS``; empty if the other fields determine it.
         number: of the issue or report.
         book: the title of the book of a chapter, or of proceedings.
         where: the place in the work, such as ``table 2``.
-        url: an address of its own.
         coefficients: the source of the digits of the file.
     """
 
@@ -44,11 +42,6 @@ class Reference(Frozen, kw_only=True):
     coefficients: str = ""
 
     def __str__(self) -> str:
-        """The reference in one line.
-
-        >>> str(Reference(authors=("C. Runge",), title="On", year="1895", journal="M", volume="46"))
-        'C. Runge, On, M 46 (1895)'
-        """
         parts = [", ".join(self.authors), self.title]
         parts += [f"in {self.book}"] if self.book else []
         parts.append(self._issue())

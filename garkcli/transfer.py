@@ -1,8 +1,7 @@
 """Off-diagonal blocks from diagonal methods, "Some techniques to construct the transfer matrices".
-
-A stage vector of m is lifted to its polynomial of degree < s_m and reduced to the stages of l.
-Every function returns a block A^{l,m} of shape (s_l, s_m); CoincidingNodes if nodes of m are equal,
-BlockTooLarge beyond ``MAX_WORK``.
+A
+stage vector of m is lifted to its polynomial of degree < s_m and reduced to the stages of l. Rules
+return A^{l,m}, shape (s_l, s_m); CoincidingNodes for nodes of m, BlockTooLarge beyond ``MAX_WORK``.
 """
 
 from __future__ import annotations
@@ -174,9 +173,7 @@ def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -
 def symplectic_blocks(
     rule: Rule, methods: Sequence[Method], base: int, other: int
 ) -> dict[Edge, Matrix]:
-    """A^{other,base} by ``rule``, and A^{base,other} as its symplectic conjugate, so Â^{l,m} =
-    A^{l,m} for l ≠ m. Raises ZeroWeight if ``base`` has a zero weight.
-    """
+    """A^{other,base} by ``rule``, and its symplectic conjugate A^{base,other}; or ZeroWeight."""
     l, m = methods[other], methods[base]
     block = rule(l, m)
     return {(other, base): block, (base, other): conjugate_block(block, m.space, m.b, l.space, l.b)}

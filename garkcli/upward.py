@@ -1,7 +1,4 @@
-"""Lets values of low rooms call higher rooms: ``method.order`` is an attribute of data, the search
-for orders lies above. On import the package installs the table ``ANSWERS`` of
-``garkcli/__init__.py``.
-"""
+"""Lets values of low rooms call higher rooms, by ``ANSWERS``: ``method.order`` is an attribute."""
 
 from __future__ import annotations
 
@@ -16,17 +13,11 @@ _handed_down: list[Answering] = []
 
 
 def hand_down(answering: Answering) -> None:
-    """Installs the function that finds answers by the names of a class and a question."""
     _handed_down[:] = [answering]
 
 
 def answered(value: object, question: str, **options: Any) -> Any:
-    """The answer to a question about a value, with options; None if there is none.
-
-    >>> from garkcli.ntrees.tree import Tree
-    >>> answered(Tree(0, [Tree(0)]), "text")
-    '[[]]'
-    """
+    """Returns the answer to a question about a value, with options; None if there is none."""
     (answering,) = _handed_down
     for kind in type(value).__mro__:
         answer = answering(kind.__name__, question)

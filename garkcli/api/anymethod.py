@@ -32,8 +32,7 @@ def method_of(given: AnyMethod, tolerance: object = None, is_any_kind: bool = Fa
     """The method for an argument, with its entries as printed.
 
     Args:
-        given: a method, a tableau; a path, or a name of the catalogue; ``(A, b)``, ``(A, b, c)`` or
-            ``(A, b, c, embedded)``, or a mapping of arguments of ``from_arrays``.
+        given: an ``AnyMethod``: a method, a path, a name of the catalogue, or arrays ``(A, b)``.
         tolerance: the rounding of arrays without one of their own.
         is_any_kind: whether the method may be other than a GARK method.
 

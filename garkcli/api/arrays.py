@@ -28,27 +28,22 @@ def from_arrays(
 
     Args:
         A: the matrix, shape (s, s); the rows of a triangle may end at the diagonal or before it,
-            and an explicit method may lack the last column, as in SciPy. For N colours N rows of N
-            blocks, shape (s_l, s_m), None if colour l does not depend on colour m; or a mapping of
-            pairs (l, m), counted from 1, to blocks.
+            and
+            an explicit method may lack the last column. For N colours N rows of N blocks, shape
+            (s_l, s_m), None if colour l does not depend on m; or a mapping of pairs (l, m), counted
+            from 1, to blocks.
         b: the weights, length s; for N colours a row each, or a mapping of colours to rows.
         c: the nodes, length s; for N colours a row each.
         embedded: embedded weights, as b.
         name: the name of the method.
         tolerance: the rounding of the coefficients, for instance ``"1e-13"``.
 
-    Returns:
-        The method; its ``text`` is a method file for it.
-
     Raises:
         MethodError: an entry is not an exact number.
         MethodFileError: the numbers do not make a method.
 
-    >>> heun = from_arrays([[0, 0], [1, 0]], [0.5, "1/2"], name="Heun")
-    >>> heun, heun.c
-    (<MethodFile Heun: 1 colour, stages 2>, (0, 1))
-    >>> from_arrays([[0, 0], [1, 0]], ["1/2", "1/2"], embedded=[1, 0]).embedded
-    ((1, 0),)
+    >>> from_arrays([[0, 0], [1, 0]], [0.5, "1/2"], name="Heun", embedded=[1, 0])
+    <MethodFile Heun: 1 colour, stages 2>
     """
     if b is None:
         raise MethodError("b is missing", "give the weights: from_arrays(A, b)", code="missing-key")
@@ -155,11 +150,6 @@ def _depth(value: Any) -> int:
 
 
 def _triangle(A: Any) -> Any:
-    """Returns an explicit matrix without its last column as rows that end before the diagonal.
-
-    >>> _triangle([[0], ["1/2"]]), _triangle([[1], ["1/2"]])
-    ([[], ['1/2']], [[1], ['1/2']])
-    """
     if _depth(A) != 2 or not all(isinstance(row, list) for row in A):
         return A
     lengths = {len(row) for row in A}

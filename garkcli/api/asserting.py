@@ -46,7 +46,7 @@ def assert_order(
     bound. They are decided exactly, or within the tolerance of the method.
 
     Args:
-        method: as for ``find_order``, or a mapping of arguments of ``from_arrays``.
+        method: whatever ``method_of`` takes.
         order: the order of the method.
         embedded: the order of its embedded weights.
         conjugate: the order of its symplectic conjugate.
@@ -58,10 +58,8 @@ def assert_order(
     Raises:
         AssertionError: with the tree whose condition fails, and the entry that would restore the
             order.
-        MethodError: there is no such method, no order is given, or it has no embedded weights.
-        MethodFileError: a file cannot be read as a method.
+        MethodError: no order is given, or the method has no embedded weights.
 
-    >>> assert_order("rk4", 4, conjugate=4)
     >>> assert_order("ros3p", 3, embedded=2, w=1, index_1=3)
     >>> assert_order(([[0, 0], [1, 0]], ["1/2", "1/2"]), 3)
     Traceback (most recent call last):
@@ -84,21 +82,14 @@ def assert_order(
 
 
 def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]:
-    """The orders of a method, its embedded weights, its conjugate and its pair, as ``assert_order``
-    takes them.
+    """The orders of a method and its embedded weights, conjugate and pair, as for ``assert_order``.
 
     Args:
-        method: as for ``assert_order``.
-        limit: the order at which to stop.
-
-    Returns:
-        The orders by name, ``">= 60"`` where the search stopped at 60.
+        method: whatever ``method_of`` takes.
+        limit: the order at which to stop; an order is then ``">= 60"``.
 
     >>> find_orders("rk4")
     {'order': 4, 'conjugate': 4, 'pair': 4}
-    >>> assert_order("rk4", **find_orders("rk4"))
-    >>> find_orders("ros2")
-    {'order': 2, 'embedded': 1, 'w': 2, 'index_1': 2}
     """
     asked = method_of(method, is_any_kind=True)
     orders: dict[str, int | str] = {}
@@ -116,9 +107,7 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
 
 
 class _OrderPart(Frozen):
-    """Part of a method with an order of its own. ``words`` follow the name of the method in
-    messages; ``which`` is ``conjugate`` or ``pair`` if their entries are to blame.
-    """
+    """A part with an order of its own; ``which`` is ``conjugate`` or ``pair`` if these matter."""
 
     words: str
     of: Callable[[GarkMethod], GarkMethod]
@@ -143,8 +132,6 @@ def _made(method: GarkMethod, changed: methods.AnyTableau) -> GarkMethod:
 
 
 def _seen(which: Which) -> Callable[[GarkMethod], GarkMethod]:
-    """Returns the map from a Rosenbrock method to it with another matrix, or on other problems."""
-
     def of(method: GarkMethod) -> GarkMethod:
         if not _is_rosenbrock(method):
             message = f"{_called(method)} is not a Rosenbrock method"
@@ -181,7 +168,6 @@ def _called(method: GarkMethod) -> str:
 
 
 def _failure(method: GarkMethod, part: _OrderPart, value: Any, tolerance: Any) -> Iterator[str]:
-    """Yields the lines of the failure if an order is not as wanted."""
     wanted = _read(value)
     least = wanted.least if isinstance(wanted, AtLeast) else wanted
     name = f"{_called(method)}{part.words}"

@@ -52,8 +52,7 @@ def gark(
         degree: the degree of the rule ``legendre``; by default it is chosen.
 
     Raises:
-        MethodError: there is no such rule, or it has no degree; a method has several colours, or a
-            block does not fit.
+        MethodError: the rule, its degree, a block or the number of colours of a method is wrong.
 
     >>> gark(["gauss-2", "lobatto-iiia-3"])
     <GarkMethod 2 colours, stages 2, 3>

@@ -80,16 +80,13 @@ def find_parameters(
     whose: Whose = "method",
     seconds: float | None = None,
 ) -> Design | DesignWithin:
-    r"""The values of the parameters for which the members of a family have an order: ``gark
-    design``.
-
-    For rounded coefficients these are values for which a method within the tolerance has it.
+    r"""The parameters for which members of a family have an order: ``gark design``. For rounded
+    coefficients these are values for which a method within the tolerance has it.
 
     Args:
         family: as ``load_family`` and ``loads_family`` return it, or the path of a file.
         order: the wanted order; by default the highest that some value reaches.
-        whose: ``"method"``, ``"conjugate"`` or ``"pair"``: of the method, its symplectic conjugate
-            or its symplectic pair.
+        whose: ``"method"``, ``"conjugate"`` or ``"pair"``.
         seconds: the time after which the rest stays undecided; None for no limit.
 
     Raises:
@@ -97,9 +94,8 @@ def find_parameters(
 
     >>> from garkcli import loads_family
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
-    >>> found = find_parameters(family)
-    >>> found, [step.kind for step in found.steps]
-    (<Design <text>: order 2 is reached>, ['every-value', 'solutions', 'none'])
+    >>> [step.kind for step in find_parameters(family).steps]
+    ['every-value', 'solutions', 'none']
     """
     most = None if order is None else whole(order, "order", 1)
     read = family_of(family)
@@ -125,8 +121,7 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
         seconds: the time after which it stops; None for never.
 
     Raises:
-        UsageProblem: there is no such objective, it or a wanted stability does not apply to the
-            methods, or nothing was decided.
+        UsageProblem: the objective or a wanted stability does not apply, or nothing was decided.
         NotDecided: a Gröbner basis or a trial takes too long.
 
     >>> from garkcli import loads_family
@@ -164,14 +159,12 @@ def search_methods(
         most: the largest number of methods; further ones are counted.
         whose: as in ``find_parameters``.
         seconds: the time after which the search ends with the methods found; None for never.
-        objective: the objective that is minimised from each start, as in ``minimise``; the methods
-            are then the best ones found.
+        objective: what is minimised from each start, as in ``minimise``; the methods are the best.
         start: a method with as many stages and colours at which the first start is.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        UsageProblem: there is no such objective, it does not apply to the methods, SciPy is
-            missing, or ``start`` has other sizes.
+        UsageProblem: the objective does not apply, SciPy is missing, or ``start`` has other sizes.
 
     >>> from garkcli import loads_family
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
@@ -203,8 +196,7 @@ def stable_values(
     colour: Whole | None = None,
     seconds: float | None = None,
 ) -> StableValues:
-    r"""The values of one or two parameters of a family that make it stable: ``gark design
-    --a-stable``.
+    r"""The values of parameters that make a family stable: ``gark design --a-stable``.
 
     Args:
         family: as ``find_parameters`` takes it; with at most two free parameters, or several on
@@ -214,14 +206,11 @@ def stable_values(
         slow: (hω_s)² for P- or I-stability on two springs; None for the oscillator.
         fast: the colour of the fast spring, counted from 1.
         up_to: a bound on (hω_f)²; None for none.
-        colour: for A- and L-stability of a single colour its number from 1; None for all colours
-            with one λ.
+        colour: for A- and L-stability of one colour, from 1; None for all colours with one λ.
         seconds: the time after which it stops; None for never.
 
     Raises:
-        MethodError: there is no such colour.
-        UsageProblem: the stability does not apply to the method, there are more parameters, or
-            some are under roots.
+        UsageProblem: the stability does not apply, or there are too many parameters or roots.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
 
@@ -257,15 +246,14 @@ def found_methods(
     r"""The methods that were found, each with the text of its file: ``gark design --output-dir``.
 
     Args:
-        found: the result of ``find_parameters``, ``minimise`` or ``search_methods``. Of a design
-            the methods of the highest order with finitely many are taken, of a minimum those with
-            its value.
+        found: of ``find_parameters``, ``minimise`` or ``search_methods``; of a design the methods
+            of the highest order with finitely many, of a minimum those with its value.
         family: the family of a search; a design and a minimum have theirs.
         whose: whose order a search was for, if not that of the search.
 
     Raises:
-        MethodError: a search is given without its family, the family is not from a file or a text,
-            or its values cannot be written in a method file.
+        MethodError: a search is without its family, or the values cannot be written in a method
+            file.
 
     >>> from garkcli import loads_family
     >>> text = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"

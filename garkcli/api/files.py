@@ -33,16 +33,13 @@ def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
     """Read a method file, or a method of the catalogue.
 
     Args:
-        path: the file, or ``-`` for standard input; or the name or an alias of a method of the
-            catalogue.
+        path: the file, or ``-`` for standard input; or the name or an alias in the catalogue.
         settings: values of its parameters, by name, in place of those in the file.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
         HasFreeParameters: a parameter has no value; ``load_family`` reads such a file.
 
-    >>> load("rk4")
-    <MethodFile the classical Runge-Kutta method: 1 colour, stages 4>
     >>> load("rk4").b
     (1/6, 1/3, 1/3, 1/6)
     """
@@ -58,7 +55,6 @@ def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> Metho
         settings: values of its parameters, by name, in place of those in the file.
 
     Raises:
-        MethodFileError: every fault of the text, with positions.
         HasFreeParameters: a parameter has no value.
 
     >>> made = loads("parameters: {a: 1/2}\nA: [[a]]\nb: [1]", settings={"a": 0.25})
@@ -91,11 +87,9 @@ def load_family(
     Args:
         path: of the file.
         settings: values of parameters, by name, in place of those in the file.
-        deadline: the reading of ``time.monotonic``, in seconds, at which remaining demands are left
-            undecided; None for never.
+        deadline: the reading of ``time.monotonic`` at which demands stay undecided; None for never.
 
     Raises:
-        MethodFileError: every fault of the file, with positions.
         MethodError: the file has no free parameter.
 
     >>> load_family("tests/examples/families/sdirk.gark.yaml").parameters
@@ -122,7 +116,6 @@ def loads_family(
         deadline: as in ``load_family``.
 
     Raises:
-        MethodFileError: every fault of the file, with positions.
         MethodError: the file has no free parameter.
 
     >>> loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]").parameters
@@ -139,9 +132,6 @@ def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
         path: of the file, or ``-`` for standard input.
         stiffness: a value for its parameter of this name.
 
-    Raises:
-        MethodFileError: every fault of the file, with positions.
-
     >>> load_problem("problems/kepler.yaml").energy
     px**2/2 + py**2/2 - 1/sqrt(x**2 + y**2)
     """
@@ -156,9 +146,6 @@ def loads_problem(text: str, source: str = "<text>", stiffness: Number | None = 
         text: of the file.
         source: what errors call it.
         stiffness: as in ``load_problem``.
-
-    Raises:
-        MethodFileError: every fault of the text, with positions.
 
     >>> text = "{variables: [x], hamiltonian: px**2/2 - cos(x), initial: {x: 1, px: 0}}"
     >>> loads_problem(text).energy
@@ -231,11 +218,6 @@ def convert(
         digits: with recovered: digits after the point; by default 50, or more if the tolerance has
             more.
         is_recognising: with recovered: exact numbers for decimals unless an order falls.
-
-    Raises:
-        UsageProblem: there is no such form, or digits do not apply to it.
-        CannotConvert: the method has no such form; the message says why.
-        ZeroWeight: a pair would divide by zero.
 
     >>> convert("heun", stages=3).method.A
     ((0, 0, 0), (0, 0, 0), (0, 1, 0))

@@ -86,7 +86,6 @@ def colour_of(given: Any, where: str, count: int) -> int:
 
 
 def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
-    """Returns colours counted from 0, for a list of them counted from 1; MethodError for others."""
     if not _is_list(given):
         cure = "give a list of colours, such as [1]"
         raise MethodError(f"{where}: {given!r} is not a list", cure, code="wrong-value")
@@ -94,7 +93,6 @@ def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
 
 
 def texts(given: Settings, where: str) -> dict[str, str]:
-    """Returns values as texts of coefficients; MethodError if one is not exact."""
     if not _is_mapping(given):
         cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"
         raise MethodError(f"{where}: {given!r} is not a mapping", cure, code="wrong-value")

@@ -58,10 +58,8 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
     Raises:
         UsageProblem: there is no such problem, it cannot be split so, or it is not Hamiltonian.
 
-    >>> hamiltonian("pendulum", 2)
-    <Hamiltonian pendulum: 2 terms, 1 degree of freedom>
-    >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
-    ['px**2/2', '1 - cos(x)']
+    >>> hamiltonian("pendulum", 2).terms
+    (px**2/2, 1 - cos(x))
     """
     return builtin.hamiltonian(name, whole(terms, "terms", 1), whole(seed, "seed"))
 
@@ -81,10 +79,7 @@ def problem_for(
     omega: fmpq | None = None,
     split: str | None = None,
 ) -> Problem | Oscillator:
-    """Returns the problem; a named one has as many terms as the method has fields, by default with
-    ``seed`` and ``omega`` 1, and the oscillator the shares ``split``. Raises UsageProblem if there
-    is no such problem, or an option does not apply; MethodFileError for faults of a file.
-    """
+    """Raises UsageProblem for unknown problems or options, MethodFileError for faults."""
     if isinstance(given, (Problem, Oscillator)):
         return given
     demand_name(given)
@@ -100,7 +95,6 @@ def problem_for(
 def _to_step(
     given: str | os.PathLike[str], tableau: Tableau, seed: int | None, stiffness: fmpq | None = None
 ) -> Problem:
-    """Returns the problem of a name or path with steps in numbers, including the oscillator."""
     text = os.fspath(given)
     builtin.check_seed(text, seed)
     if builtin.is_path(text) or not isinstance(given, str):

@@ -48,22 +48,19 @@ def converge(
 
     Args:
         method: whatever ``method_of`` takes.
-        problem: a problem, the name of a built-in one, or the path of a problem file; with as many
-            terms as the method has fields, or with a natural split. The oscillator is solved by the
-            exact step map. By default every tree of the structure matters.
+        problem: with as many terms as the method has fields, or a natural split. The oscillator is
+            solved by the exact step map. By default every tree of the structure matters.
         t_end: the final time; the problem's own by default, 4/ω for the oscillator.
         steps: step sizes that divide ``t_end``, the largest first; by default a ladder.
-        tolerance: the rounding of the coefficients; by default that of the method. Slopes may then
-            end on a plateau.
+        tolerance: the rounding of the coefficients; slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well, in seconds.
-        jacobian: the matrix of a Rosenbrock method: the exact Jacobian; that of one step before, at
-            t − h and y − h f; or its diagonal, without ∂f/∂t. The order is then that with an old
-            Jacobian, or with any matrix.
+        jacobian: of a Rosenbrock method: exact; that of one step before, at t − h and y − h f; or
+            its diagonal, without ∂f/∂t. The order is then with an old Jacobian, or with any matrix.
 
     Raises:
         MethodError: ``jacobian`` is given for another kind of method.
-        UsageProblem: the problem is not of the form of the structure, a step does not divide
-            ``t_end``, or the stage equations of a given step have no unique solution.
+        UsageProblem: the problem or a step does not fit, or the stage equations of a given step are
+            singular.
         StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
 
     >>> found = converge("rk4", "pendulum")
@@ -93,7 +90,6 @@ MATRICES: dict[Taken, Which] = {"old": "with_old_jacobian", "diagonal": "with_an
 
 
 def taking(tableau: Tableau, tolerance: fmpq | None, jacobian: Taken) -> Tableau:
-    """Returns the tableau with some matrix for the Jacobian, or raises MethodError."""
     if jacobian == "exact":
         return tableau
     if jacobian not in MATRICES:
@@ -128,9 +124,6 @@ def backward_analysis(
         max_order: the largest number of vertices of a tree, at least 1.
         tolerance: the rounding of the coefficients; by default that of the method, 0 for none.
 
-    Raises:
-        UsageProblem: there are too many trees.
-
     >>> found = backward_analysis("stoermer-verlet", 5)
     >>> found, found.symplectic, found.effective.order
     (<BackwardAnalysis order 2, symplectic>, Reached(order=5, is_lower_bound=True), 2)
@@ -147,9 +140,6 @@ def modified_formula(method: AnyMethod, problem: AnyProblem, max_order: Whole) -
         method: whatever ``method_of`` takes; its coefficients are exact.
         problem: a Hamiltonian problem, the name of a built-in one, or the path of a problem file.
         max_order: the largest order of trees; powers of h go up to one less.
-
-    Raises:
-        UsageProblem: the problem is not of the form of the structure, or there are too many trees.
 
     >>> for term in modified_formula("stoermer-verlet", "pendulum", 4).expanded().terms:
     ...     print(term.power, *term.formulas)
@@ -168,8 +158,7 @@ def modified_run(
     t_end: Number | None = None,
     longest: Number | None = None,
 ) -> ModifiedRun:
-    """Measure the error of a symplectic method in its modified Hamiltonian: ``gark energy
-    --modified``.
+    """The error of a symplectic method in its modified Hamiltonian: ``gark energy --modified``.
 
     Args:
         method: whatever ``method_of`` takes; symplectic by its coefficients, which are exact.
@@ -179,8 +168,7 @@ def modified_run(
         longest: an upper bound on the step sizes.
 
     Raises:
-        UsageProblem: the method is not symplectic or consistent, or there are too many trees or
-            steps.
+        UsageProblem: the method is not symplectic or consistent, or there is too much work.
         StepFailed: the stage equations of a step were not solved.
 
     >>> run = modified_run("stoermer-verlet", "pendulum", 3)
@@ -220,12 +208,10 @@ def long_run(
             ``t_end``.
         digits: the digits of the steps; floats up to 15. Steps of the oscillator are exact.
         points: the approximate number of times that are kept, including extremes.
-        tolerance: the rounding of the coefficients; by default that of the method. A drift that it
-            may explain is undecided.
+        tolerance: the rounding of the coefficients; a drift that it may explain is undecided.
 
     Raises:
-        UsageProblem: the problem does not fit the structure, the step does not divide the time or
-            is too small, or the stage equations of the oscillator have no unique solution.
+        UsageProblem: the problem or the step does not fit, or the oscillator has a singular step.
         StepFailed: the stage equations of a step were not solved, before the energy had blown up.
 
     >>> run = long_run("stoermer-verlet", "pendulum", 50, "1/10")
@@ -254,9 +240,6 @@ def symplecticity_defects(
         step: the step size h.
         states: times with (q, p), as in ``LongRun.states``.
 
-    Raises:
-        StepFailed: the stage equations of a step were not solved.
-
     >>> states = long_run("rk4", "pendulum", 1, "1/10").states[:1]
     >>> [defect.is_seen for defect in symplecticity_defects("rk4", "pendulum", "1/10", states)]
     [True]
@@ -274,9 +257,6 @@ def bind(method: AnyMethod, problem: AnyProblem) -> Binding:
         method: whatever ``method_of`` takes.
         problem: as in ``converge``, except the oscillator.
 
-    Raises:
-        UsageProblem: the problem is not of the form of the structure.
-
     >>> made = bind("rk4", "pendulum")
     >>> made.at(), made.at(50)
     (<Integrator pendulum: 15 digits>, <Integrator pendulum: 50 digits>)
@@ -288,20 +268,13 @@ def bind(method: AnyMethod, problem: AnyProblem) -> Binding:
 def integrate(
     integrator: Integrator | Binding, h: Number, count: Whole, initial: Sequence[Any] | None = None
 ) -> list[Real]:
-    """The state after ``count`` steps.
+    """The state after ``count`` steps, as in ``trajectory``.
 
     Args:
         integrator: ``bind(method, problem)``, or that ``.at(digits)``.
         h: the step size.
         count: the number of steps.
-        initial: the initial state, as in ``trajectory``.
-
-    Returns:
-        As ``trajectory``.
-
-    Raises:
-        MethodError: ``initial`` has more or fewer numbers than there are unknowns.
-        StepFailed: the stage equations of a step were not solved.
+        initial: the initial state.
 
     >>> [round(x, 6) for x in integrate(bind("rk4", "pendulum").at(), "1/10", 10)]
     [1.056272, -0.391965]
@@ -325,15 +298,13 @@ def trajectory(
         integrator: ``bind(method, problem)``, or that ``.at(digits)``.
         h: the step size.
         count: the number of steps.
-        initial: the initial state, shape (2d,) for (q, p) of a Hamiltonian problem, (d,) for y of
-            any other; by default that of the problem.
+        initial: shape (2d,) for (q, p), (d,) for y; by default that of the problem.
         every: the number of steps between states; the last one is after ``count``.
 
     Returns:
         States of the shape of ``initial``: floats up to 15 digits, otherwise midpoints of balls.
 
     Raises:
-        MethodError: ``initial`` has more or fewer numbers than there are unknowns.
         StepFailed: the stage equations of a step were not solved.
 
     >>> made = bind("rk4", "pendulum").at()

@@ -41,10 +41,8 @@ def format_tree(tree: AnyTree, colours: bool = True) -> str:
         tree: a tree, or its text, whose branches are sorted.
         colours: whether the colours are written.
 
-    >>> format_tree("[[]_2,[[]_1]_1]_1")
-    '[[[]_1]_1,[]_2]_1'
-    >>> format_tree("[[]_2,[[]_1]_1]_1", colours=False)
-    '[[[]],[]]'
+    >>> format_tree("[[]_2,[[]_1]_1]_1"), format_tree("[[]_2,[[]_1]_1]_1", colours=False)
+    ('[[[]_1]_1,[]_2]_1', '[[[]],[]]')
     """
     return notation.format_tree(tree_of(tree), colours)
 
@@ -77,9 +75,6 @@ def count_trees(
         edges: shape (N, N), whether a vertex of the row's colour may carry a branch whose root has
             the column's colour; by default all may.
         linear: colours, counted from 1, whose vertices have at most one branch.
-
-    Raises:
-        TreeError: ``edges`` is not such a matrix.
 
     >>> [count_trees(n) for n in range(1, 9)]
     [1, 1, 2, 4, 9, 20, 48, 115]
@@ -137,9 +132,6 @@ def elementary_weight(method: AnyMethod, tree: AnyTree) -> Exact:
     Args:
         method: whatever ``method_of`` takes.
         tree: a tree, or its text.
-
-    Raises:
-        MethodError: the method has no condition of this tree.
 
     >>> elementary_weight("rk4", "[[[[]]]]"), elementary_weight("rk4", "[[[[[]]]]]")
     (1/24, 0)

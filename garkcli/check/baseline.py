@@ -73,7 +73,6 @@ def _refused(path: str, why: str) -> UsageProblem:
 
 
 def _is_whole(file: object) -> bool:
-    """Returns whether an entry has the compared fields, with the right types."""
     if not isinstance(file, dict) or not isinstance(file.get("file"), str):
         return False
     if "errors" in file:

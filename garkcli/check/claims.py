@@ -171,8 +171,8 @@ def claim_of(claim: ClaimText, value: str, holds: bool | None, reason: Reason = 
 
 
 def agrees(wanted: object, value: object) -> bool | None:
-    """Returns whether a claimed value agrees with an actual one; None if a lower bound leaves that
-    open.
+    """Returns whether a claimed value agrees with an actual one; None if a lower bound decides
+    nothing.
 
     >>> agrees(AtLeast(3), 4), agrees(3, AtLeast(4)), agrees(5, AtLeast(4))
     (True, False, None)

@@ -1,6 +1,4 @@
-"""The likely cause of an order below the claimed one, or below that of a method with one number
-changed: an entry, or for other kinds, whose tableaus repeat it, a printed number.
-"""
+"""The entry or printed number that seems wrong, as another value restores or raises an order."""
 
 from __future__ import annotations
 
@@ -142,7 +140,6 @@ def _assuming(remark: RoundingHint | None, judged: AnyTableau, blame: Blame | No
 def _with_consequences(
     method: MethodFile, claims: tuple[Claim, ...], blame: Blame | None, limit: int
 ) -> Blame | None:
-    """Returns the blame, with the other claims that its first repair makes true."""
     if blame is None or not blame.repairs or blame.repairs[0].is_embedded:
         return blame
     others = set()

@@ -84,8 +84,6 @@ class FamilyFact(Frozen):
 
 
 class Budget(Mutable):
-    """The number of questions that may still be asked."""
-
     left: int
 
 
@@ -95,7 +93,6 @@ UNDECIDED = object()
 
 
 def answer(ask: Question, tableau: Tableau) -> Any:
-    """Returns the answer to a question; None if it does not apply."""
     try:
         return ask(tableau)
     except (GarkError, ZeroDivisionError):

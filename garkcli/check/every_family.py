@@ -3,8 +3,7 @@ rules.
 
 A polynomial is rewritten in u ≥ 0, with t = (l + g u)/(1 + u) for a range [l, g] and t = l ± u for
 a half-line. It has no zero if no coefficient is negative and the coefficients at the corners are
-positive. For [l, g] these are its Bernstein coefficients up to positive factors. The converse does
-not hold.
+positive; for [l, g] these are Bernstein coefficients up to positive factors. The converse fails.
 """
 
 from __future__ import annotations
@@ -111,7 +110,6 @@ def _may_vanish(
 
 
 def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fmpq_mpoly:
-    """Returns a polynomial in u, without its positive denominator."""
     context = p.context()
     u = context.gens()
     degrees = p.degrees()
@@ -131,11 +129,7 @@ def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fm
 def carried(
     fixed: Mapping[str, object], ranges: Mapping[str, Range], left: Sequence[str]
 ) -> dict[str, Range]:
-    """Returns the ranges of the parameters left, cut by those of the fixed ones.
-
-    ``fixed`` has numbers, or polynomials in those left. Raises MethodError if no value is left, or
-    a range does not become one of a single parameter.
-    """
+    """Returns the ranges left, cut by those of ``fixed`` numbers or polynomials, or MethodError."""
     left_ranges = {name: ranges[name] for name in left}
     for name, value in fixed.items():
         least, greatest = ranges[name]
@@ -223,7 +217,6 @@ def solved(
 
 
 def is_linear(p: fmpq_mpoly, ring: Parameters, name: str) -> bool:
-    """Returns whether a polynomial is a number times an unknown plus terms without it."""
     index = ring.names.index(name)
     return p.degrees()[index] == 1 and p.derivative(index).is_constant()
 
@@ -286,7 +279,6 @@ class EveryFamily(Frozen):
 
     @property
     def ring(self) -> Parameters:
-        """The parameters, and unknowns for roots of numbers."""
         return self.family.ring
 
     @property
@@ -305,7 +297,6 @@ class EveryFamily(Frozen):
         return self.printed(self.tableau)
 
     def printed(self, tableau: Tableau) -> Tableau | None:
-        """Returns ``in_points`` of a tableau derived from this one, such as the conjugate."""
         if all(isinstance(x, PointSpace) for x in tableau.spaces):
             return tableau
         if len(self.family.parameters) != len(self.ring.names):
@@ -326,7 +317,6 @@ class EveryFamily(Frozen):
 
     @property
     def lost(self) -> list[fmpq_mpoly]:
-        """The weights that may be zero for some admitted values."""
         poles = factors(self.poles)
         return [p for p in self.weights if p not in poles and self.can_vanish(p)]
 
@@ -362,7 +352,6 @@ class EveryFamily(Frozen):
 
     @cached_property
     def ends(self) -> tuple[RealRoot | None, RealRoot | None]:
-        """The least and the greatest value of a single parameter; None if unbounded."""
         [name] = self.family.parameters
         [inside] = admitted(self.family, name)
         return inside.start, inside.end
@@ -374,7 +363,6 @@ class EveryFamily(Frozen):
         return can_vanish(p, self.ring, self.family.ranges)
 
     def is_number(self, p: fmpq_mpoly) -> bool:
-        """Returns whether a polynomial contains at most roots of numbers."""
         roots = {rule.index for rule in self.ring.rules}
         return {*unknowns_of(p)} <= roots
 
@@ -386,7 +374,6 @@ class EveryFamily(Frozen):
         return p.project_to_context(self.ring.context, {0: 0})
 
     def roots(self, polynomials: Sequence[fmpq_mpoly]) -> list[RealRoot]:
-        """The admitted parameter values at which a polynomial is zero, ascending."""
         return [root for root in roots_of(map(in_one, polynomials)) if self.is_inside(root)]
 
     def where_zero(self, p: fmpq_mpoly) -> EveryFamily | None:
@@ -425,7 +412,6 @@ class EveryFamily(Frozen):
     def samples(
         self, apart: Sequence[fmpq_mpoly] = ()
     ) -> Iterator[tuple[dict[str, fmpq], Tableau]]:
-        """Yields methods with rational parameters, away from zeros of ``apart``."""
         if len(self.family.parameters) != len(self.ring.names):
             return
         choices = [list(self._tried(name)) for name in self.ring.names]

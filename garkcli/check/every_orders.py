@@ -88,7 +88,6 @@ def _place(special: tuple[RealRoot, object]) -> RealRoot:
 def _higher(
     family: EveryFamily, whose: Whose, order: int, start: Ideal, zeros: list[fmpq_mpoly]
 ) -> tuple[FamilyFact, int | None]:
-    """Returns the order with the exceptional values, and the dimension of their set."""
     try:
         with within(SECONDS):
             ideal = start.with_zeros(zeros)
@@ -105,7 +104,6 @@ def _higher(
 
 
 def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoot, int | None]]:
-    """Returns the admitted real solutions with their orders, by the first parameter."""
     real_values = []
     for solution in solutions(ideal):
         order = order_of(family.family, whose, solution)

@@ -26,9 +26,7 @@ MOST_PARTS = 100_000
 
 
 class PrintedNumber(Frozen):
-    """A number of a rounded method: its largest error, its value ``centre`` in the approximate
-    method around which an exact one exists, and the largest distance ``width`` from that.
-    """
+    """A number of a rounded method; an exact one is within ``width`` of its ``centre``."""
 
     printed: fmpq
     radius: fmpq

@@ -104,7 +104,6 @@ def bound_numbers(conditions: Simplifying) -> str:
 
 
 def claim_witness(outcome: Outcome, claim: str) -> Reason:
-    """Returns the reason against a claim; empty if there is none."""
     for made in outcome.claims:
         if made.claim == claim and made.holds is not True and made.reason:
             return made.reason
@@ -338,7 +337,6 @@ def _unmet(outcome: Outcome, claim: Claim) -> Remark:
 
 
 def cure_of_lacks(outcome: Outcome) -> str:
-    """Returns the command that writes the missing claims."""
     keys = (f" --key {key}" for key in outcome.keys_lacking)
     return cure_of("check", "no-claim") + "".join(keys)
 

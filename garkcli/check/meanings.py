@@ -49,8 +49,6 @@ class Meaning(Frozen):
 
 
 class Sense(Frozen):
-    """A kind of words, with their other spellings and a function that gives their meaning."""
-
     names: Mapping[str, tuple[str, ...]]
     mean: Callable[[str], Meaning]
 
@@ -179,11 +177,7 @@ def field_meanings(word: str) -> list[Meaning]:
 
 
 def sentence(text: str) -> str:
-    """Returns a remark as a sentence; a formula at its start keeps its case.
-
-    >>> sentence("zero above the diagonal"), sentence("s = n^2; optimal")
-    ('Zero above the diagonal.', 's = n^2; optimal.')
-    """
+    """Returns a remark as a sentence; a formula at its start keeps its case."""
     begun = text[:1].upper() + text[1:] if re.match(r"[a-z]+\b(?! =)", text) else text
     return begun if begun.endswith(".") else f"{begun}."
 

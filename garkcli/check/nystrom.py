@@ -78,8 +78,6 @@ def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> dense_orders.Ends:
 
 
 class NystromAnalysis(SeveralOrders[NystromOrders, NystromDense]):
-    """The orders of a Nyström method; ``order`` is the smaller one of both components."""
-
     form = "nystrom"
     kind = "a Nyström method"
     claims = frozenset({"order", *VIEWS})

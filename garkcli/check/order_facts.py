@@ -1,6 +1,4 @@
-"""The facts about further weights, and common parts of the analyses of methods that are not GARK
-methods.
-"""
+"""The facts about further weights, and common parts of the analyses of other kinds of methods."""
 
 from __future__ import annotations
 
@@ -158,8 +156,6 @@ class EmbeddedOrders(Frozen, Generic[O]):
 
 
 class SeveralOrders(Shown, Frozen, Generic[O, D]):
-    """The orders of a method that has several kinds of them."""
-
     tableau: Tableau
     orders: O
     limit: int
@@ -208,8 +204,6 @@ class SeveralOrders(Shown, Frozen, Generic[O, D]):
 
 
 class OrderFacts(Shown, Frozen):
-    """The orders of a method that is not a GARK method."""
-
     tableau: Tableau
     order: AnyOrder
     limit: int
@@ -240,7 +234,6 @@ class OrderFacts(Shown, Frozen):
 
     @classmethod
     def besides(cls, method: AnyTableau, limit: int) -> dict[str, Any]:  # noqa: ARG003
-        """Returns further fields of the class, decided after the order."""
         return {}
 
     @property

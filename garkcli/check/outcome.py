@@ -155,9 +155,7 @@ class Outcome(Shown, Frozen):
 
     @property
     def exit_code(self) -> int:
-        """The exit code: 0 if all claims hold, 1 if a claim fails, 2 if the file cannot be read, 3
-        if a claim is undecided and none fails, or if the program failed.
-        """
+        """0 if all claims hold, 1 if one fails, 2 for faults, 3 if undecided or crashed."""
         if not self.is_read:
             return 3 if self.is_crash else 2
         if self.lacks or self.failed_claims:

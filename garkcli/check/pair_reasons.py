@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 
 class PairReason(Frozen):
-    """The consequences of B, C, D and the even condition for the order of the pair."""
-
     order: int | None
     parts: tuple[str, ...]
     is_sharp: bool = True
@@ -138,7 +136,6 @@ MOST_RULES = 150
 
 
 def rule_reasons(analysis: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
-    """Yields whether rules preserve the least pair order of the diagonal methods."""
     tableau = analysis.tableau
     if len(rules) > MOST_RULES:
         yield f"{len(rules)} blocks were not examined for the order (limit {MOST_RULES})"

@@ -27,10 +27,7 @@ COARSEST = -1
 
 
 class RoundingHint(Frozen):
-    """A remark on the digits of a file: its missing tolerance, 10 to the power ``exponent``, or its
-    wrong entry. ``order`` is that which ``of``, b or embedded weights, would have; ``repairs`` are
-    the entries of which one is wrong, with correct values, the smallest changes first.
-    """
+    """A missing tolerance, 10 to ``exponent``, or one of ``repairs``, the smallest first."""
 
     order: int
     of: str = "order"

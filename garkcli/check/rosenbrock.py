@@ -19,11 +19,11 @@ from garkcli.tableau.tableau import Tableau
 
 
 class RosenbrockOrders(order_facts.ClaimedOrders):
-    """The orders of weights at the stages of a Rosenbrock method: with the Jacobian, with any
-    matrix, with one that differs from it by O(h), and on ẏ = f(t, y) with the c and d of the file.
-
-    A rounded ``method`` has a search of its own, refined by each order on DAEs, so that the results
-    are consistent.
+    """The orders with the Jacobian, with any matrix, with one that differs from it by O(h), and on
+    ẏ =
+    f(t, y). A rounded ``method`` has a search of its own, refined by each order on DAEs, so that
+    the
+    results are consistent.
     """
 
     method: AnyTableau

@@ -65,7 +65,6 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
 
 
 def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
-    """Returns the true claims among ``keys`` in YAML, in the order of the documentation."""
     wanted = set(keys)
     claims = {}
     for key in CLAIMS:

@@ -80,7 +80,6 @@ def sum_latex(
 
 
 def root_data(root: RealRoot, digits: int = 17) -> Any:
-    """Returns a root for programs: text, or polynomial and decimal."""
     simple = root_text(root)
     if simple is not None:
         return simple

@@ -41,8 +41,6 @@ def rounded(ball: Any, digits: int = 4) -> str:
 
     >>> rounded(arb(1) / 3), rounded(arb(1, 0.004)), rounded(arb(0, 3e-15)), rounded(arb(0))
     ('0.3333', '1.00', '< 1e-14', '0')
-    >>> rounded(arb(-1).sqrt())
-    'unknown'
     """
     ball = arb(ball)
     if said := _without_digits(ball):
@@ -53,12 +51,8 @@ def rounded(ball: Any, digits: int = 4) -> str:
 def scientific(ball: Any, digits: int = 3) -> str:
     """Returns a few digits with an exponent, so that columns are compared by their ends.
 
-    >>> scientific(arb(2) / 300), scientific(arb(12)), scientific(arb(0))
-    ('6.67e-3', '1.20e1', '0')
-    >>> scientific(arb("9.999e-400"))
-    '1.00e-399'
-    >>> scientific(arb(12, 0.5), 6)
-    '1e1'
+    >>> scientific(arb(2) / 300), scientific(arb("9.999e-400")), scientific(arb(12, 0.5), 6)
+    ('6.67e-3', '1.00e-399', '1e1')
     """
     ball = arb(ball)
     if said := _without_digits(ball):

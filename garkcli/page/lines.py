@@ -9,11 +9,7 @@ _STYLE = "\x1b\\[[0-9;]*m"
 
 
 def numbered(names: Sequence[str]) -> str:
-    """Returns names with their numbers; empty if they are the numbers.
-
-    >>> numbered(["q", "p"]), numbered(["1", "2"])
-    ('1 q, 2 p', '')
-    """
+    """Returns names with their numbers, as ``1 q, 2 p``; empty if they are the numbers."""
     pairs = [(str(k), name) for k, name in enumerate(names, start=1)]
     return ", ".join(map(" ".join, pairs)) if any(k != name for k, name in pairs) else ""
 
@@ -23,11 +19,7 @@ def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
 
 
 def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) -> list[str]:
-    """Returns rows as lines with columns of equal width.
-
-    >>> aligned([["1/2", "-1"], ["0", "1/36"]])
-    ['1/2    -1', '  0  1/36']
-    """
+    """Returns rows as lines with columns of equal width."""
     widths = _widths(rows)
     place = str.rjust if right else str.ljust
     return [gap.join(map(place, row, widths)).rstrip() for row in rows]

@@ -143,12 +143,7 @@ def plain_text(text: str, encoding: str, width: int | None = None) -> str:
 
 
 def broken(line: str, width: int) -> list[str]:
-    r"""Returns a line broken at a gap of two blanks in the right half, or at any blank, or whole.
-
-    >>> print("\n".join(broken("  bound  4 = min{r, 2eta+2}  r = 4, eta = 1", 34)))
-      bound  4 = min{r, 2eta+2}
-          r = 4, eta = 1
-    """
+    r"""Returns a line broken at a gap of two blanks in the right half, at any blank, or whole."""
     indent = len(line) - len(line.lstrip(" "))
     hanging = " " * (indent + HANGING)
     lines: list[str] = []

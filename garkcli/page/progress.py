@@ -257,7 +257,6 @@ class Process:
 
 
 def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
-    """Runs the process until it is ended or its parent is gone."""
     import select
 
     try:

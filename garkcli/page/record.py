@@ -29,14 +29,9 @@ def schema_named(name: str) -> Field[Any]:
 class Record(Generic[Whole]):
     """A JSON object that describes a ``Whole``: its fields in order.
 
-    >>> complex_number: Record[complex] = Record(
-    ...     Field("re", {"type": "number"}, lambda z: z.real),
-    ...     Field("im", {"type": "number"}, lambda z: z.imag or None, is_optional=True),
-    ... )
-    >>> complex_number.data(2 + 0j)
-    {'re': 2.0}
-    >>> complex_number.schema["required"]
-    ['re']
+    >>> real: Record[complex] = Record(Field("re", {"type": "number"}, lambda z: z.real))
+    >>> real.data(2 + 1j), real.schema["required"]
+    ({'re': 2.0}, ['re'])
     """
 
     def __init__(self, *fields: Field[Whole], is_open: bool = False) -> None:

@@ -13,20 +13,12 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def inert(text: str) -> str:
-    r"""Returns text with the lines escaped that GitHub Actions would take for commands.
-
-    >>> print(inert("::error::no"))
-    \x3a:error::no
-    """
+    r"""Returns text with the lines escaped that GitHub Actions would take for commands."""
     return re.sub(_OLD_COMMAND, r"#\\x23", re.sub(_COMMAND, r"\1\\x3a", text, flags=re.MULTILINE))
 
 
 def csv_cell(text: str) -> str:
-    """Returns a name as a CSV cell that is never a formula; numbers are unchanged.
-
-    >>> csv_cell("=1+1"), csv_cell("-1.5e-3")
-    ("'=1+1", '-1.5e-3')
-    """
+    """Returns a name as a CSV cell that is never a formula; numbers are unchanged."""
     if not text.startswith(_FORMULA):
         return text
     try:

@@ -1,7 +1,6 @@
-"""A tableau as LaTeX arrays in the layout of the paper.
-
-A partitioned method has two arrays, Q and P, as in eq. (psymplecticGARK), each with the stages at
-which its part is computed and the weights that update it.
+"""A tableau as LaTeX arrays in the layout of the paper: Q and P, as in eq. (psymplecticGARK), for
+the
+stages and weights of both parts of a partitioned method.
 """
 
 from __future__ import annotations

@@ -49,12 +49,7 @@ def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker
 
 
 def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
-    """Returns a problem split into ``terms`` terms, with stiffness 1 by default. Raises
-    UsageProblem if it is unknown or has no stiffness.
-
-    >>> problem("van-der-pol", 2, stiffness=fmpq(1000)).terms[0]
-    (z, 0)
-    """
+    """Returns a problem split into ``terms``; UsageProblem if unknown or without stiffness."""
     entry = built_in(name)
     if stiffness is None:
         return entry.make(terms, seed)
@@ -72,12 +67,7 @@ def check_stiffness(name: str) -> None:
 
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
-    """Returns a Hamiltonian problem split into ``terms`` terms; ``seed`` is for random
-    coefficients. Raises UsageProblem if it is unknown or not Hamiltonian.
-
-    >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
-    ['px**2/2', '1 - cos(x)']
-    """
+    """Returns a Hamiltonian problem in ``terms``; UsageProblem if unknown or not Hamiltonian."""
     made = built_in(name).make(terms, seed)
     if not isinstance(made, Hamiltonian):
         message = f"{name} is not Hamiltonian"
@@ -86,7 +76,6 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
 
 
 def built_in(name: str) -> BuiltIn:
-    """Raises UsageProblem if there is no such problem."""
     if name not in PROBLEMS:
         message = f"no problem {name!r}"
         raise UsageProblem(message, did_you_mean(name, tuple(PROBLEMS)), code="unknown-word")

@@ -25,7 +25,8 @@ _record: ContextVar[Record | None] = ContextVar("record", default=None)
 
 class Deferred(Sequence[Expr]):
     """Several sympy expressions, made on first use. Equal names mean equal expressions; a name
-    begins with that of the problem and a blank. ``total`` is their sum, if it has a name.
+    begins with
+    that of the problem and a blank. ``total`` is their sum, if it has a name.
     """
 
     def __init__(
@@ -107,7 +108,6 @@ def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
 
 
 def recorded(work: Callable[[], object]) -> Record:
-    """Returns all questions of ``work``, with new answers by sympy."""
     record: Record = {}
     token = _record.set(record)
     try:

@@ -108,9 +108,7 @@ _Term = Callable[[Exprs, Exprs], Expr]  # of positions and momenta
 
 
 def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
-    """Σ_k c_k (1 + a_k·y)^8 in q, p, or both. Powers of linear forms span all polynomials; with
-    three no derivative vanishes, and they are cheap to evaluate.
-    """
+    """Σ_k c_k (1 + a_k·y)^8: powers span all polynomials; with three no derivative vanishes."""
     forms = _forms(draw, len(groups) * len(VARIABLES), 1, 1600 * terms)
 
     def make(q: Exprs, p: Exprs) -> Expr:

@@ -53,7 +53,6 @@ class Equations(Frozen):
 
 
 def candidates(L: Expr, equations: Equations) -> list[SolvedVelocities]:
-    """Returns candidates for solutions of the equations, some of which are wrong."""
     if equations.are_linear:
         return [_by_elimination(equations)]
     solved = _by_form(L, equations)
@@ -130,7 +129,6 @@ def _of_form(
 
 
 def _form(L: Expr, a: Expr, v: Vector) -> _QuadraticForm | None:
-    """Returns L as a function of its part ``a`` and linear terms in all velocities, or None."""
     import sympy
 
     moving = set(v)
@@ -335,8 +333,8 @@ def initial_momenta(
     lagrangians: Vector, hamiltonians: Vector, variables: tuple[str, ...], start: Place
 ) -> list[arb]:
     """Returns the p(0) for which q̇(0) is the given velocity, shape (d,): ∂L/∂q̇ for one term with
-    velocities, else the solution of q̇ = Σ_l ∂H^{l}/∂p. Raises NoLegendreTransform if several terms
-    have velocities, and not all are quadratic in them.
+    velocities, else the solution of q̇ = Σ_l ∂H^{l}/∂p, NoLegendreTransform unless all are
+    quadratic.
     """
     v, p = velocities(variables), symbols(variables, "p")
     moving = [L for L in lagrangians if L.free_symbols & set(v)]

@@ -53,7 +53,6 @@ def differentiated(L: Expr, variables: tuple[str, ...], start: Place) -> Lagrang
 
 
 def coupled(M: ExprMatrix) -> list[list[int]]:
-    """Sets of velocities that are coupled by entries of M, sorted."""
     after: dict[int, list[int]] = {}
     for i, row in enumerate(M):
         after[i] = []
@@ -64,9 +63,7 @@ def coupled(M: ExprMatrix) -> list[list[int]]:
 
 
 def inverse_of(M: ExprMatrix, names: Vector, start: Place) -> tuple[list[list[Expr]], Expr]:
-    """The inverse of a symmetric matrix as adjugate and determinant, or inverse and 1. Raises
-    NoLegendreTransform if the determinant is zero, or may be zero at the start.
-    """
+    """Returns adjugate and determinant, or inverse and 1; NoLegendreTransform if singular."""
     import sympy
 
     singular = NoLegendreTransform(

@@ -1,6 +1,4 @@
-"""Problems H = T + V, split into terms: the kinetic energy first, then a part of the potential each
-if the numbers fit, otherwise equal shares.
-"""
+"""Problems H = T + V in terms: T first, then parts of V if these fit, or equal shares."""
 
 from __future__ import annotations
 

@@ -110,8 +110,7 @@ def terms_of(tableau: Tableau) -> int:
 
 
 def parse_shares(text: str, terms: int) -> Shares:
-    """Parses ``kinetic:potential`` for each term, separated by commas. Raises UsageProblem for a
-    wrong number of pairs, numbers that are not rational, or a column that does not sum to 1.
+    """Parses ``kinetic:potential`` for each term; UsageProblem unless both columns sum to 1.
 
     >>> parse_shares("1:0, 0:1/2, 0:1/2", 3)
     ((1, 0), (0, 1/2), (0, 1/2))
@@ -153,9 +152,7 @@ def _share(text: str) -> fmpq:
 
 
 def check_structure(tableau: Tableau, problem: Oscillator) -> None:
-    """Raises UsageProblem unless each share has a colour that drives it, and the stages of colour l
-    see colour m if L^l L^m ≠ 0.
-    """
+    """Raises UsageProblem unless shares are driven, and l sees m if L^l L^m ≠ 0."""
     terms = terms_of(tableau)
     if len(problem.shares) != terms:
         message = f"the split has {len(problem.shares)} terms, the method {terms}"

@@ -1,6 +1,4 @@
-"""Right-hand sides ẏ = Σ_l f^{l}(t, y), one for each colour: problems that need not be Hamiltonian.
-No text is ever evaluated.
-"""
+"""Right-hand sides ẏ = Σ_l f^{l}(t, y), one for each colour. No text is ever evaluated."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
-"""Straight-line Python for sympy expressions, in floats or in balls of any precision.
-
-An expression is written node by node, common subexpressions once. All names in the text are made
-here, so that no text of a file is part of a program.
+"""Straight-line Python for sympy expressions, in floats or in balls of any precision. All names in
+the
+text are made here, so that no text of a file is part of a program.
 """
 
 from __future__ import annotations
@@ -40,10 +39,7 @@ BALLS: Mapping[str, Any] = {
 
 
 class StraightLineCode(Frozen):
-    """Straight-line code for several expressions of the same arguments: texts with ``{a0}``, … for
-    these, ``{t0}``, … for temporaries in terms of earlier ones, and ``{k0}``, … for constants,
-    rational or None for π.
-    """
+    """Texts with ``{a0}``, … for arguments, ``{t0}`` temporaries, ``{k0}`` constants (None is π)."""
 
     arguments: int
     temporaries: tuple[str, ...]
@@ -52,7 +48,6 @@ class StraightLineCode(Frozen):
     is_for_balls: bool
 
     def lines(self, arguments: Sequence[str], prefix: str) -> tuple[list[str], list[str]]:
-        """Assignments to names with a prefix, and the names of the results."""
         names: dict[str, str] = {f"a{i}": name for i, name in enumerate(arguments)}
         for i in range(len(self.temporaries)):
             names[f"t{i}"] = f"{prefix}t{i}"

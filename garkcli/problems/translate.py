@@ -1,6 +1,4 @@
-"""Translates formulas to sympy expressions node by node: text from a file never reaches sympy. The
-results are real and differentiable.
-"""
+"""Translates formulas to sympy node by node: text never reaches sympy; no result has kinks."""
 
 from __future__ import annotations
 

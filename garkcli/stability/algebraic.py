@@ -34,14 +34,14 @@ class AlgebraicStability(Frozen):
 
 
 def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
-    """Whether a method is algebraically stable; None if a block is missing, that is no zero block:
-    without the coupling there is no contractivity to inherit.
+    """Whether a method is algebraically stable; None if a block is missing, which is no zero block:
+    without
+    the coupling there is no contractivity to inherit.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
-    >>> found = algebraic_stability(gark([diagonal_method("lobatto-iiia", 2)], {}))
-    >>> found.weights_are_positive, found.form_is_positive
-    (True, False)
+    >>> algebraic_stability(gark([diagonal_method("lobatto-iiia", 2)], {}))
+    AlgebraicStability(weights_are_positive=True, form_is_positive=False)
     """
     tableau.demand_fields("algebraic stability")
     if len(list(tableau.edges())) < tableau.size**2:

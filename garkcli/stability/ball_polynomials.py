@@ -17,7 +17,7 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
 
 MOST_PIECES_OF_UNIT = 4000
-"""Then a sign is undecided."""
+"""Most pieces on which a sign is tried."""
 
 
 def both(first: bool | None, second: bool | None) -> bool | None:
@@ -153,7 +153,6 @@ def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
 
 
 def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
-    """The end of the interval from 0 on which the polynomial is seen to be positive."""
     ends = [fmpq(0), *(fmpq(2) ** k for k in range(FARTHEST))]
     pieces = [(low, high, 0) for low, high in pairwise(ends)][::-1]
     tried = 0
@@ -173,7 +172,6 @@ def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
 
 
 def _bounded_behind(p: arb_poly, low: fmpq) -> Bounds:
-    """Bounds from the nearest negative point found beyond ``low``."""
     distance = fmpq(1, 2**FINEST)
     for _ in range(MOST_TRIES):
         high = low + distance

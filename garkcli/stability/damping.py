@@ -176,7 +176,6 @@ class ImexPair(Frozen):
 
 
 def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
-    """Returns the explicit and the implicit colour of a method with two, or None."""
     explicit = explicit_colour(tableau)
     if explicit is None or R is None:
         return None
@@ -225,7 +224,6 @@ def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
 
 
 def _on_axis(p: Multivariate, axis: int) -> Polynomial:
-    """A polynomial in (a, b) on half of an axis: a = −x, b = 0, or a = 0, b = x."""
     direction = [-ONE, ZERO]
     if axis:
         direction = [ZERO, ONE]

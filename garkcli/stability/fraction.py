@@ -62,13 +62,12 @@ def lines_needed(tableau: Tableau) -> int:
 
 
 def stability_fraction(tableau: Tableau) -> Fraction | None:
-    """R(z_1, …, z_N); None if it needs more than ``MOST_LINES`` lines. Every used stage sees every
-    colour.
+    """R(z_1, …, z_N), for stages that see all colours; None if it needs more than ``MOST_LINES``
+    lines.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
-    >>> midpoint = gark([diagonal_method("gauss", 1)], {})
-    >>> stability_fraction(midpoint).denominator.terms
+    >>> stability_fraction(gark([diagonal_method("gauss", 1)], {})).denominator.terms
     (((1,), -1/2), ((0,), 1))
     """
     if lines_needed(tableau) > MOST_LINES:
@@ -105,11 +104,11 @@ def _direction(point: Sequence[int], offset: int) -> list[Number]:
 
 
 def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None:
-    """P/Q in lowest terms from the quotients on lines; None if a line is special.
-
-    Except on special lines the denominators in lowest terms have one degree. The interpolated
-    fraction is multiplied out, so it is right or rejected. Its denominator has the least possible
-    degree, which is not less than on a line.
+    """P/Q in lowest terms from the quotients on lines; None if a line is special, else the
+    denominators
+    there have one degree. The interpolated fraction is multiplied out, so it is right or rejected.
+    Its
+    denominator has the least possible degree, which is not less than on a line.
     """
     axes = Q.variables - 1
     over = {}

@@ -63,14 +63,7 @@ class PhaseError(Frozen):
 
 
 class OscillatorStability(Frozen):
-    """The stability of a method on the oscillator.
-
-    Attributes:
-        step: M(z), in the variables (ωq, p).
-        determinant: det M as a function of x.
-        discriminant: 4D² − N² for tr M = N/D, in x; decides if det M = 1.
-        stable: the x ≥ 0 for which all powers of M are bounded, as intervals.
-    """
+    """The stability of a method on the oscillator; ``discriminant`` is 4D² − N² for tr M = N/D."""
 
     step: StepFunction
     trace: Ratio
@@ -111,9 +104,7 @@ class OscillatorStability(Frozen):
 
 
 def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
-    """Returns the stability on q̈ = −ω²q for every step size, with the split of ``problem``. Raises
-    UsageProblem if that does not suit the tableau.
-    """
+    """Raises UsageProblem if the split of ``problem`` does not suit; its frequency is ignored."""
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
     return analysed(tableau, [unit.matrix(colour) for colour in tableau.colours])
@@ -148,9 +139,7 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
 
 
 def _even(p: Polynomial) -> Polynomial:
-    """A polynomial in z with even powers only, in x = z². The fields exchange ωq and p, so
-    reflecting ωq replaces z by −z and keeps traces and determinants.
-    """
+    """A polynomial in x = z²: with −z for z the field with ωq reflected has the same trace."""
     assert not any(p.coefficients[1::2])
     return Polynomial(p.coefficients[::2])
 

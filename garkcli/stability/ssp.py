@@ -32,9 +32,7 @@ class SspCoefficient(Frozen):
 
 
 class AdditiveRadius(Frozen):
-    """The largest ``radius`` r with (r q_1, …, r q_N) in the region of absolute monotonicity for
-    the direction q_l ≥ 0 of ``ratios``; None if undecided.
-    """
+    """The largest ``radius`` r with (r q_1, …, r q_N) in the region, q_l ≥ 0; None if undecided."""
 
     ratios: tuple[Number, ...]
     radius: SspCoefficient | None
@@ -43,14 +41,13 @@ class AdditiveRadius(Frozen):
 def ssp_coefficient(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
-    """Returns the SSP coefficient; None if the stages have no simple nodes or a block is missing.
-    ``shares`` are r_l / r for each colour, by default 1; colours with 0, and their own stages, drop
-    out.
+    """Returns the SSP coefficient; None without simple nodes or a block. ``shares`` are r_l / r, by
+    default
+    1; colours with 0, and their own stages, drop out.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
-    >>> found = ssp_coefficient(gark([diagonal_method("ssp2", 2)], {}))
-    >>> found.value.exact
+    >>> ssp_coefficient(gark([diagonal_method("ssp2", 2)], {})).value.exact
     1
     """
     part, ratios = driven_part(tableau, shares or [ONE] * tableau.size)
@@ -151,7 +148,6 @@ def _conditions(
 def _entries(
     denominator: Polynomial, minus_whole: Matrix, vector: Sequence[Number], n: int
 ) -> list[Polynomial]:
-    """The numerators of (I + rK)⁻¹ v."""
     series: list[list[Number]] = [[] for _ in range(n)]
     state = tuple(vector)
     for _ in range(n + 1):

@@ -32,18 +32,17 @@ if TYPE_CHECKING:
 
 
 class Colours(Frozen):
-    """The joint stability of several colours.
+    """The joint stability of several colours; ``late`` attributes exceeded the time limit.
 
     Attributes:
         R: R(z_1, …, z_N); None if too large, or late.
         lines: the number of lines that determine it.
-        radii: points on the boundary of the region of absolute monotonicity; empty if late, or for
-            linear problems only.
-        pair: the method as an implicit-explicit pair; None if it is none, or R is late.
+        radii: points on the boundary of the region of absolute monotonicity; empty if late or
+            linear.
+        pair: as an implicit-explicit one; None if it is none, or R is late.
         explicit_alone: R of the explicit colour, or of the first one without a pair.
         real: the z_E ≤ 0 with every z_I damped; None without a pair, or undecided.
         imaginary: the z_E on the imaginary axis with every z_I damped.
-        late: the attributes that exceeded the time limit.
     """
 
     names: tuple[str, ...]
@@ -123,8 +122,7 @@ class AtPoint(Frozen):
 
 
 class LinearStability(Frozen):
-    """The results from a stability function R(z); None if rounding or the time limit leaves one
-    open.
+    """The results from a stability function R(z); None if rounding or time leaves one open.
 
     Attributes:
         name: the driven colours: ``all``, one with the others at 0, or ``embedded`` weights of all.
@@ -138,8 +136,7 @@ class LinearStability(Frozen):
         within: the results for rounded coefficients; None for exact ones.
         ssp: the SSP coefficient, the other vector fields being 0; None if undecided.
         late: the attributes that exceeded the time limit.
-        is_linear_alone: whether R describes linear problems only, as for a Rosenbrock method; then
-            there is no SSP coefficient.
+        is_linear_alone: whether R is for linear problems only, without SSP coefficient.
         points: R at given points.
 
     >>> from garkcli import find_stability
@@ -180,18 +177,16 @@ class Stability(Shown, Frozen):
 
     Attributes:
         tableau: the method.
-        linear: R for all colours together, then for each alone where there are several; empty if
-            colours drive positions or momenta only, or are not coupled.
+        linear: R for all colours together, then for each alone; empty if colours drive positions or
+            momenta only, or are not coupled.
         oscillator: the method on the harmonic oscillator; None if it has no split.
         algebraic: algebraic stability; None if it is not defined.
         tolerance: the rounding within which it holds; None for exact methods.
         colours: each with a z of its own; None for one colour or rounded ones.
-        algebraic_within: algebraic stability of the method that a rounded one is taken to mean;
-            None if undecided.
+        algebraic_within: algebraic stability of the method that a rounded one means, or None.
         late: the attributes that exceeded the time limit; they are None.
         is_linear_alone: whether it is about linear problems only.
-        embedded: R̂ for all colours together; None without embedded weights, or if ``linear`` is
-            empty.
+        embedded: R̂ for all colours together; None without embedded weights or ``linear``.
 
     >>> from garkcli import find_stability
     >>> find_stability("radau-iia-2")
@@ -217,7 +212,6 @@ class Stability(Shown, Frozen):
 
     @property
     def of_linear_problems(self) -> Stability:
-        """The result without statements about nonlinear problems."""
         linear = tuple(replace(x, ssp=None, is_linear_alone=True) for x in self.linear)
         colours = self.colours
         if colours is not None:
@@ -247,10 +241,7 @@ def stability(
     seconds: float | None = SECONDS,
     embedded: Tableau | None = None,
 ) -> Stability:
-    """Returns all results for an exact method. After ``seconds`` of processor time the rest stays
-    undecided, NotDecided if R does; ``ratios`` are r_2/r_1 of further SSP radii; ``embedded`` has
-    those weights as b.
-    """
+    """Returns all results for an exact method, as far as time allows; NotDecided if R is late."""
     late: set[str] = set()
     with spending(seconds):
         linear = [linear_stability(tableau, *direction) for direction in directions(tableau)]

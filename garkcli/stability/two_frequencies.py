@@ -29,8 +29,6 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 
 class SplitSprings(Frozen):
-    """The shares of the kinetic energy and of both springs in each term."""
-
     kinetic: tuple[fmpq, ...]
     slow: tuple[fmpq, ...]
     fast: tuple[fmpq, ...]
@@ -70,9 +68,7 @@ class TwoFrequencies(Frozen):
 
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:
-    """The fast spring for one term, the slow one for the others with potential energy; all kinetic
-    energy is in the first. Raises UsageProblem if no term is left for the slow spring.
-    """
+    """The fast spring for one term, the slow one for others with forces, or UsageProblem."""
     terms = terms_of(tableau)
     if terms < 2:
         message = "a method of one term has no two colours for two springs"
@@ -127,9 +123,7 @@ def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> l
 
 
 def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
-    """D = det(I − W) and the entries of D · M, as polynomials in (a, x), in which W is linear:
-    their total degree is at most its size. Raises UsageProblem if the split does not suit.
-    """
+    """D = det(I − W), entries of D · M in (a, x), of total degrees at most the size of W."""
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)
     points = list(lattice(2, degree))
@@ -157,7 +151,6 @@ def _reduced(
 
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:
-    """An oscillator with the same terms in use, to check the structure."""
     terms = zip(split.kinetic, split.slow, split.fast, strict=True)
     return Oscillator(ONE, tuple((kinetic, (slow + fast) / 2) for kinetic, slow, fast in terms))
 

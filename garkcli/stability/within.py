@@ -133,12 +133,7 @@ def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> li
 
 
 class StabilityWithin(Frozen):
-    """Stability of a rounded method; None for undecided.
-
-    Attributes:
-        real: the end of the interval of −z with |R(z)| ≤ 1 that begins at 0.
-        imaginary: the end of the interval of y² with |R(iy)| ≤ 1 that begins at 0.
-    """
+    """Stability of a rounded method, None for undecided; bounds of −z and y² from 0 on."""
 
     a_stable: bool | None
     l_stable: bool | None

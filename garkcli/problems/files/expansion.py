@@ -52,7 +52,6 @@ def _terms(f: Expr, v: Expr) -> int:
 
 
 Size: TypeAlias = tuple[int, int]
-"""The number of terms and the exponent of a factor."""
 Factors: TypeAlias = Mapping[Expr, Size]
 
 
@@ -110,7 +109,6 @@ def _integer_power(f: Expr, base: _Fraction, inside: int) -> _Fraction:
 
 
 def _missing(all_factors: Factors, factors: Factors) -> int:
-    """Returns the number of terms of a denominator divided by some of its factors."""
     sizes = all_factors.items()
     return prod(_power(size, power - factors.get(x, (size, 0))[1]) for x, (size, power) in sizes)
 

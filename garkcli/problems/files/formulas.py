@@ -38,9 +38,7 @@ class FormulaReader(Mutable):
     def parsed(
         self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
-        """Returns the expression of a text; None after a fault. ``names`` maps names to "", or to
-        the cure if they are not allowed here; None allows all, and parameters always are.
-        """
+        """Returns None after a fault; ``names`` maps those not allowed to a cure, others to ""."""
         if is_null(node):
             message = f"{where}: nothing is here"
             self.source.fault(node, message, "write a formula", code="empty")
@@ -93,7 +91,6 @@ class FormulaReader(Mutable):
         return Translator({**self.made, **symbols}, self.values)
 
     def read_parameters(self, node: Node | None) -> None:
-        """Reads ``parameters``; each may use those before it."""
         entries = {} if node is None else self.source.mapping(node, "parameters", ())
         for name, value_node in entries.items():
             where = f"parameters: {unquoted(name)}"

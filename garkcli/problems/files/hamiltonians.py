@@ -23,8 +23,6 @@ _GOOD = 10.0**-texts.PLACES  # the radius of momenta that may count as the start
 
 
 class HamiltonianMaker(texts.Maker):
-    """Makes the problem of a file with ``hamiltonian`` or ``lagrangian``."""
-
     def __init__(self, formulas: texts.FormulaReader, text: ProblemText) -> None:
         from garkcli.problems.mass import velocities
         from garkcli.problems.vectorfield import symbols

@@ -17,7 +17,6 @@ from garkcli.problems.vectorfield import TIME
 DEFAULT_T_END = fmpq(2)
 STIFFNESS = "stiffness"
 Side: TypeAlias = tuple[tuple[str, Node, str], ...]
-"""The right-hand sides of a term: variable, formula, and its name in messages."""
 Sides: TypeAlias = tuple[Side, ...]
 
 

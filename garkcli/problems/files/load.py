@@ -29,20 +29,13 @@ _ANOTHER = "choose another name"
 
 
 def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
-    """Reads a problem file, or standard input for ``-``, with the ``stiffness`` given. Raises
-    MethodFileError with all faults.
-    """
+    """Reads a problem file, or standard input for ``-``; MethodFileError with all faults."""
     with doing(f"reading {path}"):
         return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
 
 
 def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = None) -> Problem:
-    """Reads the text of a problem file as ``load_problem`` does.
-
-    >>> text = "{variables: [x], hamiltonian: px**2/2 - cos(x), initial: {x: 1, px: 0}}"
-    >>> loads_problem(text).energy
-    px**2/2 - cos(x)
-    """
+    """Reads the text of a problem file as ``load_problem`` does."""
     reading = Source(source, text, PROBLEM_FILE)
     reader = _ProblemReader(reading, stiffness)
     read = reader.read()
