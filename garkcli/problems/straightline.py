@@ -39,7 +39,7 @@ BALLS: Mapping[str, Any] = {
 
 
 class StraightLineCode(Frozen):
-    """Texts with ``{a0}``, … for arguments, ``{t0}`` temporaries, ``{k0}`` constants (None is π)."""
+    """Texts with ``{a0}``, … arguments, ``{t0}`` temporaries, ``{k0}`` constants, None for π."""
 
     arguments: int
     temporaries: tuple[str, ...]
