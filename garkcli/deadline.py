@@ -1,9 +1,7 @@
 """Time limits: ``with within(seconds):`` holds for all work inside, in which loops call
-``check_time``.
-A call in C cannot be interrupted; ``garkcli.exact.apart`` does large ones in another process.
-Limits
-that users set are by the clock; default ones are of processor time, so a busy machine decides no
-less.
+``check_time``. A call in C cannot be interrupted; ``garkcli.exact.apart`` does large ones in
+another process. Limits that users set are by the clock; default ones are of processor time, so a
+busy machine decides no less.
 """
 
 from __future__ import annotations

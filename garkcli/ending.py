@@ -1,7 +1,6 @@
 """Ends runs on signals: at once, or after cleaning up. Python hears of a signal between two of its
-own
-steps, and a call in C may go on for minutes. So the system ends the run, and Python handles signals
-only where there is something to undo: half-written files, processes that work for this one.
+own steps, and a call in C may go on for minutes. So the system ends the run, and Python handles
+signals only where there is something to undo: half-written files, processes that work for this one.
 """
 
 from __future__ import annotations
@@ -44,9 +43,8 @@ _run: ContextVar[_RunningWork | None] = ContextVar("run", default=None)
 @contextmanager
 def at_once() -> Iterator[None]:
     """Lets signals, unless ignored (``nohup``) or handled, end the process by themselves inside,
-    except
-    inside ``undone``. Windows has an exit code of its own for interrupts, so Python handles them
-    there.
+    except inside ``undone``. Windows has an exit code of its own for interrupts, so Python handles
+    them there.
     """
     by_system = hasattr(signal, "SIGHUP")
     inside = signal.SIG_DFL if by_system else signal.default_int_handler

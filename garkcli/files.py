@@ -46,8 +46,8 @@ def is_stream(path: str) -> bool:
 
 def read_bytes(path: str, most: int) -> bytes:
     """At most ``most`` bytes and one more. Other devices and pipes are not opened, as they may
-    never end
-    or begin: NotAFile. OSError if it cannot be read, ValueError if no file has such a name.
+    never end or begin: NotAFile. OSError if it cannot be read, ValueError if no file has such a
+    name.
     """
     note_input(path)
     if path == STDIN:

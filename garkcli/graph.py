@@ -39,8 +39,7 @@ def components(after: Edges[T]) -> list[list[T]]:
 
 def solving_order(needs: Edges[T], places: Mapping[T, int]) -> list[T]:
     """Every vertex after those that it needs; strongly connected ones stay together. Of ready
-    vertices the
-    smallest place comes first, equal ones in the given order.
+    vertices the smallest place comes first, equal ones in the given order.
 
     >>> needs = {"a": ["c"], "b": [], "c": ["d"], "d": ["c"]}
     >>> solving_order(needs, {vertex: number for number, vertex in enumerate(needs)})

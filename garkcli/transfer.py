@@ -1,7 +1,7 @@
 """Off-diagonal blocks from diagonal methods, "Some techniques to construct the transfer matrices".
-A
-stage vector of m is lifted to its polynomial of degree < s_m and reduced to the stages of l. Rules
-return A^{l,m}, shape (s_l, s_m); CoincidingNodes for nodes of m, BlockTooLarge beyond ``MAX_WORK``.
+A stage vector of m is lifted to its polynomial of degree < s_m and reduced to the stages of l.
+Rules return A^{l,m}, shape (s_l, s_m); CoincidingNodes for nodes of m, BlockTooLarge beyond
+``MAX_WORK``.
 """
 
 from __future__ import annotations

@@ -28,8 +28,7 @@ def from_arrays(
 
     Args:
         A: the matrix, shape (s, s); the rows of a triangle may end at the diagonal or before it,
-            and
-            an explicit method may lack the last column. For N colours N rows of N blocks, shape
+            and an explicit method may lack the last column. For N colours N rows of N blocks, shape
             (s_l, s_m), None if colour l does not depend on m; or a mapping of pairs (l, m), counted
             from 1, to blocks.
         b: the weights, length s; for N colours a row each, or a mapping of colours to rows.

@@ -33,8 +33,7 @@ def find_order(
     method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> AnyOrder:
     """The order of a method: exactly, or within its tolerance. The conjugate and the pair of a
-    rounded
-    method have the orders in ``analyse``: their coefficients inherit the rounding.
+    rounded method have the orders in ``analyse``: their coefficients inherit the rounding.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -195,9 +194,8 @@ def symplectic_pair(
     method: AnyMethod, velocities: Iterable[Whole], forces: Iterable[Whole]
 ) -> GarkMethod:
     """The pair (Q, P) for the vector fields V^l, l in ``velocities``, and F^l, l in ``forces``,
-    which share
-    their stages: {1} and {1, 2} for semi-separable problems, {1} and {2} for separable ones, eqs.
-    (varGARK).
+    which share their stages: {1} and {1, 2} for semi-separable problems, {1} and {2} for separable
+    ones, eqs. (varGARK).
 
     Args:
         method: whatever ``method_of`` takes.

@@ -31,9 +31,9 @@ def stepped(
 ) -> tuple[Tableau, AnyProblem | None, int | None]:
     """Returns the tableau that takes the steps, the problem, and the order unless it is that of the
     tableau. A Nyström method solves q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as
-    one
-    whose two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) + f₂(y).
-    Raises UsageProblem unless the problem is q″ = g(q, q′), without q′ if the method is for that.
+    one whose two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) +
+    f₂(y). Raises UsageProblem unless the problem is q″ = g(q, q′), without q′ if the method is for
+    that.
     """
     if is_nprk(tableau):
         made = additive(tableau)

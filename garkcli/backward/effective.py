@@ -30,7 +30,6 @@ from garkcli.exact.span import leading_columns
 from garkcli.frozen import Frozen
 
 MAX_ENTRIES = 5_000_000
-"""Most entries of a linear system that is examined."""
 MAX_SOLVED = 1_000_000
 """Most entries of a system that is solved; for larger ones only solvability is decided."""
 

@@ -37,7 +37,6 @@ ROWS = 5
 """Number of step sizes; up to ``MAX_ROWS`` if the slopes have not settled."""
 MAX_ROWS = 7
 MAX_STEPS = 20_000
-"""Most steps of one row."""
 _DIGITS = 30  # of the first look
 _MOST_DIGITS = 200
 _SPARE = 15  # digits of the smallest error
@@ -122,7 +121,6 @@ def slopes_have_settled(rows: Sequence[StepSizeRow]) -> bool:
 
 
 def _places(x: arb) -> int:
-    """The approximate number of zeros after the point of a small positive number."""
     mantissa, exponent = x.mid().man_exp()
     bits = mantissa.bit_length() + int(exponent)
     return max(0, round(-bits * log10(2)))
@@ -203,12 +201,10 @@ def modified_run(
     t_end: fmpq | None = None,
     longest: fmpq | None = None,
 ) -> ModifiedRun:
-    """Measures the error of a symplectic method on ``problem`` in its modified Hamiltonian.
-
-    The problem is in as many terms as the tableau has, or in one with a natural split. Powers of h
-    go up to one less than ``max_order``; ``longest`` bounds the step size. Raises UsageProblem if
-    the method is not symplectic or not consistent, or there are too many trees or steps; StepFailed
-    if a step was not solved.
+    """Measures the error of a symplectic method on ``problem`` in its modified Hamiltonian, with
+    powers of h up to one less than ``max_order`` and steps up to ``longest``. Raises UsageProblem
+    if the method is not symplectic or consistent, or for too much work; StepFailed if a step was
+    not solved.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau
@@ -247,7 +243,6 @@ def modified_run(
 
 
 def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
-    """The powers of h whose formulas are not constant, H first."""
     powers, formulas = [], []
     for term in formula.terms:
         (expression,) = term.formulas

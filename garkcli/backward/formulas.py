@@ -94,12 +94,9 @@ class Differentials:
 
 
 class VisibleTrees(Frozen):
-    """A tableau with few trees, among them all that a problem sees.
-
-    Attributes:
-        tableau: with two terms for H^{l} = T(p) + U(q), as ∂H^{l}/∂p is that of T.
-        energies: H^{l} of its terms; both parts of a divided term have all of it.
-        structure: of the Hamiltonians of its colours; None if roots cannot move.
+    """A tableau with few trees, among them all that a problem sees: with two terms for H^{l} = T(p)
+    + U(q), as ∂H^{l}/∂p is that of T, and all of H^{l} in ``energies``. ``structure`` is None if
+    roots cannot move.
     """
 
     tableau: Tableau
@@ -151,7 +148,6 @@ def _with_linear_fields(bound: Binding) -> Tableau:
 MAX_OPERATIONS = 20_000
 """Most operations of a formula that is expanded."""
 MAX_SUMMANDS = 100_000
-"""Most summands of a formula that is expanded, before like ones are collected."""
 
 
 class PowerTerm(Frozen):

@@ -39,7 +39,6 @@ class ModifiedEquation(Frozen):
         return ZERO if number is None else self.coefficients[number]
 
     def terms(self, order: int) -> Iterator[tuple[Tree, Number]]:
-        """The trees of one order with nonzero coefficients."""
         for number in self.forest.of_order(order):
             if self.coefficients[number]:
                 yield self.forest.trees[number], self.coefficients[number]
@@ -56,7 +55,6 @@ class ModifiedEquation(Frozen):
 
     @cached_property
     def order(self) -> int:
-        """The order of the method, at most ``max_order``."""
         for n in range(1, self.max_order + 1):
             if any(True for _ in self.residuals(n)):
                 return n - 1

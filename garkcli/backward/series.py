@@ -48,10 +48,8 @@ class Forest(Frozen):
     edges.
 
     >>> forest = Forest.of(Admissible.of(1), 4)
-    >>> [len(forest.of_order(n)) for n in range(1, 5)]
-    [1, 1, 2, 4]
-    >>> forest.cuts[2]
-    (Cut(rest=1, branch=0, times=2),)
+    >>> [len(forest.of_order(n)) for n in range(1, 5)], forest.cuts[2]
+    ([1, 1, 2, 4], (Cut(rest=1, branch=0, times=2),))
     """
 
     admissible: Admissible
@@ -143,7 +141,6 @@ class _Cutter(Mutable):
 
 
 def possible_order(tableau: Tableau, order: int) -> int:
-    """The largest order up to ``order`` with few enough trees."""
     too_many = _first_beyond_limit(coupling_graph(tableau), order)
     if too_many is None:
         return order

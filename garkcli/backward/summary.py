@@ -75,13 +75,12 @@ def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None
 ) -> BackwardAnalysis:
     """The backward analysis with trees of up to ``max_order`` vertices; with a ``tolerance`` of the
-    method that the digits mean, while others may have larger orders. Raises UsageProblem for too
-    many trees.
+    method that the digits mean. Raises UsageProblem for too many trees.
 
     >>> from garkcli import loads
     >>> found = backward_analysis(loads("methods: [{family: rk4}]").tableau, 6)
-    >>> found.symplectic, found.energy
-    (Reached(order=4, is_lower_bound=False), Reached(order=4, is_lower_bound=False))
+    >>> found.symplectic.order, found.energy.order
+    (4, 4)
     """
     structure = hamiltonians.hamiltonian_structure(tableau)
     if tolerance:

@@ -41,8 +41,7 @@ class FamilyFact(Frozen):
         special: exceptional values with their answers.
         open: polynomials at whose zeros the answer may differ.
         zeros: polynomials at whose common zeros, real ones if there are any, and only there, an
-            order
-            is higher or a property holds.
+            order is higher or a property holds.
         elsewhere: polynomials, with the answer at their zeros.
         unknown: undecided values.
         where: the intervals on which a property holds; otherwise None.

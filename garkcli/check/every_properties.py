@@ -1,7 +1,6 @@
 """Properties of a family, for all values of its parameters or for a set of values. Most only ask
-which
-coefficients are zero or equal. Those with inequalities are decided for one parameter, between the
-zeros of the polynomials whose signs matter; A-, L- and P-stability by ``design.stable_set``.
+which coefficients are zero or equal. Those with inequalities are decided for one parameter, between
+the zeros of the polynomials whose signs matter; A-, L- and P-stability by ``design.stable_set``.
 """
 
 from __future__ import annotations

@@ -20,10 +20,8 @@ from garkcli.tableau.tableau import Tableau
 
 class RosenbrockOrders(order_facts.ClaimedOrders):
     """The orders with the Jacobian, with any matrix, with one that differs from it by O(h), and on
-    ẏ =
-    f(t, y). A rounded ``method`` has a search of its own, refined by each order on DAEs, so that
-    the
-    results are consistent.
+    ẏ = f(t, y). A rounded ``method`` has a search of its own, refined by each order on DAEs, so
+    that the results are consistent.
     """
 
     method: AnyTableau

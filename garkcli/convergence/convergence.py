@@ -31,9 +31,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
-    """Returns the problem that sees the most trees and suits all methods, or most of them;
-    UsageProblem if there is none. It is Hamiltonian unless no method steps such a one, as when a
-    linear colour drives all unknowns.
+    """Returns the problem that sees the most trees and suits all methods, or most; UsageProblem
+    without one. It is Hamiltonian unless no method steps such a one, as when a linear colour drives
+    all.
 
     >>> from garkcli import loads
     >>> seeing_problem([loads("methods: [{family: rk4}]").tableau])
@@ -91,17 +91,13 @@ def converge(
     is_timed: bool = False,
     order: int | None = None,
 ) -> result.Convergence:
-    """Tests the convergence of ``tableau`` on ``problem``.
+    """Tests the convergence of ``tableau`` on ``problem``, in as many terms or with a natural
+    split; the oscillator is solved by the exact step map; by default all trees are seen.
 
-    The problem is in as many terms as the tableau has, or in one with a natural split; the
-    oscillator is solved by the exact step map; by default coefficients are random and every tree is
-    seen. ``tolerance`` is the rounding of the coefficients; slopes may then end on a plateau.
-    ``is_timed`` measures the time of steps in floats. ``order`` is given if more than the
-    coefficients is known, as for the pair of a rounded method.
-
-    Raises UsageProblem if the problem does not suit the structure, a step does not divide
-    ``t_end``, or the stage equations of a given step are singular; StepFailed if Newton's method
-    fails for a given step size, or for all of the default ladder.
+    ``tolerance`` is the rounding of the coefficients; slopes may then end on a plateau. ``order``
+    is given if more than the coefficients is known, as for the pair of a rounded method. Raises
+    UsageProblem if the problem or a step does not fit, or the stage equations of a given step are
+    singular; StepFailed if Newton's method fails for it, or for all of the default ladder.
 
     >>> from garkcli import hamiltonian, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau
@@ -219,7 +215,6 @@ def _solver(
 
 
 def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[result.StepSizeRow]:
-    """The errors of some step sizes; only one row if it has no error."""
     rows: list[result.StepSizeRow] = []
     for h in sorted(set(steps), reverse=True):
         row = solver.row(h, rows[-1] if rows else None)

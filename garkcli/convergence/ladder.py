@@ -29,12 +29,10 @@ Solver: TypeAlias = "LinearSolver | SteppedSolver"
 - ``visible``: what the problem can see of the method;
 - ``unit`` and ``longest``: a natural unit of time, the longest step of a ladder;
 - ``most_steps`` of a row, ``decades``: parts 10^−k of the usual time, short times that are tried;
-- ``size`` of the solution: the sum of its numbers at the start and at the end;
-- ``rests``: whether it ends where it starts, as far as floats can tell;
+- ``size``, the sum of numbers at the start and end, and ``rests`` if these are equal in floats;
 - ``rounding``: about the error that the rounding of coefficients makes; 0 for exact ones;
 - ``resolution``: h ‖∂f/∂y‖ of a right-hand side; 0 for other problems;
-- ``is_too_short``: whether a stiff problem would no longer look so at a step size;
-- ``timed``: a row with what its steps cost when they are taken one by one.
+- ``is_too_short``: whether a stiff problem would no longer look so at a step size.
 """
 MAX_ROWS = 10
 MAX_COARSE = 20_000
@@ -56,13 +54,10 @@ _ABOVE = 300
 
 
 def default_rows(solver: Solver, is_timed: bool) -> tuple[list[StepSizeRow], int]:
-    """Returns the rows of the default ladder, and how many at the end show the rounding of
-    coefficients.
-
-    Step sizes that are too large for Newton's method, and poles of a step map, are left out;
-    without an error there is a single row. With ``is_timed`` the ladder keeps its coarse steps, as
-    costs are compared for large errors too. Raises StepFailed if Newton's method fails for steps
-    that are not coarse.
+    """Returns the rows of the default ladder, and how many at the end show rounded coefficients.
+    Steps too large for Newton's method, and poles of a step map, are left out; without an error
+    there is a single row. With ``is_timed`` coarse steps stay, as costs are compared for large
+    errors too. Raises StepFailed if Newton's method fails for steps that are not coarse.
     """
     rows: list[StepSizeRow] = []
     is_small: list[bool] = []
@@ -99,7 +94,7 @@ def is_part(row: StepSizeRow, size: arb) -> bool:
 
 def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
     """t_end/n with n doubled without end. The first step is at most ``longest``, and at most a unit
-    of time if that is shorter and cannot be doubled. Raises UsageProblem if the time is not
+    of time if that is shorter and cannot be doubled. Raises UsageProblem unless the time is
     positive.
 
     >>> from itertools import islice
@@ -185,10 +180,7 @@ def unspoilt_order(solver: Solver, h: fmpq) -> int:
 
 
 def plateau(rows: Sequence[StepSizeRow], order: int, rounding: arb) -> int:
-    """Returns the number of rows at the end that show rounded coefficients instead of ``order``:
-    from the first flat row whose error may come from ``rounding``, and rows before it with an error
-    not far above.
-    """
+    """Returns the number of last rows that show rounding, from a flat one within it on."""
     limit = rounding * _ABOVE
     flat = 0  # the first flat row
     while flat < len(rows):

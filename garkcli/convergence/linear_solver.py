@@ -27,7 +27,6 @@ from garkcli.tableau.tableau import Tableau
 ERROR_BITS = 40
 """Correct bits of every error."""
 ENERGY_BITS = 20
-"""Correct bits of every nonzero energy error."""
 LINEAR_ONLY = (
     "a linear problem sees only the unbranched trees: "
     "it can show an order too high, never one too low"
@@ -101,9 +100,7 @@ class LinearSolver(Mutable):
         return replace(self, t_end=t_end)
 
     def timed(self, row: StepSizeRow) -> StepSizeRow:
-        """The row with the cost of its steps, in floats if these reach its error; without one below
-        ``MAX_DIGITS`` digits. Raises StepFailed if the stage equations were not solved.
-        """
+        """The row with its cost, in floats if these reach its error; none below ``MAX_DIGITS``."""
         steps = linear.whole_steps(self.t_end, row.h)
         y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, steps)
         if abs(self._distance(y) - row.error) < REACHED * row.error:
@@ -139,9 +136,7 @@ def linear_solver(
     tolerance: fmpq | None = None,
     predicted: int = 0,
 ) -> LinearSolver:
-    """Returns the solver; the visible order is at least ``predicted``. Raises UsageProblem if the
-    split does not suit the structure of the tableau.
-    """
+    """The visible order is at least ``predicted``; UsageProblem if the split does not suit."""
     implicit = LinearlyImplicit.of(tableau)
     if implicit is not None and implicit.taken != "exact":
         message = "the oscillator takes R(z) exactly, which is that of the exact Jacobian"
@@ -202,7 +197,6 @@ def _errors_of(power: arb_mat, omega: fmpq, t: fmpq) -> tuple[arb, arb]:
 
 
 def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
-    """The oscillator as a Hamiltonian problem with q(0) = 1, p(0) = ω/2."""
     (q,) = symbols(("q",), "q")
     (p,) = symbols(("q",), "p")
     omega = rational(oscillator.omega)

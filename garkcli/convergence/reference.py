@@ -22,7 +22,6 @@ from garkcli.stepping.integrator import Integrator, StepFailed, Stepper, bind
 MAX_TRIED = 10_000
 """With more steps than this a failed step is the fault of the problem."""
 MAX_STEPS = 1_000_000
-"""Most steps of a reference solution."""
 _PIECES = 200  # of a run, after each of which it is said how far it is
 _STAGES = 60  # beyond, a step costs more than fewer of them save
 _SPARE = 10  # digits that round-off may grow by
@@ -57,10 +56,7 @@ class ReferenceSolution(Mutable):
     steps: int = 0
 
     def to(self, digits: int) -> tuple[arb, ...]:
-        """(q, p) with an error below 10^(−digits) times the ``magnitude``. Raises UsageProblem if
-        there is no solution up to there, or it comes too close to a singularity, or round-off
-        drowns it.
-        """
+        """Raises UsageProblem without a solution, near a singularity, or in round-off."""
         if digits > self.digits and self._is_known(digits):
             self.y = _exact(self.problem, self.t_end, digits)
             self.digits = digits
@@ -135,9 +131,8 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
 
 
 class _Change(Frozen):
-    """The change of a solution by more steps, ``is_far`` if the runs are unrelated. ``factor`` of
-    steps is likely to suffice; ``decades`` are the powers of ten by which the change exceeds the
-    allowed error.
+    """The change by more steps, ``is_far`` if the runs are unrelated. ``factor`` of steps is likely
+    to suffice; ``decades`` are the powers of ten by which the change exceeds the allowed error.
     """
 
     is_small: bool
@@ -232,7 +227,6 @@ def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
 
 
 def magnitude(y: Sequence[Any], problem: Problem) -> arb:
-    """Σ |y_i| of a solution at its start, that of ``problem``, plus that at its end ``y``."""
     total = arb(0)
     for x in (*y, *problem.initial):
         total += abs(arb(x))

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
 """Undecided if no order is observed, reduced if a stiff problem shows a smaller one."""
 MAX_ORDER = 120
-"""Largest order that the certificate looks for."""
 CLOSE = 0.05
 """The tolerance of the observed order."""
 _FITTED = 4  # rows that the order is extrapolated from
@@ -28,14 +27,7 @@ _BITS = 256  # of the extrapolation: far more than any error has
 
 
 class Cost(Frozen):
-    """The cost of the steps of one row.
-
-    Attributes:
-        evaluations: of V^{l} or F^{l} at one stage, including those of Newton's method.
-        iterations: of Newton's method, over all steps and implicit blocks.
-        jacobians: of implicit blocks, each with a factorisation.
-        seconds: processor time in floats; None if more digits were needed.
-    """
+    """The cost of a row; evaluations include Newton's method, seconds are of floats alone."""
 
     steps: int
     evaluations: int
@@ -79,9 +71,7 @@ class Visible(Frozen):
 
     Attributes:
         order: the order of the method by these trees only.
-        is_sharp: whether no higher order can be observed; a problem may hide more trees than its
-            form
-            suggests, or let errors cancel.
+        is_sharp: whether no higher order can be observed; others may hide trees, or cancel errors.
     """
 
     order: int
@@ -90,15 +80,10 @@ class Visible(Frozen):
 
 
 class Stiffness(Frozen):
-    """The stiffness of a run whose steps do not resolve the fastest part of the problem.
-
-    Attributes:
-        resolution: h ‖∂f/∂y‖ of the smallest step, far above 1.
-        stage_order: the largest q for which B(q) and C(q) hold; None for a Rosenbrock method.
-        weak_stage_order: the order up to which errors of the stages do not reach the new value;
-            None
-            if the search stopped.
-        is_stable: whether the error of the smallest step is a small part of the solution.
+    """The stiffness of a run whose steps do not resolve the fastest part of the problem:
+    ``resolution`` h ‖∂f/∂y‖ of the smallest step is far above 1. ``weak_stage_order`` is None if
+    the search stopped; ``is_stable`` says that the error of the smallest step is a small part of
+    the solution.
     """
 
     resolution: float
@@ -226,7 +211,6 @@ class Convergence(Shown, Frozen):
 
     @property
     def agrees(self) -> bool:
-        """Whether the observed orders agree with those of the method."""
         return self.verdict == "agree"
 
     def __repr__(self) -> str:

@@ -34,9 +34,8 @@ def cost_of(state: Stepper, seconds: float | None = None) -> Cost:
 
 
 def work_of(integrator: Integrator, h: fmpq, count: int) -> tuple[list[Any], Cost]:
-    """(q, p) after ``count`` steps, shape (2d,), and the cost, with the time of the fastest run, or
-    a mean if the clock is coarse. Raises StepFailed if the stage equations of a step were not
-    solved.
+    """(q, p), shape (2d,), and the cost, with the time of the fastest run, or a mean if the clock
+    is coarse. Raises StepFailed if the stage equations of a step were not solved.
     """
     times: list[float] = []
     begin = process_time()

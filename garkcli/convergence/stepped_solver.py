@@ -68,8 +68,7 @@ class SteppedSolver(Mutable):
 
     def is_too_short(self, h: fmpq) -> bool:
         """Whether h² ‖∂f/∂y‖ is below ``_STIFF`` although a longer ladder is stiff: there |R(h λ)|
-        of a method with |R(∞)| = 1 is so far from 1 that it damps its errors, and slopes belong to
-        neither regime.
+        of a method with |R(∞)| = 1 damps its errors, and slopes belong to neither regime.
         """
         last = self.t_end / 2 ** (ROWS - 1)
         is_stiff = self._slope * arb(last) ** 2 > _STIFF
@@ -130,8 +129,7 @@ class SteppedSolver(Mutable):
     def _shows_no_error(self, error: arb, digits: int) -> bool:
         """Whether an error within round-off counts as zero. Many digits agree only if nothing moves
         or the method is exact: the error of a long step of order p is far above 10^(−8 p). If no
-        visible tree fails up to the highest order, as for a constant force, the error is round-off
-        for any digits.
+        visible tree fails, as for a constant force, the error is round-off for any digits.
         """
         if digits == MAX_DIGITS:
             return True
@@ -212,5 +210,4 @@ class SteppedSolver(Mutable):
 
 
 def _with_radius(x: arb, radius: arb) -> arb:
-    """The ball about the centre of ``x``; 0 stays 0."""
     return x if x.is_zero() else arb(x.mid(), radius.abs_upper())

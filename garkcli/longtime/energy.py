@@ -209,16 +209,13 @@ def _shape(verdict: histories.Verdict, line: FittedLine) -> Shape:
 
 
 def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
-    """The values of ``Exchange`` along the exact solution: q̇p̈ and ṗq̈ are −ω²p² and ω⁴q², whose
-    sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
-    """
+    """Along the exact solution |q̇p̈| + |ṗq̈| = 2ω²H, and the mean of q̇ṗ = −d/dt ½ω²q² is ≤ H/t."""
     first = energy / max(time, 1e-300)
     second = 2 * to_float(omega) ** 2 * energy
     return first, second
 
 
 def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
-    """R in the variables (ωq, p)."""
     (a, b), (c, d) = R
     first = (a, b * omega)
     second = (c * (1 / omega), d)
@@ -291,7 +288,6 @@ def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb
 
 
 def _are_sharp(balls: list[arb]) -> bool:
-    """Whether all radii are far below the largest of the numbers."""
     largest = max(abs(x).mid() for x in balls)
     allowed = max(largest * arb(2) ** -_GOAL, arb(2) ** -_FLOOR)
     return all(x.rad() <= allowed for x in balls)

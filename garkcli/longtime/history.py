@@ -35,17 +35,11 @@ class StepMapStability(Frozen):
 
     @property
     def is_symplectic(self) -> bool:
-        """Whether RᵀJR = J."""
         return self.determinant == ONE
 
 
 def stability(R: Matrix) -> StepMapStability:
-    """Decides the fate of the orbits of ``R``, shape (2, 2).
-
-    >>> from flint import fmpq
-    >>> stability(((fmpq(3, 5), fmpq(4, 5)), (fmpq(-4, 5), fmpq(3, 5)))).fate
-    'elliptic'
-    """
+    """Decides the fate of the orbits of ``R``, shape (2, 2)."""
     (a, b), (c, d) = R
     determinant, trace = a * d - b * c, a + d
     return StepMapStability(determinant, trace, _fate(R, determinant, trace))
@@ -189,7 +183,6 @@ class LongRun(Shown, Frozen):
 
     @property
     def end(self) -> float:
-        """The time that was reached."""
         return to_float(self.steps * self.step)
 
     @property
@@ -199,7 +192,6 @@ class LongRun(Shown, Frozen):
 
     @property
     def drifts(self) -> bool:
-        """Whether a quantity drifts, has blown up or escaped."""
         return any(x.verdict in ("drifts", "unstable") for x in self.invariants)
 
     def __repr__(self) -> str:

@@ -1,8 +1,6 @@
-"""Conserved quantities over a long time: their errors, and whether they drift.
-
-The oscillator has an exact step. Every other problem is measured after each step, in constant
-memory. The uncertainty of the errors is bounded from the digits, and checked on the first steps
-against steps with more digits.
+"""Conserved quantities over a long time: their errors, and whether they drift. The oscillator has
+an exact step. Others are measured after each step, in constant memory; the uncertainty of the
+errors is bounded from the digits, and checked on the first steps against steps with more digits.
 """
 
 from __future__ import annotations
@@ -57,15 +55,13 @@ def long_run(
     points: int = histories.SERIES,
     tolerance: fmpq | None = None,
 ) -> histories.LongRun:
-    """Steps ``problem`` to the time ``t_end`` and judges the energy and the other invariants.
+    """Steps ``problem`` to ``t_end`` and judges its energy and other invariants at about ``points``
+    times.
 
-    The problem is in as many terms as the tableau has, or in one with a natural split. Up to
-    ``FLOAT_DIGITS`` digits are floats; steps of the oscillator are exact. About ``points`` times
-    are kept. A drift that ``tolerance`` can cause is undecided.
-
-    Raises UsageProblem if the problem does not suit the structure, the step does not divide the
-    time, there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are
-    singular; StepFailed if a step fails before the energy has blown up.
+    Up to ``FLOAT_DIGITS`` digits are floats; steps of the oscillator are exact. A drift that
+    ``tolerance`` can cause is undecided. Raises UsageProblem if the problem or the step does not
+    fit, or the stage equations of the oscillator are singular; StepFailed before the energy has
+    blown up.
 
     >>> from garkcli import hamiltonian, loads, pair
     >>> midpoint = pair(loads("methods: [{family: gauss, stages: 1}]").tableau)
@@ -124,7 +120,6 @@ def _noise(record: RunRecord, bound: Binding, step: fmpq, digits: int) -> Floats
 
 
 _Finding: TypeAlias = tuple[histories.Verdict, Shape, histories.Doubt | None]
-"""A verdict on one invariant, with its trend or doubt."""
 
 
 class _Judge(Frozen):

@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 
 class Measure:
-    """Evaluates conserved quantities, energy first, relative to the start. ``scale`` is the sum of
-    the sizes of the summands of the first there; 1 if all are zero. Raises UsageProblem if one has
-    no value at the start.
+    """Evaluates conserved quantities, energy first, relative to the start, where UsageProblem is
+    raised if one has no value. ``scale`` is the sum of sizes of the first one's summands; 1 if all
+    are zero.
     """
 
     def __init__(self, problem: problems.Problem, digits: int) -> None:

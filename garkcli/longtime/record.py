@@ -26,11 +26,10 @@ _FAR = 2.0
 
 
 class Excursions:
-    """Counts the turns of all coordinates, and the extent of each position up to its last turn.
-
-    A position has escaped at the end if it had turned back twice, and is now twice as far from zero
-    as before it or its momentum turned for the last time. An angle that begins to rotate does not
-    escape: its momentum goes on oscillating.
+    """Counts turns, and the extent of each position up to its last one. A position has escaped if
+    it had turned back twice, and is now twice as far from zero as before it or its momentum turned
+    for the last time. An angle that begins to rotate does not escape: its momentum goes on
+    oscillating.
     """
 
     def __init__(self) -> None:
@@ -46,7 +45,6 @@ class Excursions:
 
     @property
     def turns(self) -> int:
-        """The number of turns of the coordinate that oscillates fastest."""
         return int(self._turned.max(initial=0))
 
     @property
@@ -108,14 +106,11 @@ class RunRecord:
     """Sums and extremes of all errors, and samples of about ``points`` errors and of states.
 
     Attributes:
-        largest: the largest |error| of each invariant.
-        first: the errors of the start and of the first ``COMPARED`` steps, shape (steps,
-            invariants).
+        first: the errors of the start and of ``COMPARED`` steps, shape (steps, invariants).
         states: at the start and after each quarter of the steps, by the number of the step.
         done: the last step measured.
-        lost: by the number of an invariant, the first step at which it has no value or one too
-            large to
-            square; its errors are nan from there on.
+        lost: by invariants, the first step without a value or with one too large to square; then
+            nan.
     """
 
     def __init__(self, measure: Measure, count: int, points: int) -> None:

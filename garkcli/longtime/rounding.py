@@ -27,17 +27,11 @@ _HIGHER = 2.0  # for the terms of higher order in h and in the tolerance
 
 
 def unit_round_off(digits: int) -> float:
-    """The relative error of one operation with ``digits`` digits."""
     return _UNIT if digits <= FLOAT_DIGITS else 10.0**-digits
 
 
 def power_of_ten(x: float) -> float:
-    """The least power of ten that is at least ``x``, the same on every machine; 0 and infinity
-    stay.
-
-    >>> power_of_ten(2.3e-13)
-    1e-12
-    """
+    """The least power of ten from ``x`` on, the same on every machine; 0 and infinity stay."""
     if x <= 0 or isinf(x):
         return max(x, 0.0)
     return float(f"1e{ceil(log10(x))}")

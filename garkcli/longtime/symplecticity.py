@@ -1,8 +1,6 @@
-"""Measures symplecticity: MᵀJM − J for the Jacobian M of one step, J = (0 I; −I 0).
-
-M is found by central differences of steps with so many digits that truncation and rounding are far
-below the round-off of floats; doubling the perturbation shows its error. On the oscillator RᵀJR − J
-= (det R − 1) J exactly.
+"""Measures symplecticity: MᵀJM − J for the Jacobian M of one step, J = (0 I; −I 0), by central
+differences with so many digits that truncation and rounding are far below the round-off of floats;
+doubling the perturbation shows its error. On the oscillator RᵀJR − J = (det R − 1) J exactly.
 """
 
 from __future__ import annotations
@@ -26,7 +24,6 @@ from garkcli.tableau.tableau import Tableau
 Jacobian: TypeAlias = list[list[Any]]
 """∂y₁/∂y₀ by rows, midpoints of balls, shape (2d, 2d)."""
 DIGITS = 90
-"""Digits of the steps that are differentiated."""
 _DECADES = 30  # the perturbation is 10^-30, so that errors are about 10^-60
 # the change when the perturbation is doubled is three errors; M occurs twice
 _SAFETY = 8

@@ -48,9 +48,7 @@ _FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
 
 class Windows(Frozen):
-    """The lines fitted to the windows of one signal, in slopes per run, levels in the middle of the
-    windows, and root mean squares of the oscillation around the lines.
-    """
+    """Lines fitted to windows: slopes per run, levels in the middle, oscillation around (RMS)."""
 
     slopes: Floats
     levels: Floats
@@ -64,9 +62,7 @@ Finding: TypeAlias = Literal["none", "undecided", "drift"]
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
-"""A drift has at least so many times its uncertainty, which none of 480 runs of symplectic methods
-on systems of two planets has, see docs/energy.md.
-"""
+"""In 480 runs of symplectic methods on two planets no drift is so many times its uncertainty."""
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
@@ -80,14 +76,7 @@ _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
 
 
 class Trend(Frozen):
-    """The slow part of one signal e_0 … e_N.
-
-    Attributes:
-        slope: of the fitted line, per step.
-        shape: "none" if the trend is within oscillation and noise.
-        move: the size of an undecided trend that is not a line.
-        net: the distance of the levels at the start and end of the run.
-    """
+    """The slow part of a signal: ``slope`` per step, ``move`` of what is no line, ``net`` in all."""
 
     slope: float
     uncertainty: float
@@ -105,8 +94,7 @@ class Trend(Frozen):
 
 class Trends:
     """Collects signals of the same length, in pieces, as sums to which trends are fitted. ``count``
-    is N, ``largest`` the largest |error| of each signal, ``ranges`` the minimum and maximum of each
-    half, shape (2, 2, signals).
+    is N; ``ranges`` are extremes of each half, shape (2, 2, signals).
     """
 
     def __init__(self, count: int, signals: int) -> None:
@@ -257,8 +245,8 @@ def _uncertainty(found: Windows) -> float:
 
 
 def _climbs(found: Windows, least: float) -> bool:
-    """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly from
-    eighth to eighth, or by its height from eighth to eighth and clearly in total.
+    """Whether levels keep rising, or falling, by more than the signal oscillates: clearly from
+    eighth to eighth, or by its height and clearly in total.
     """
     levels = found.levels[OF_EIGHTHS]
     heights = found.heights[OF_EIGHTHS]

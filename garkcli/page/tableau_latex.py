@@ -1,6 +1,5 @@
 """A tableau as LaTeX arrays in the layout of the paper: Q and P, as in eq. (psymplecticGARK), for
-the
-stages and weights of both parts of a partitioned method.
+the stages and weights of both parts of a partitioned method.
 """
 
 from __future__ import annotations

@@ -22,11 +22,9 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
     """Writes a file beside its place, then renames it into place; False for devices and streams.
 
     A link stays a link; an existing file keeps its permissions, owner and group. Devices, streams,
-    and
-    files with several names or another owner are written in place. With ``is_renewed`` it may be a
-    file
-    that was read. Raises UsageProblem, with nothing changed, if it cannot be written or is an
-    input.
+    and files with several names or another owner are written in place. With ``is_renewed`` it may
+    be a file that was read. Raises UsageProblem, with nothing changed, if it cannot be written or
+    is an input.
     """
     with _told(path), undone():
         target = _without_links(path)

@@ -25,8 +25,7 @@ _record: ContextVar[Record | None] = ContextVar("record", default=None)
 
 class Deferred(Sequence[Expr]):
     """Several sympy expressions, made on first use. Equal names mean equal expressions; a name
-    begins with
-    that of the problem and a blank. ``total`` is their sum, if it has a name.
+    begins with that of the problem and a blank. ``total`` is their sum, if it has a name.
     """
 
     def __init__(

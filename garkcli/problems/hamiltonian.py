@@ -1,6 +1,5 @@
 """Split Hamiltonians H = Σ_l H^{l}(q, p): V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q by sympy,
-compiled
-to functions of numbers. No text is ever evaluated.
+compiled to functions of numbers. No text is ever evaluated.
 """
 
 from __future__ import annotations

@@ -78,8 +78,8 @@ _SMOOTH_START = (fmpq(10, 81), fmpq(-292, 2187), fmpq(15266, 59049))
 
 def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a closed line of cells, with k
-    the
-    stiffness, r_i growing, from near the limit of fast diffusion: 1/4 + w/k balances the reaction.
+    the stiffness, r_i growing, from near the limit of fast diffusion: 1/4 + w/k balances the
+    reaction.
     """
     cells = range(CELLS)
     variables = tuple(f"u{i + 1}" for i in cells)

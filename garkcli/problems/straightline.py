@@ -1,6 +1,5 @@
 """Straight-line Python for sympy expressions, in floats or in balls of any precision. All names in
-the
-text are made here, so that no text of a file is part of a program.
+the text are made here, so that no text of a file is part of a program.
 """
 
 from __future__ import annotations

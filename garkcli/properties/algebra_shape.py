@@ -39,13 +39,12 @@ class _Space(Frozen):
 
 
 def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
-    """Returns the shape if all stages without a zero row or column are solved together; None if
-    unproved.
+    """Returns the shape if all stages without a zero row or column are proved to be solved
+    together.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
-    >>> lobatto = gark([diagonal_method("lobatto-iiia", 30)], {})
-    >>> shape_of_families(lobatto, [0]).implicit_stages
+    >>> shape_of_families(gark([diagonal_method("lobatto-iiia", 30)], {}), [0]).implicit_stages
     29
     """
     blocks = _rational_blocks(tableau, colours)

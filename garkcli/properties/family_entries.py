@@ -17,7 +17,6 @@ from garkcli.tableau.tableau import Tableau
 
 def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> bool | None:
     """Whether an entry between stages of families is nonzero; None unless one node is rational.
-
     With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
     value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
     """
@@ -69,10 +68,8 @@ def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) 
 
 def common_nodes(tableau: Tableau, k: int, wanted: Sequence[Vector]) -> Polynomial:
     """The polynomial whose roots are the nodes of a family at which a stage has the rows
-    ``wanted``.
-
-    In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They equal
-    ``wanted`` at the common roots of M and all A e − wanted(e)·𝟙, e in a basis.
+    ``wanted``: in the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ).
+    They equal ``wanted`` at the common roots of M and all A e − wanted(e)·𝟙, e in a basis.
     """
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)

@@ -26,8 +26,8 @@ class FirstSameAsLast(Frozen):
 
 
 def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Returns whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage
-    i. For a GARK method globally (A. Sandu, M. Günther 2015).
+    """Returns whether a stage is the new value: a_ij^{k,m} = b_j^{m} for all m and one i; for a
+    GARK method globally (A. Sandu, M. Günther 2015).
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -85,7 +85,6 @@ def missed_entries(
 def _is_stage(
     tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> bool:
-    """Whether stage i of a space, in the order of its nodes, has the rows ``wanted``."""
     space = tableau.spaces[k]
     if not isinstance(space, PolynomialSpace):
         return not missed_entries(tableau, k, i, wanted, tolerance)

@@ -24,13 +24,7 @@ def number_words(number: Number) -> Formula | str:
 
 
 def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
-    """An entry of a block; with several colours ``a{q,p}[2,1]``.
-
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.tableau.forms import gark
-    >>> print(entry(gark([diagonal_method("heun", None)], {}), 0, 0, 1, 0))
-    a[2,1]
-    """
+    """An entry of a block, as ``a[2,1]``; with several colours ``a{q,p}[2,1]``."""
     seer = next(l for l, x in enumerate(tableau.colours) if x.space == space)
     return place("a", tableau, [seer, m], i, j)
 

@@ -32,15 +32,9 @@ DIGITS = 30
 
 
 class StageGraph(Frozen):
-    """The dependencies between stage values.
-
-    Attributes:
-        successors: for each stage value those it depends on.
-        is_certain: whether all zeros are proved; an entry that may be zero is no edge.
-        loops: for each stage value that depends on itself directly, the nonzero entries, one for
-            each
-            colour; None for one that is not known exactly.
-        fields: for each of these stage values the colours of the entries.
+    """The dependencies between stage values; ``is_certain`` if all zeros are proved, as an entry
+    that may be zero is no edge. ``loops`` has the nonzero entries by which a stage value depends on
+    itself directly, one for each colour, None if not known exactly, ``fields`` their colours.
     """
 
     successors: Mapping[Vertex, frozenset[Vertex]]
@@ -138,16 +132,13 @@ Kind = Literal["explicit", "diagonally implicit", "fully implicit"]
 
 
 class Shape(Frozen):
-    """The order in which stages are computed: one by one or in systems.
+    """The order in which stages are computed: one by one or in ``systems``.
 
     Attributes:
         kind: None, as ``implicit_stages``, if zeros are undecided.
-        systems: groups of at least two stages that are solved together, as (space, stage) from 0.
         gamma: the common value of all a_ii^{l,l} ≠ 0; None if they differ.
-        singly: ``SDIRK`` if all stages are implicit with the same γ, ``ESDIRK`` if all except the
-            first
-            of each stage space are; else empty. Stages of one space have the same vector fields
-            beside γ.
+        singly: ``SDIRK`` if all stages are implicit with the same γ and vector fields, ``ESDIRK``
+            if all except the first of each stage space are; else empty.
     """
 
     kind: Kind | None

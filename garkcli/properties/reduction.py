@@ -24,9 +24,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
-    """Returns the smallest method with the same step; the same object if nothing can be left out,
-    None if the nodes have no simple radicals. An empty stage space keeps one stage, with zero row
-    and weight.
+    """Returns the smallest method with the same step, as the same object if nothing can be left
+    out; None without simple radicals. An empty stage space keeps one stage, with zero row and
+    weight.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -86,10 +86,7 @@ def sizes(tableau: Tableau) -> list[int]:
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Returns whether every stage has a weight, and all stages of a space have different row sums,
-    for all of the rounding: then every stage is used and no two are equal. Those of a family differ
-    if A𝟙 = c.
-    """
+    """Every stage has a weight, and row sums in a space surely differ; those of a family if A𝟙 = c."""
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
         for k in range(len(tableau.spaces))
@@ -171,16 +168,13 @@ def _joined(tableau: Tableau, classes: Sequence[Sequence[Sequence[int]]]) -> Tab
 
 @doing("smallest method")
 def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Further] | None:
-    """Returns the smallest method with further weights; a stage that any row of weights needs
-    stays. The same object if nothing can be left out; None if stages at irrational nodes had to be
-    compared.
+    """Returns the smallest method; a stage that any row of weights needs stays. The same object if
+    nothing can be left out; None if stages at irrational nodes had to be compared.
 
     >>> from garkcli.methodfile.load import loads
     >>> method = loads("{A: [[0, 0], [1, 0]], b: [1, 0], embedded: [1/2, 1/2]}")
     >>> smallest(method.tableau, method.further)[0] is method.tableau
     True
-    >>> smallest(method.tableau)[0].spaces[0].stages
-    1
     """
     whole = as_colours(tableau, further)
     if is_plainly_irreducible(whole):

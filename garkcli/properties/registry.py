@@ -18,4 +18,3 @@ KEYS = {key: file for file, keys in _FILES for key in keys.split()}
 OF_TEST_EQUATION = frozenset(
     {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
 )
-"""Properties that R(z) decides."""

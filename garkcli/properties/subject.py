@@ -99,7 +99,6 @@ class Subject(Frozen):
 
     @cached_property
     def _spent(self) -> list[float]:
-        """The processor time of properties so far."""
         return []
 
     @cached_property
@@ -149,7 +148,6 @@ class Subject(Frozen):
 
     @cached_property
     def reduced(self) -> Tableau | None:
-        """The smallest method with the same step; None if nodes have no simple radicals."""
         return reduced(self.tableau, self.tolerance)
 
     @cached_property
@@ -184,13 +182,8 @@ class Subject(Frozen):
 
 
 class Property(Frozen):
-    """A property that a method file may claim.
-
-    Attributes:
-        text: its definition, in whole sentences.
-        meaning: the methods for which it is defined; empty for all.
-        is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.
-        noted: the value that every ``gark check`` says in words, and these; None for neither.
+    """A property that a method file may claim; ``is_cheap`` if every ``gark check`` decides it, and
+    with ``noted`` says that value in words.
     """
 
     key: str

@@ -38,9 +38,8 @@ _Images: TypeAlias = dict[Vertex, list[int]]
 
 
 class Symmetry(Frozen):
-    """The result of the search: None if there are too many renumberings, or rounding leaves it
-    open; ``images`` by stage spaces, None for x → 1 − x in a stage algebra, empty if it does not
-    hold.
+    """None if there are too many renumberings, or rounding leaves it open; ``images`` by stage
+    spaces, None for x → 1 − x in a stage algebra, empty if it does not hold.
     """
 
     holds: bool | None

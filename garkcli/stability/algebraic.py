@@ -35,8 +35,7 @@ class AlgebraicStability(Frozen):
 
 def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
     """Whether a method is algebraically stable; None if a block is missing, which is no zero block:
-    without
-    the coupling there is no contractivity to inherit.
+    without the coupling there is no contractivity to inherit.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark

@@ -44,8 +44,7 @@ def step_function(system: StageSystem) -> StepFunction:
 
 def unreduced(system: StageSystem) -> StepFunction:
     """M(z) with the denominator det(I − zW). By Cramer's rule the degrees of the numerators are at
-    most the
-    number of unknowns, so finitely many terms of M determine them.
+    most the number of unknowns, so finitely many terms of M determine them.
     """
     n = len(system.W)
     d = len(system.B)
@@ -188,10 +187,8 @@ def is_i_stable(R: StabilityFunction) -> bool:
 @lru_cache(maxsize=16)
 def poles_are_right(Q: Polynomial) -> bool:
     """Whether all roots of Q have a positive real part, by the Hermite-Biehler theorem: with Q(iy)
-    = u(y)
-    + i v(y), the argument of Q(iy) turns by −π deg Q along the real line exactly then: a Cauchy
-    index
-    of u, v. A common root of u and v is a root of Q on the axis, or a pair ±.
+    = u(y) + i v(y), the argument of Q(iy) turns by −π deg Q along the real line exactly then: a
+    Cauchy index of u, v. A common root of u and v is a root of Q on the axis, or a pair ±.
     """
     if Q.degree <= 0:
         return True

@@ -30,14 +30,10 @@ def critical_polynomials(
     member: Callable[[fmpq], Polynomial], points: Sequence[fmpq]
 ) -> list[Polynomial]:
     """Polynomials in x between whose roots one x decides for all: real roots of p_x appear or
-    disappear
-    only if two roots meet or one passes through infinity. They are the leading coefficient of p_x
-    and
-    the first subresultant of p_x and its derivative that is not zero for all x: where that is
-    nonzero
-    p_x has a fixed number of distinct roots (G. E. Collins 1975). ``points`` are more rational x
-    than
-    the degree of the discriminant.
+    disappear only if two roots meet or one passes through infinity. They are the leading
+    coefficient of p_x and the first subresultant of p_x and its derivative that is not zero for all
+    x: where that is nonzero p_x has a fixed number of distinct roots (G. E. Collins 1975).
+    ``points`` are more rational x than the degree of the discriminant.
     """
     members = [member(x) for x in points]
     degree = max(p.degree for p in members)

@@ -42,8 +42,7 @@ def ssp_coefficient(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
     """Returns the SSP coefficient; None without simple nodes or a block. ``shares`` are r_l / r, by
-    default
-    1; colours with 0, and their own stages, drop out.
+    default 1; colours with 0, and their own stages, drop out.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark

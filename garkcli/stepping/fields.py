@@ -18,9 +18,8 @@ from garkcli.tableau.tableau import Colour, Part, Tableau
 
 
 def split_into(problem: Problem, terms: int) -> Problem:
-    """``problem`` in as many terms: their sum, or if it has one, summands with momenta first and
-    those with positions only shared equally by the others. Raises UsageProblem if there is no
-    natural split.
+    """Terms are summed, or of one, summands with momenta come first and those with positions only
+    are shared equally by the others. Raises UsageProblem if there is no natural split.
     """
     found = len(problem.terms)
     if found == terms:

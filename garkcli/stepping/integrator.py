@@ -40,7 +40,6 @@ Recorder: TypeAlias = Callable[[list[Real]], None]
 StepProgram: TypeAlias = Callable[
     [list[Real], list[Real], int, int, Recorder | None], tuple[list[Real], list[int], int]
 ]
-"""See ``Program.source``."""
 
 
 class NotSolved(Exception):
@@ -77,7 +76,6 @@ class Integrator(Frozen):
         return self.digits > FLOAT_DIGITS
 
     def number(self, x: Any) -> Real:
-        """A rational number or ball as the integrator computes with it."""
         return arb(x).mid() if self.is_for_balls else float(arb(x))
 
     def weights(self, h: fmpq) -> list[Real]:
@@ -260,9 +258,8 @@ def trajectory(
     initial: Sequence[Any] | None = None,
     every: int = 1,
 ) -> Iterator[list[Real]]:
-    """(q, p) at the start, after each ``every`` of ``count`` steps, and at the end, shape (2d,).
-    The start is ``initial``, or that of the problem; StepFailed if the stage equations were not
-    solved.
+    """(q, p) at the start, after each ``every`` of ``count`` steps, and at the end, shape (2d,);
+    StepFailed if the stage equations were not solved.
     """
     stepper = Stepper(integrator, h, initial)
     yield stepper.y
@@ -284,7 +281,6 @@ def trajectory(
 def integrate(
     integrator: Integrator, h: fmpq, count: int, initial: Sequence[Any] | None = None
 ) -> list[Real]:
-    """(q, p) after ``count`` steps; see ``trajectory``."""
     stepper = Stepper(integrator, h, initial)
     stepper.advance(count)
     return stepper.y

@@ -28,9 +28,9 @@ class _Layer(Frozen):
 
 
 class ChainRule:
-    """The derivative of the image of the unknowns of a block, of which there are n = ``dimension``
-    · (unknown stage values). ``arguments`` has the pairs of evaluation and stage value whose
-    derivatives are needed, in order, ``weights`` the indices of w = h a.
+    """The derivative of the image of n = ``dimension`` · (unknown stage values) unknowns.
+    ``arguments`` has the pairs of evaluation and stage value whose derivatives are needed,
+    ``weights`` indices of w = h a.
     """
 
     def __init__(

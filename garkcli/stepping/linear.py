@@ -50,9 +50,9 @@ class _Term(Frozen):
 def stage_system(
     tableau: Tableau, fields: Sequence[Matrix], pattern: Sequence[Matrix] | None = None
 ) -> StageSystem:
-    """Returns the linear system of the stages for the L^m of the colours, shape (d, d). ``pattern``
-    is nonzero where some parameters make L^m nonzero, so that the unknowns agree for all. Raises
-    MethodError if the tableau is no GARK method.
+    """Returns the linear system of the stages for the L^m, shape (d, d). ``pattern`` is nonzero
+    where some parameters make L^m so, so that the unknowns agree for all. Raises MethodError for
+    other methods.
     """
     tableau.demand_fields("a step on a linear problem")
     d = len(fields[0])
@@ -79,7 +79,6 @@ def stage_system(
 
 
 def _terms(fields: Sequence[Matrix], pattern: Sequence[Matrix]) -> Iterator[_Term]:
-    """The entries of all L^m that are nonzero in the pattern."""
     for m, (L, kept) in enumerate(zip(fields, pattern, strict=True)):
         for i, row in enumerate(kept):
             for j, is_kept in enumerate(row):
@@ -150,7 +149,6 @@ class LinearStep(Frozen):
             X = self.W * X
 
     def _numbers(self, flat: fmpq_mat) -> Matrix:
-        """Maps coordinates over ℚ, shape (2d, 2), back to numbers."""
         if self.field is None:
             return tuple(tuple(row) for row in flat.tolist())
         d = self.field.degree
@@ -205,7 +203,6 @@ def _columns(rows: Matrix, field: NumberField | None) -> fmpq_mat:
 
 
 def enclosure(matrix: Matrix, bits: int) -> arb_mat:
-    """An exact matrix as balls of about ``bits`` correct bits."""
     digits = bits * 3 // 10 + 1
     return arb_mat([[to_ball(x, digits) for x in row] for row in matrix])
 
@@ -238,10 +235,9 @@ def deviations(step: LinearStep) -> Iterator[arb]:
 
 
 def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
-    """Returns the largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees,
-    exactly, by unbranched trees along which the split is nonzero. The search ends because R is
-    rational in h and cos ωh is not, or, with a ``tolerance`` for the ``deviations``, when 1/r! is
-    as small.
+    """Returns the largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees, by
+    unbranched trees along which the split is nonzero. The search ends because R is rational in h
+    and cos ωh is not, or, with a ``tolerance`` for the ``deviations``, when 1/r! is as small.
     """
     limit = fmpq(0) if tolerance is None else tolerance
     coefficient = ONE

@@ -258,8 +258,6 @@ def _field(problem: Problem, is_for_balls: bool) -> tuple[Fields, Callable[..., 
 
 
 class _StagePart:
-    """The part of a vector field that drives a group."""
-
     def __init__(self, problem: Problem, group: Group, is_for_balls: bool) -> None:
         layout = problem.layout
         field = field_of(problem, 0, group)

@@ -22,7 +22,6 @@ from garkcli.stepping.stagewriter import StageWriter, names
 MAX_ITERATIONS = 50
 """In floats; each further digit allows one more, as a Jacobian in floats gains one or more."""
 _WRITTEN = 24
-"""Most unknowns for which the Jacobian is written out."""
 _DIRECT = 2
 """Most unknowns that floats solve by formulas, with a new Jacobian in every iteration."""
 
@@ -91,7 +90,6 @@ class NewtonWriter:
         write(f"n{index} += iteration + 1")
 
     def _place(self, stage: Stage) -> None:
-        """Writes an unknown stage value from the solved unknowns."""
         stages = self._stages
         found = []
         for i in range(stages.d):

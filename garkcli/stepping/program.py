@@ -27,16 +27,12 @@ class Program(Frozen):
 
     Attributes:
         source: of ``run(state, w, first, count, record)``. A state has the numbers, time last,
-            their
-            compensations, and the errors of the starts of Newton's method in the last step with
-                their
-            changes; results are the new state, the iterations of each implicit block, and the
-                number of
-            Jacobians. ``record``, if any, gets the numbers without time after each step.
+            their compensations, and the errors of the starts of Newton's method in the last step
+            with their changes; results are the new state, the iterations of each implicit block,
+            and the number of Jacobians. ``record``, if any, gets the numbers without time after
+            each step.
         coefficients: the stage and evaluation of the coefficient a in each w = h a; no stage for b.
         evaluations: field evaluations outside of Newton's method in one step.
-        implicit: the blocks that are solved by Newton's method, in order.
-        chains: as in ``JacobianWriter``.
     """
 
     source: str
@@ -96,7 +92,6 @@ class _ProgramWriter:
         return replace(made, evaluations=evaluations - sum(made.repeated))
 
     def _around(self, body: list[str]) -> list[str]:
-        """The function whose loop has this ``body``."""
         y = names("y", self.layout.total)
         lost = names("e", self.layout.total)
         components = []

@@ -140,7 +140,6 @@ class StageWriter:
         return made
 
     def emit(self, code: StraightLineCode, arguments: Sequence[str], prefix: str) -> list[str]:
-        """Writes ``code`` for these arguments and returns the names of its results."""
         lines, results = code.lines(arguments, prefix)
         for line in lines:
             self.lines.write(line)

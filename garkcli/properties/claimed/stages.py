@@ -80,7 +80,6 @@ def stiffly_accurate(subject: Subject) -> Verdict:
 
 
 def _missed(tableau: Tableau) -> Reason:
-    """The first entry in which the last stage differs from the weights."""
     space = tableau.spaces[-1]
     if not isinstance(space, PointSpace):
         return Reason("at no node the stage has the weights as its rows")
@@ -155,9 +154,7 @@ def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
 
 
 def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
-    """The method with the row b_m/2, its own image in the adjoint, in a last stage without
-    influence: an empty stage space keeps one.
-    """
+    """Adds the row b_m/2, its own image in the adjoint, to a last stage without influence."""
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
     matters = spaces_that_matter(tableau)
