@@ -76,7 +76,7 @@ _FLOAT = 2.0**-42  # rounding of the sums, of the largest error
 
 
 class Trend(Frozen):
-    """The slow part of a signal: ``slope`` per step, ``move`` of what is no line, ``net`` in all."""
+    """The slow part of a signal: ``slope`` per step, ``move`` without a line, ``net`` in all."""
 
     slope: float
     uncertainty: float

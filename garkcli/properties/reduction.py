@@ -86,7 +86,7 @@ def sizes(tableau: Tableau) -> list[int]:
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Every stage has a weight, and row sums in a space surely differ; those of a family if A𝟙 = c."""
+    """Whether all stages have weights and different row sums, as those of a family if A𝟙 = c."""
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
         for k in range(len(tableau.spaces))
