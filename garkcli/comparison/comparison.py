@@ -140,7 +140,6 @@ class Comparison(Shown, Frozen):
 
     @property
     def is_same_step(self) -> bool:
-        """Whether the steps are the same, and so are the further weights that both methods have."""
         if self.sameness is None:
             return False
         shared = {x for x in ("embedded", "dense") if self._lacking(x) == [False, False]}
@@ -166,18 +165,15 @@ class Comparison(Shown, Frozen):
 
 @doing("differences")
 def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
-    """Compares two methods.
-
-    They are the same if renumbering stages or colours turns one into the other, after colours that
-    share stages were given copies of them, and equal or redundant stages were removed. Orders are
-    sought up to ``limit``. Raises MethodError for methods of different kinds.
+    """Compares two methods: they are the same if renumbering stages or colours turns one into the
+    other, after colours that share stages were given copies of them, and equal or redundant stages
+    were removed. Raises MethodError for methods of different kinds.
 
     >>> from garkcli.methodfile.load import loads
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
     >>> turned = loads("{A: [[0, 1], [0, 0]], b: [0.5, 0.5]}")
-    >>> found = compare(heun, turned)
-    >>> found, found.sameness.stages
-    (<Comparison same>, ((1, 0),))
+    >>> compare(heun, turned).sameness.stages
+    ((1, 0),)
     """
     forms = form_of(one.tableau), form_of(other.tableau)
     if forms[0] != forms[1] and {*forms} & {*OF_OTHER_KINDS}:
@@ -281,7 +277,7 @@ def _of_rosenbrock(gaps: Iterable[BlockGap], colours: int) -> Iterator[BlockGap]
 
 
 def _of_slow_parts(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
-    """Yields the gaps outside the fast part, which stands for the exact solution."""
+    """Yields the gaps outside the fast part, which is that of the exact solution."""
     return (gap for gap in gaps if gap.colour and gap.seen != 0)
 
 

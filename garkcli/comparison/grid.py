@@ -23,9 +23,7 @@ CellRows: TypeAlias = tuple[Row, ...]
 
 
 class Grid(Frozen):
-    """The entries of a method in which each colour has its own stages: blocks ``A[l][m]`` or None,
-    and ``powers``, the coefficients of θ, θ², … in the dense weights.
-    """
+    """A method whose colours have stages of their own; ``powers`` of θ are of dense weights."""
 
     A: tuple[tuple[Block, ...], ...]
     b: CellRows
@@ -131,7 +129,6 @@ class Likeness(Frozen):
         return False if size > self.allowed else None
 
     def rows(self, one: Row, other: Row) -> bool:
-        """Returns False if two rows are known to differ."""
         return all(self.cells(x, y) is not False for x, y in zip(one, other, strict=True))
 
     def blocks(self, one: Block, other: Block) -> bool:
@@ -141,7 +138,6 @@ class Likeness(Frozen):
         return all(self.rows(x, y) for x, y in zip(one, other, strict=True))
 
     def grids(self, one: Grid, other: Grid) -> bool:
-        """Returns False if two methods differ with their stages in the given order."""
         if not have_one_shape(one, other):
             return False
         if not all(self.rows(x, y) for x, y in zip(_all_rows(one), _all_rows(other), strict=True)):

@@ -214,7 +214,6 @@ def _once_reduced(views: Views) -> Sameness | None:
 
 
 def _matched(one: grids.Grid, other: grids.Grid, allowed: fmpq) -> Sameness | None:
-    """Returns the renumbering of colours and stages that turns one method into the other."""
     likeness = grids.Likeness(allowed)
     if likeness.grids(one, other):
         return replace(_plainly(one), allowed=allowed)

@@ -125,11 +125,7 @@ class FindingKind(Frozen):
 
 @lru_cache(maxsize=len(COMMANDS))
 def findings_of(command: str) -> Mapping[str, FindingKind]:
-    """Returns the kinds of findings of a command by their codes.
-
-    >>> findings_of("check")["undecided"].text
-    'A claim under expect neither holds nor fails: gark cannot decide it.'
-    """
+    """Returns the kinds of findings of a command by their codes."""
     kinds = {}
     for code, entry in read("findings")[command].items():
         text = " ".join(entry["text"].split())

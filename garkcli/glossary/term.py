@@ -58,11 +58,7 @@ def terms_of(topic: str) -> tuple[Term, ...]:
 
 
 def plain(word: str) -> str:
-    """Returns a word for comparison.
-
-    >>> plain("Stiffly-Accurate:")
-    'stiffly accurate'
-    """
+    """Returns a word for comparison, in lower case without hyphens."""
     return " ".join(word.lower().replace("-", " ").replace("_", " ").removesuffix(":").split())
 
 

@@ -47,9 +47,6 @@ def plot(
         against: of convergence tests: ``"h"``, ``"evaluations"`` or ``"seconds"``.
         is_order_star: of stability: draw |R(z)| > |e^z| in place of |R(z)| ≤ 1.
 
-    Returns:
-        A figure of matplotlib.
-
     Raises:
         MethodError: there is nothing to draw, or the results are of several kinds.
         UsageProblem: matplotlib is not there, or the path has another suffix.

@@ -85,7 +85,6 @@ def _extent(numbers: Sequence[float]) -> float:
 
 
 def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
-    """Returns the points with the smallest or the largest errors."""
     points = curve.points
     if is_whole or len(points) <= 3:
         return [points]

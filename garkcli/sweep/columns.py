@@ -130,7 +130,7 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
 
 
 def _rounded(text: str) -> float:
-    """Returns a decimal as a float. Raises GarkError if it overflows or underflows."""
+    """Raises GarkError if a decimal overflows or underflows."""
     value = float(text)
     mantissa, _, _ = text.lower().partition("e")
     is_lost = not value and mantissa.strip("-0.") != ""

@@ -159,7 +159,6 @@ _EXAMPLES = {"stages": '"<= 6"', "colours": "2", "phase-order": '">= 4"'}
 
 
 def _conditions() -> Iterator[g.Key]:
-    """Yields the keys of ``where``: the columns, with what they are compared with."""
     claimed = {key.name: key.text.partition(" It is claimed as ")[0] for key in claims()}
     by_kind = {
         "truth": (g.ValueKind(g.FLAG.schema, _truth), "true"),

@@ -33,9 +33,8 @@ STARTS = 20
 
 
 class Template(Frozen):
-    """A method file of a sweep, with parameters that get values. A search for other unknowns has
-    ``order``, 0 without, and ``starts`` for each of ``seeds``. ``is_drawn``: the transfer is drawn
-    from those whose pair has the order.
+    """A method file with parameters. A search for other unknowns has ``order``, 0 without;
+    ``is_drawn``: the transfer is drawn from those whose pair has the order.
     """
 
     name: str
@@ -107,7 +106,6 @@ METHODS = g.list_of(_METHOD, "methods", each="methods", form="name at least one 
 
 
 def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
-    """Reads a weight as text, which may contain parameters."""
     text = at.source.scalar(node, where)
     if text is None:
         return None
@@ -121,7 +119,6 @@ def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
 
 
 def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.ReadMapping | None:
-    """Reads rules with weights, or a rule with its degree."""
     if keys_of(node) & {"rule", "degree"}:
         found_degree: g.ReadMapping | None = OF_DEGREE.read(at, node, where)
         return found_degree
@@ -155,7 +152,6 @@ class MethodsReader:
         """The parameters that weights may contain."""
 
     def read(self, node: Node, entries: Sequence[g.ReadMapping], transfer: Node | None) -> None:
-        """Combines the entries of ``methods`` with each rule of ``transfer``."""
         self._at = node
         choices = [self._choices(entry) for entry in entries]
         rules: list[tuple[str, str, set[str]]] = [("", "", set())]

@@ -89,7 +89,6 @@ class SweepReport(Shown, Frozen):
 
     @cached_property
     def kept(self) -> list[Row]:
-        """The kept rows, one for each method."""
         return distinct(kept(self.done))
 
     @property
@@ -99,7 +98,6 @@ class SweepReport(Shown, Frozen):
 
     @property
     def best(self) -> list[Row]:
-        """The kept rows, the best first."""
         rows = self.kept
         return best_first(rows, self.plan.best) if self.plan.best else rows
 

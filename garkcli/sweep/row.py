@@ -56,7 +56,6 @@ def _drawn(point: Point, draw: Draw) -> FoundMethod:
 
 
 def method_found(point: Point, method: FoundMethod) -> Tableau:
-    """Returns an exact method as read from the text of its file."""
     claim = f"{'pair-' * point.template.is_drawn}order: {method.order}"
     return loads(with_values(_asked(point).family, method.values, "", claim), point.key).tableau
 

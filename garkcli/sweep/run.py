@@ -42,9 +42,8 @@ class Progress(Mutable):
 
 
 def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> Iterator[Progress]:
-    """Adds the missing rows and yields the progress after each task, in ``jobs`` processes or by
-    the Dask scheduler at an address. Raises UsageProblem for rows of another sweep, a file that is
-    not resumed, or without a cluster.
+    """Adds the missing rows and yields the progress after each task; UsageProblem for rows of
+    another sweep or a file that is not resumed, or without the cluster of ``scheduler``.
     """
     missing = []
     for point in plan.points():

@@ -18,10 +18,7 @@ _BLOCK = 1 << 16
 
 
 class RowStore:
-    """A file of rows that is read once and then appended to; without ``is_resumed`` one with rows
-    gets no further ones. Raises UsageProblem if it is not a file of rows, or another process writes
-    to it.
-    """
+    """A file of rows with one writer, or UsageProblem; it gets further ones if ``is_resumed``."""
 
     def __init__(self, path: str, is_resumed: bool) -> None:
         self.path = path

@@ -1,6 +1,4 @@
-"""Formulas of reports as MathML, for browsers and screen readers. The input is LaTeX from the
-program, never the text of a file.
-"""
+"""Formulas of reports as MathML; the input is LaTeX from the program, never the text of a file."""
 
 from __future__ import annotations
 
@@ -58,8 +56,6 @@ _ANY_IN_WORDS = re.compile("|".join(map(re.escape, sorted(_IN_WORDS, key=len, re
 
 
 class Typeset(Html):
-    """HTML with formulas as MathML."""
-
     def prose(self, text: str) -> str:
         parts = _ANY_IN_WORDS.split(text)
         formulas = [str(typeset(_IN_WORDS[x], x)) for x in _ANY_IN_WORDS.findall(text)]

@@ -155,7 +155,6 @@ def pictures(
 
 
 def _is_drawn_of(name: str, method: GarkMethod) -> bool:
-    """Returns whether a page has such a picture of methods of this kind."""
     if _is_gark(method) or name == "region":
         return True
     return name == "oscillator" and is_nystrom(method.tableau)

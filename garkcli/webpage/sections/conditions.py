@@ -87,7 +87,6 @@ def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
 
 
 def _rows(found: list[Condition], colours: bool | Sequence[str]) -> Iterator[Content]:
-    """Yields the rows of ``gark conditions``, with the tree drawn and formulas typeset."""
     has_colours = bool(colours)
     for condition in found:
         row = ConditionRow(condition.tree, False, condition)

@@ -23,7 +23,6 @@ _LONGEST = 400
 
 
 def _has_stability(tableau: Tableau) -> bool:
-    """Returns whether ``gark stability`` applies to a method."""
     if is_nystrom(tableau):
         return Nystrom.of(tableau).A is None
     return is_derivatives(tableau) or (tableau.exact_to is None and not is_nprk(tableau))
