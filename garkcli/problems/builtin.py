@@ -9,8 +9,8 @@ from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
+from garkcli.problems import equations
 from garkcli.problems import mechanical as systems
-from garkcli.problems import stiff, textbook
 from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem
@@ -106,28 +106,28 @@ _ENTRIES = (
         "ẏ = λy, λ = −1 or minus the stiffness; the solution is known",
         "ẏ = λ y, −λ the stiffness",
         "the unbranched trees",
-        textbook.dahlquist,
+        equations.dahlquist,
     ),
     BuiltIn(
         "logistic",
         "ẏ = y (1 − y): growth and its limit; the solution is known",
         "ẏ = y − y²: y and the rest",
         "all, up to degree 2 at a vertex of the rest, 1 at the first",
-        textbook.logistic,
+        equations.logistic,
     ),
     BuiltIn(
         "lotka-volterra",
         "predator and prey; with an invariant",
         "u̇ = u (1 − v), v̇ = v (u − 1): u̇ and the rest",
         "all, up to degree 2",
-        textbook.lotka_volterra,
+        equations.lotka_volterra,
     ),
     BuiltIn(
         "damped-pendulum",
         "q″ = −sin q − q′ (1 + q′²)/4, for Nyström methods with y′",
         "q̇ = v, v̇ = −sin q − v (1 + v²)/4",
         "those of q″ = g(q, q′), up to degree 3 in q′",
-        textbook.damped_pendulum,
+        equations.damped_pendulum,
     ),
     mechanical(
         "oscillator",
@@ -213,28 +213,28 @@ _ENTRIES = (
         "stiff about a solution that is known; not Hamiltonian",
         "ẏ = φ'(t) − λ (y − φ(t)), φ = cos t, λ the stiffness: φ' and the rest",
         "those that branch into time alone",
-        stiff.prothero_robinson,
+        equations.prothero_robinson,
     ),
     stiff_one(
         "van-der-pol",
         "the oscillator near the smooth solution; two parts, one stiff; not Hamiltonian",
         "ẏ = z, ż = σ ((1 − y²) z − y), σ the stiffness: z and the rest",
         "all, up to degree 3 at a vertex of the stiff part",
-        stiff.van_der_pol,
+        equations.van_der_pol,
     ),
     stiff_one(
         "robertson",
         "three chemical reactions, one slow and two fast; mass is conserved",
         "ȧ = −a/25 + 10⁴σbc, ċ = 3·10⁷σb², a + b + c constant, σ the stiffness: slow and fast",
         "all, up to degree 2 at a fast reaction, 1 at the slow one",
-        stiff.robertson,
+        equations.robertson,
     ),
     stiff_one(
         "reaction-diffusion",
         "eight cells in a line; reaction and diffusion; not Hamiltonian",
         "u̇ᵢ = rᵢ uᵢ (1 − uᵢ) + k (uᵢ₋₁ − 2uᵢ + uᵢ₊₁), k the stiffness: reaction and diffusion",
         "all, up to degree 2 at a reaction, 1 at a diffusion",
-        stiff.reaction_diffusion,
+        equations.reaction_diffusion,
     ),
     BuiltIn(
         "generic",

@@ -12,10 +12,10 @@ from garkcli import converge, find_order, loads
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import UsageProblem
 from garkcli.problems.builtin import PROBLEMS, problem
+from garkcli.problems.equations import reaction_diffusion, shared
 from garkcli.problems.files.load import load_problem
 from garkcli.problems.generic import generic_rhs
 from garkcli.problems.righthandside import RightHandSide, solution, steepness
-from garkcli.problems.stiff import reaction_diffusion, shared
 from garkcli.problems.vectorfield import symbols
 from tests.whole import in_whole
 
