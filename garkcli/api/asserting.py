@@ -107,7 +107,7 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
 
 
 class _OrderPart(Frozen):
-    """A part with an order of its own; ``which`` is ``conjugate`` or ``pair`` if these matter."""
+    """A part with an order of its own; its entries may be those of ``which``, a derived method."""
 
     words: str
     of: Callable[[GarkMethod], GarkMethod]

@@ -27,7 +27,7 @@ COARSEST = -1
 
 
 class RoundingHint(Frozen):
-    """A missing tolerance, 10 to ``exponent``, or one of ``repairs``, the smallest first."""
+    """A hint of a missing tolerance, 10 to ``exponent``, or of a wrong entry by its ``repairs``."""
 
     order: int
     of: str = "order"

@@ -70,7 +70,7 @@ def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[in
 
 
 class TableauLine(NamedTuple):
-    """A row of a printed tableau; counted from 0, with None for weights and missing blocks."""
+    """A row of a printed tableau, ``place`` from 0; None for weights and for missing blocks."""
 
     place: int
     colour: int | None

@@ -104,9 +104,9 @@ def _direction(point: Sequence[int], offset: int) -> list[Number]:
 
 
 def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None:
-    """P/Q in lowest terms from the quotients on lines; None if a line is special, else the
-    denominators there have one degree. The interpolated fraction is multiplied out, so it is right
-    or rejected. Its denominator has the least possible degree, which is not less than on a line.
+    """P/Q in lowest terms from the quotients on lines; None if a line is special: on all others the
+    denominators have one degree. The interpolated fraction is multiplied out, so it is right or
+    rejected. Its denominator has the least possible degree, which is not less than on a line.
     """
     axes = Q.variables - 1
     over = {}

@@ -27,7 +27,7 @@ ORDERS = (
     *("order", "embedded_order", "dense_order", "conjugate_order", "pair_order"),
     *(*WITH_TIME, *OF_OTHER_KINDS),
 )
-"""Exact ones, within a tolerance, for all parameters, of dense output."""
+"""The rows of ``gark check`` with orders."""
 OF_PAIR = ("conjugate_order", "pair_order")
 NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
 """Rows that are shown below others."""
