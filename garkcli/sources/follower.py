@@ -35,6 +35,7 @@ from garkcli.sources.step_words import (
     CHANGING,
     COPIES,
     DOTS,
+    ELEMENTARY,
     MATHEMATICS,
     OPERATIONS,
     SUMS,
@@ -801,6 +802,7 @@ class Follower(Evaluator):
 
 _PARTED = re.compile(r"[.\[]")
 _SHORT = re.compile("[0-9]{1,6}")
+_NO_FIELDS = MATHEMATICS | ELEMENTARY
 
 
 def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
@@ -862,7 +864,7 @@ def _evaluates(function: ir.Scope) -> bool:
         match x:
             case ir.Call(ir.Name(name)) if name in function.parameters:
                 return True
-            case ir.Call(ir.Field(), (_, _, *_)):
+            case ir.Call(ir.Field(name=name), (_, _, *_)) if name.lower() not in _NO_FIELDS:
                 return True
     return False
 

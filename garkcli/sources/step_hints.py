@@ -15,7 +15,15 @@ from garkcli.sources import ir
 from garkcli.sources.elementwise import Each, each_in, loop_over, transformed
 from garkcli.sources.evaluate import names_of
 from garkcli.sources.known import CONVERSIONS
-from garkcli.sources.step_words import APPENDING, COPIES, NO_SLOPES, OPERATIONS, SUMS, callee_name
+from garkcli.sources.step_words import (
+    APPENDING,
+    COPIES,
+    ELEMENTARY,
+    NO_SLOPES,
+    OPERATIONS,
+    SUMS,
+    callee_name,
+)
 
 
 class _Made(Frozen):
@@ -56,10 +64,11 @@ class Hints:
         has_status: whether functions may change their arguments and return a status.
 
     Attributes:
-        of_step: whether they may be a step: a sum has a name that f is given and a multiple of a
-            slope of f, or both are given to a function of the source; f has several arguments, or
-            is called several times.
-        of_stages: whether functions are given multiples of each other's slopes, or one of its own.
+        fields: functions f that may be vector fields of a step: a sum has a name that f is given
+            and a multiple of a slope of f, or both are given to a function of the source; f has
+            several arguments, or is called several times.
+        of_stages: whether one of them is given multiples of slopes of a function that is given
+            multiples of its slopes; the two may be one. Mathematics is none of them.
     """
 
     def __init__(
@@ -76,12 +85,18 @@ class Hints:
         self._over(body)
         several = {f for f, count in self._calls.items() if count > 1}
         passed = self._passed
-        self.of_stages = any(g in passed[f] and f in passed[g] for f in several for g in several)
-        self.of_step = any(
-            not x.bases.isdisjoint(self._given[g])
+        self.fields = {
+            f
             for x in self._sums
             for f in x.multiples & several
-            for g in {f, *(g for g in several if f in self._passed[g])}
+            for g in {f, *(g for g in several if f in passed[g])}
+            if not x.bases.isdisjoint(self._given[g])
+        }
+        self.of_stages = any(
+            g in passed[f] and f in passed[g]
+            for f in self.fields
+            if callee_name(f) not in ELEMENTARY
+            for g in several
         )
 
     def _over(self, body: Iterable[ir.Statement]) -> None:
@@ -192,7 +207,7 @@ class Hints:
         of = self._value(callee.of if isinstance(callee, ir.Field) else callee)
         made, is_sum = given | of, (name, count) in SUMS or name == "add"
         is_sum |= name in OPERATIONS and not is_effect
-        is_other = name in NO_SLOPES | COPIES or (name in CONVERSIONS and count == 1)
+        is_other = name in NO_SLOPES | COPIES or (name in CONVERSIONS and len(call.args) == 1)
         if not count or (is_other and not is_sum):
             return made
         if is_sum or getattr(callee, "name", "") in self._functions:
@@ -200,7 +215,7 @@ class Hints:
             self._sums.append(made)
             if is_sum:
                 return made
-        else:
+        elif name not in ELEMENTARY:
             made = of
         self._given[callee] |= given.bases
         self._passed[callee] |= given.multiples

@@ -56,4 +56,16 @@ MATHEMATICS = {
     *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
 }
 """Functions of two numbers in various languages."""
+ELEMENTARY = {
+    *("exp", "log", "log2", "log10", "log1p", "expm1", "sqrt", "cbrt", "square", "abs", "fabs"),
+    *("sin", "cos", "tan", "asin", "acos", "atan", "arcsin", "arccos", "arctan", "sinh", "cosh"),
+    *("tanh", "erf", "erfc", "sign", "floor", "ceil", "round", "trunc", "real", "imag", "conj"),
+    *("isnan", "isfinite", "isinf", "any", "all", "len", "size", "length", "shape", "ndim", "type"),
+    *("zeros", "ones", "empty", "zeros_like", "ones_like", "empty_like", "eye", "diag", "arange"),
+    *("linspace", "range", "enumerate", "zip", "map", "next", "iter", "sorted", "isinstance"),
+    *("getattr", "reshape", "ravel", "concatenate", "hstack", "vstack", "stack", "moveaxis"),
+    *("transpose", "squeeze", "atleast_1d", "broadcast_to", "broadcast_arrays", "expand_dims"),
+    *("prod", "cumsum", "mean", "argmax", "argmin", "argsort", "unique", "nonzero", "searchsorted"),
+}
+"""Functions of one number, and of arrays, in various languages: seldom vector fields."""
 NO_SLOPES = MATHEMATICS | TELLING

@@ -32,7 +32,12 @@ from garkcli.sources.values import (
     items_of,
     near,
 )
-from garkcli.sources.written_out import with_calls, with_functions, with_one_function
+from garkcli.sources.written_out import (
+    is_written_out,
+    with_calls,
+    with_functions,
+    with_one_function,
+)
 
 MAX_WAYS = 8
 """Most paths through a function."""
@@ -69,19 +74,23 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     for whole in [body] if of_one is body else [of_one, body]:
         for has_increments in (None, False, True):
             each = whole if has_increments is None else with_functions(whole, has_increments)
+            is_plain = each is whole
             try:
                 if each is not None:
-                    return _steps_with_calls(each, space, like, is_function)
+                    return _steps_with_calls(each, space, like, is_function, is_plain)
             except NoStep as error:
                 looks_like |= error.looks_like
     raise NoStep(looks_like)
 
 
 def _steps_with_calls(
-    body: ir.Body, space: Space, like: Evaluator, is_function: bool
+    body: ir.Body, space: Space, like: Evaluator, is_function: bool, is_plain: bool
 ) -> list[Roles]:
+    """The steps in statements, unless ``is_plain`` those with vector fields written out."""
     hints, count = _hints(body, like), sum(1 for _ in ir.statements(body))
-    if not hints.of_step or (count > MAX_STATEMENTS_OF_ONE_STAGE and not hints.of_stages):
+    if not hints.fields or (count > MAX_STATEMENTS_OF_ONE_STAGE and not hints.of_stages):
+        raise NoStep
+    if not is_plain and not any(map(is_written_out, hints.fields)):
         raise NoStep
     evaluations, helpers = _calls_in(body, like)
     is_long = count > MAX_STATEMENTS

@@ -17,6 +17,7 @@ from garkcli.sources.elementwise import substituted
 
 _MEMBER = re.compile(r"(?P<head>[^\W\d]{1,40}?)_?(?P<number>[0-9]{1,2})(?P<tail>[^\W\d]{0,40})")
 _DIGITS = re.compile("[0-9]+")
+_OF = "f of "
 MOST_ARGUMENTS = 12
 Values = Mapping[int, ir.Expr]
 """Values of assignments by the identities of these."""
@@ -44,6 +45,11 @@ def with_functions(body: ir.Body, has_increments: bool) -> ir.Body | None:
             calls = _calls(f"{head}{tail}", expressions, has_increments)
             values |= {id(x): call for x, call in zip(members, calls, strict=False)}
     return _replaced(body, values) if values else None
+
+
+def is_written_out(callee: ir.Expr) -> bool:
+    """Whether a function stands for expressions of a family."""
+    return isinstance(callee, ir.Name) and callee.name.startswith(_OF)
 
 
 def with_calls(body: ir.Body) -> ir.Body:
@@ -148,7 +154,7 @@ def _calls(name: str, values: Sequence[ir.Expr], has_increments: bool) -> list[i
         return []
     if not 0 < len(arguments) <= MOST_ARGUMENTS:
         return []
-    callee = ir.Name(f"f of {name}")
+    callee = ir.Name(f"{_OF}{name}")
     calls = [ir.Call(callee, tuple(x)) for x in zip(*arguments, strict=True)]
     return [x if step is None else ir.Binary("*", step, x) for x in calls]
 

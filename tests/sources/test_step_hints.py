@@ -13,6 +13,7 @@ NO_STEPS = {
     "a name that f is not given": "y = z + h*f(t, x)",
     "a factor that f is given": "y = z + x*f(t, x)",
     "mathematics": "y = x + h*max(t, x)",
+    "a function of arrays": "y = x + h*np.asarray(x, dtype=float)",
     "one call of one argument": "y = x + h*f(x)",
     "no sum": "y = h*f(t, x)",
 }
@@ -21,8 +22,8 @@ NO_STEPS = {
 @pytest.mark.parametrize("name", NO_STEPS)
 def test_names_rule_out_a_step(name: str) -> None:
     """Statements that are almost a step of Euler; with the last change undone they may be one."""
-    assert not _hints(NO_STEPS[name]).of_step
-    assert _hints(NO_STEPS[name] + "\ny = x + h*f(t, x)").of_step
+    assert not _hints(NO_STEPS[name]).fields
+    assert _hints(NO_STEPS[name] + "\ny = x + h*f(t, x)").fields
 
 
 def test_a_slope_of_stages() -> None:
@@ -34,6 +35,9 @@ def test_a_slope_of_stages() -> None:
     assert _hints(loop).of_stages
     assert _hints("k = f(v)\nl = g(x)\nk = f(v + h*l)\nl = g(x + h*k)").of_stages
     assert not _hints("k = f(t, x)\nl = g(t, x + h*k)").of_stages
+    assert not _hints("k = sqrt(x)\nl = sqrt(x + h*k)").of_stages
+    # the functions with stages have no multiple in the sum
+    assert not _hints("l = g(s, f(s, h*g(s, z)))\ny = x + h*f(t, x)").of_stages
 
 
 def _hints(text: str) -> Hints:
@@ -43,5 +47,5 @@ def _hints(text: str) -> Hints:
 def test_functions_of_a_source_are_followed() -> None:
     """A sum may be in a function that is given a slope."""
     text = "k = f(t, x)\ny = moved(x, k)"
-    assert not _hints(text).of_step
-    assert Hints(PythonLowering(text).module(), {"moved"}).of_step
+    assert not _hints(text).fields
+    assert Hints(PythonLowering(text).module(), {"moved"}).fields
