@@ -17,7 +17,15 @@ from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.elementwise import ITEM
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.known import CONSTANTS, CONVERSIONS, KnownCall, conversion, in_words, result
+from garkcli.sources.known import (
+    CONSTANTS,
+    CONVERSIONS,
+    NO_SIZE,
+    KnownCall,
+    conversion,
+    in_words,
+    result,
+)
 from garkcli.sources.signatures import SIGNATURES, other_kind
 from garkcli.sources.values import (
     FILL,
@@ -79,6 +87,8 @@ _METHODS = _GROWING | _EMPTYING | {"reserve", "fill"}
 
 IN_A_BRANCH = "assigned in one of several branches"
 _NO_EXTENT = "an extent that is not known"
+NO_SIZES = frozenset({_NO_EXTENT, NO_SIZE})
+"""Reasons of arrays whose entries are all assigned later."""
 
 
 class OutOfSteps(Exception):
@@ -288,14 +298,26 @@ class Evaluator:
         """Makes all entries of an array, or a name, unknown."""
         unknown = Unknown(reason, line)
         written = replace(unknown, was_written=True)
-        for name in names_of(target):
-            old = space.get(name)
-            space[name] = unknown
+        record, key = self._record_of(target, space)
+        named: dict[str, Value] = space if record is None else record.fields
+        for name in names_of(target) if record is None else [key]:
+            old = named.get(name)
+            named[name] = unknown
             if isinstance(old, Array) and (old.items or old.fill is not None):
-                space[name] = old.map(lambda x: written if _was_written(x) else unknown)
+                named[name] = old.map(lambda x: written if _was_written(x) else unknown)
             elif isinstance(old, Number) and old.is_zero and isinstance(target, ir.Index):
                 # A = 0, with entries filled in several branches
-                space[name] = Array([], is_growing=True, fill=unknown)
+                named[name] = Array([], is_growing=True, fill=unknown)
+
+    def _record_of(self, target: ir.Expr, space: Space) -> tuple[SourceRecord | None, str]:
+        """The record of the scope with the field that an assignment changes, and its key."""
+        while isinstance(target, ir.Index):
+            target = target.of
+        if isinstance(target, ir.Field) and isinstance(target.of, ir.Name):
+            record = space.get(target.of.name)
+            if isinstance(record, SourceRecord):
+                return record, target.name
+        return None, ""
 
     def _assign(self, statement: ir.Assign, space: Space) -> None:
         target, line = statement.target, statement.line
@@ -415,8 +437,11 @@ class Evaluator:
         elif isinstance(made, Array) and isinstance(old, Number):
             # A = 0, if nothing is known of the array so far
             is_free, made.fill = True, FILL if old.is_zero else old
-        elif isinstance(made, Array) and isinstance(old, Unknown) and old.reason == _NO_EXTENT:
+        elif isinstance(made, Array) and isinstance(old, Unknown) and old.reason in NO_SIZES:
             made.fill = self.unknown("never assigned")
+        elif isinstance(made, Array) and isinstance(old, Unknown) and _is_of_a_call(old):
+            # the other entries are those that the function gave it
+            made.fill = old
         elif isinstance(made, Array):
             is_free = old is None or isinstance(old, Null) or _is_unset(old)
         if not is_free:
@@ -861,6 +886,10 @@ def _functions(body: ir.Body) -> Mapping[str, ir.Scope]:
 def _is_unset(value: Value) -> bool:
     """Whether nothing was written there so far."""
     return value is FILL or (isinstance(value, Unknown) and value.reason == "never assigned")
+
+
+def _is_of_a_call(value: Unknown) -> bool:
+    return value.reason.startswith("the call ")
 
 
 def _was_written(value: Value) -> bool:

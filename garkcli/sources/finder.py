@@ -682,9 +682,15 @@ def _roles_of(fields: Mapping[str, Value], told: Mapping[str, str]) -> Roles:
     inserted.
     """
     roles: Roles = {}
-    for key, value in fields.items():
-        if key in told and not isinstance(value, Null):
-            roles.setdefault(told[key], value)
+    named = [(told.get(key, ""), key, x) for key, x in fields.items() if not isinstance(x, Null)]
+    # a flag says that there are some
+    named = [x for x in named if not (x[0] in BESIDE and isinstance(x[-1], Word))]
+    has_low = any(role == "embedded" for role, _, _ in named)
+    for role, key, value in named:
+        # P is an order if it is a number, and Q beside embedded weights, not beside an estimate
+        is_order = role == "dense" and isinstance(value, Number)
+        if role and (has_low or key != "Q"):
+            roles.setdefault("order" if is_order else role, value)
     if isinstance(fields.get("c1"), Number) and "c" in roles:
         roles["c"] = Array([fields["c1"], *items_of(roles["c"])])
     single = {x: y for x, y in roles.items() if x in ("A", "b", "c") and isinstance(y, Number)}

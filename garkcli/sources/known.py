@@ -352,8 +352,11 @@ def _filled(call: KnownCall, fill: Value, args: Iterable[Value]) -> Value:
         known = known[:-1]
     sizes = _sizes(known[:3])
     if not sizes or max(sizes) > MAX_STAGES:
-        return call.unknown("an array of unknown size")
+        return call.unknown(NO_SIZE)
     return call.filled(fill, *sizes)
+
+
+NO_SIZE = "an array of unknown size"
 
 
 _FILLS = {

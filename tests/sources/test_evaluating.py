@@ -258,6 +258,11 @@ SAME = {
         "class X { void F(bool s) { if (s) { F(false); } else {\n"
         "  double[,] A = { { 0, 0 }, { 2.0 / 3, 0 } }; double[] b = { 0.25, 0.75 }; } } }"
     ),
+    "go, arrays of functions filled later": (
+        "package p\nfunc f() *T {\n\tt := new(T)\n\tt.A = grid.AllocDense(2, 2)\n"
+        "\tt.B = make([]float64, len(t.A))\n\tt.A[1][0] = 2.0 / 3\n\tt.B[0] = 0.25\n"
+        "\tt.B[1] = 0.75\n\tt.k[n] = 1\n\treturn t\n}"
+    ),
     "go, a matrix of gonum": (
         "package p\nvar A, b = mat.NewDense(2, 2, []float64{0, 0, 2.0 / 3, 0}),"
         " mat.NewVecDense(2, []float64{0.25, 0.75})"

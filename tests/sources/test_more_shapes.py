@@ -10,7 +10,7 @@ import pytest
 
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import Find, TooLarge
-from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust, typescript
+from garkcli.sources.languages import c, fortran, go, java, julia, matlab, python, rust, typescript
 
 SHU_OSHER = """
 function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
@@ -885,3 +885,32 @@ def test_numbers_called_e_are_weights_or_their_differences(numbers: tuple[str, .
     assert found.embedded_order is not None
     assert found.embedded_order.order == 2
     assert not any(x.level == "warning" for x in found.findings)
+
+
+FLAGS = """package p
+func f(kind string) *T {
+	o := new(T)
+	switch kind {
+	case "heun":
+		o.Embedded, o.P, o.Q = true, 2, 1
+		o.A = [][]float64{{0, 0}, {1, 0}}
+		o.B, LOW = []float64{0.5, 0.5}, []float64{1, 0}
+	}
+	return o
+}
+"""
+
+
+@pytest.mark.parametrize(("low", "order"), [("o.Be", 1), ("o.E", None)])
+def test_flags_are_no_weights_and_letters_are_orders(low: str, order: int | None) -> None:
+    """The order of an estimate that combines several rows is not that of embedded weights."""
+    (table,) = go.find(FLAGS.replace("LOW", low), "x")
+    assert (table.order, table.embedded_order) == (2, order)
+    assert not table.notes
+
+
+def test_entries_that_a_function_gave_are_unknown() -> None:
+    """Of an array that a call made, unless its name is that of zeros."""
+    text = "A = layout(2)\nA[1][0] = 2/3\nb = [1/4, 3/4]\n"
+    (table,) = python.find(text, "x")
+    assert "the call layout" in table.trouble

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 NAME = "go"
 _PACKAGE = re.compile(r"^package[ \t]+\w", re.MULTILINE)
 _NUMBERS = frozenset({"float32", "float64"})
+_MAKER = re.compile(r"Alloc\w*|(?:New|Make|Zero)\w*(?:Mat|Vec|Arr|Slice|Dense)\w*")
+"""Functions that make arrays: Go sets all memory to zero."""
+_SIZES = frozenset({"int_literal", "identifier"})
 
 
 class GoLowering(Lowering):
@@ -179,15 +182,14 @@ class GoLowering(Lowering):
     def _called(self, node: Node) -> ir.Expr:
         callee, given = part(node, "function"), self.children(part(node, "arguments"))
         name = self.text(part(callee, "field") or callee)
-        if name == "make":
-            return ir.Call(ir.Name("zeros"), self.exprs(given[1:2]))
+        sizes = [x for x in given if self.text(x) != "nil"]
+        has_sizes_alone = len(sizes) < len(given) or {x.type for x in sizes} <= _SIZES
+        if name == "make" or (_MAKER.fullmatch(name) and has_sizes_alone):
+            return ir.Call(ir.Name("zeros"), self.exprs(given[1:2] if name == "make" else sizes))
         if name in _NUMBERS:
             return ir.Call(ir.Name("double"), self.exprs(given))
         if name == "NewDense" and len(given) == 3:
-            rows, columns, entries = self.exprs(given)
-            if isinstance(entries, ir.Nothing):
-                return ir.Call(ir.Name("zeros"), (rows, columns))
-            return ir.Call(ir.Name("from_row_slice"), (rows, columns, entries))
+            return ir.Call(ir.Name("from_row_slice"), self.exprs(given))
         if name == "NewVecDense" and len(given) == 2:
             return self.expr(given[1])
         of = part(callee, "operand")
