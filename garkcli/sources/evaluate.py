@@ -472,12 +472,17 @@ class Evaluator:
                     self.refilled(self._scopes[-1], record, key)
         if len(items) == len(places) > 0:
             for (inside, key), item in zip(places, items, strict=True):
+                row = items_of(inside[key]) if isinstance(inside, list) else []
+                if len(row) == 1 and isinstance(item, Number):
+                    # an entry of a column
+                    inside, key = row, 0
                 inside[key] = item
         elif isinstance(target, ir.Index):
             self.spoil(target.of, space, "an entry at an unknown place", line)
 
     def _entries(self, array: Array, at: Sequence[ir.Expr], space: Space) -> list[Place]:
         """The entries at indices."""
+        array = self._line(array, at)
         places: list[Place] = []
         for i in self._numbers(at[0], array, space) if at else ():
             if array.is_growing and len(array.items) <= i < MAX_STAGES:
@@ -675,7 +680,13 @@ class Evaluator:
             return of if isinstance(of, Unknown) else self.unknown("an entry of what is no array")
         return self._sliced(of, at, space)
 
+    def _line(self, array: Array, at: Sequence[ir.Expr]) -> Array:
+        """The row of a matrix with a single one, if there is one index and the first is 1."""
+        row = array.items[0] if len(array.items) == len(at) == self.base == 1 else None
+        return row if isinstance(row, Array) else array
+
     def _sliced(self, of: Array, at: Sequence[ir.Expr], space: Space) -> Value:
+        of = self._line(of, at)
         numbers = self._numbers(at[0], of, space)
         is_slice = _is_range(at[0])
         if not numbers and not is_slice:

@@ -914,3 +914,26 @@ def test_entries_that_a_function_gave_are_unknown() -> None:
     text = "A = layout(2)\nA[1][0] = 2/3\nb = [1/4, 3/4]\n"
     (table,) = python.find(text, "x")
     assert "the call layout" in table.trouble
+
+
+@pytest.mark.parametrize(
+    ("find", "text"),
+    [
+        (matlab.find, "A = zeros(3); A(2,1) = 1/3; A(3,2) = 2/3; {} = 1/4; {} = 3/4;"),
+        (julia.find, "A = zeros(3, 3)\nA[2,1] = 1/3\nA[3,2] = 2/3\n{} = 1/4\n{} = 3/4"),
+        (python.find, "A = zeros((3, 3))\nA[1,0] = 1/3\nA[2,1] = 2/3\n{} = 1/4\n{} = 3/4"),
+    ],
+)
+@pytest.mark.parametrize("shape", ["3, 1", "1, 3"])
+def test_entries_of_a_column_that_are_not_assigned_are_zeros(
+    find: Find, text: str, shape: str
+) -> None:
+    """And those of a row, which has one index where the first one is 1."""
+    size, places = {
+        matlab.find: (f"zeros({shape})", ("b(1)", "b(3)")),
+        julia.find: (f"zeros({shape})", ("b[1]", "b[3]")),
+        python.find: ("zeros((3, 1))", ("b[0]", "b[2]")),
+    }[find]
+    (table,) = find(f"b = {size}\n{text.format(*places)}", "x")
+    assert table.b == (("1/4", "0", "3/4"),)
+    assert not table.trouble
