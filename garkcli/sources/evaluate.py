@@ -21,6 +21,7 @@ from garkcli.sources.known import (
     CONSTANTS,
     CONVERSIONS,
     NO_SIZE,
+    SAME,
     KnownCall,
     conversion,
     in_words,
@@ -72,8 +73,6 @@ MAX_INLINED = 3
 _GROWING = frozenset({"push_back", "append", "emplace_back"})
 _GROWN = frozenset({"push!", "append!", "pushfirst!", "prepend!"})
 """Functions that append their further arguments, or the items in them, to their first one."""
-_SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
-"""Methods that return the array or the number itself."""
 _OF_ARRAYS = frozenset({"reshape", "transpose", "sum", "flatten", "ravel"})
 """Methods that are functions of the array."""
 _GETTERS = frozenset({"get_index", "get", "getEntry", "coeff"})
@@ -455,6 +454,9 @@ class Evaluator:
 
     def _put(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
         """Assigns to fields and entries; an unknown index spoils its array."""
+        if isinstance(target, ir.Index) and self.base and isinstance(value, Number):
+            is_line = _is_line(self.value(target.of, space), target.at)
+            target = ir.Index(target.of, (_FIRST, *target.at)) if is_line else target
         places = self._places(target, space)
         items: Sequence[Value] = [value] * len(places)
         match target:
@@ -482,7 +484,6 @@ class Evaluator:
 
     def _entries(self, array: Array, at: Sequence[ir.Expr], space: Space) -> list[Place]:
         """The entries at indices."""
-        array = self._line(array, at)
         places: list[Place] = []
         for i in self._numbers(at[0], array, space) if at else ():
             if array.is_growing and len(array.items) <= i < MAX_STAGES:
@@ -680,14 +681,10 @@ class Evaluator:
             return of if isinstance(of, Unknown) else self.unknown("an entry of what is no array")
         return self._sliced(of, at, space)
 
-    def _line(self, array: Array, at: Sequence[ir.Expr]) -> Array:
-        """The row of a matrix with a single one, if there is one index and the first is 1."""
-        row = array.items[0] if len(array.items) == len(at) == self.base == 1 else None
-        return row if isinstance(row, Array) else array
-
     def _sliced(self, of: Array, at: Sequence[ir.Expr], space: Space) -> Value:
-        of = self._line(of, at)
         numbers = self._numbers(at[0], of, space)
+        if self.base and numbers and numbers[0] > 0 and _is_line(of, at):
+            return self._sliced(of, (_FIRST, *at), space)
         is_slice = _is_range(at[0])
         if not numbers and not is_slice:
             return self.unknown("an entry at an unknown place")
@@ -798,7 +795,7 @@ class Evaluator:
             return copied(given)
         if isinstance(callee, ir.Field) and isinstance(target := self.value(callee, space), Array):
             return self._sliced(target, call.args, space) if args else target
-        if isinstance(callee, ir.Field) and plain in _SAME:
+        if isinstance(callee, ir.Field) and plain in SAME:
             return self.value(callee.of, space)
         if isinstance(callee, ir.Field) and plain == "back" and not args:
             items = items_of(self.value(callee.of, space))
@@ -897,6 +894,15 @@ def _functions(body: ir.Body) -> Mapping[str, ir.Scope]:
 def _is_unset(value: Value) -> bool:
     """Whether nothing was written there so far."""
     return value is FILL or (isinstance(value, Unknown) and value.reason == "never assigned")
+
+
+_FIRST = ir.Literal("1", is_whole=True)
+"""The index of the first row in languages that count from 1."""
+
+
+def _is_line(value: Value, at: Sequence[ir.Expr]) -> bool:
+    """Whether one index is that of an entry in the only row of a matrix."""
+    return is_matrix(value) and len(value.items) == len(at) == 1
 
 
 def _is_of_a_call(value: Unknown) -> bool:

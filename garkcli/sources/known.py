@@ -202,9 +202,21 @@ _TYPES = """
     from_f64 from_f32 from_usize from_i32 from Ratio BigDecimal BigFraction Some Ok Box valueOf
     constant to_array from_slice from_array arr1 arr2 Rational64 BigRational
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
+    move make_shared make_unique shared_ptr unique_ptr Arc Rc RefCell Cell Mutex Cow
+    ascontiguousarray asfortranarray atleast_1d squeeze require device_put stop_gradient
 """
 CONVERSIONS = frozenset(_TYPES.split())
 """Types, and functions that return their argument, a number, list or matrix."""
+_OF_ONE = frozenset({"make_shared", "make_unique", "shared_ptr", "unique_ptr", "move"})
+"""Of several arguments these make something else."""
+_METHODS = """
+    copy astype tolist to clone item double float numpy
+    unwrap unwrap_unchecked expect into iter into_iter collect to_vec to_owned copied cloned
+    as_slice as_ref as_mut to_subset into_boxed_slice into_shared borrow squeeze contiguous detach
+    eval doubleValue getReal toArray toList ToArray ToList asReadOnly AsReadOnly
+"""
+SAME = frozenset(_METHODS.split())
+"""Methods that return the number, list or matrix itself."""
 
 
 def _vector(call: KnownCall, values: Sequence[Value]) -> Value | None:
@@ -241,7 +253,7 @@ def _converted(call: KnownCall, *args: Value) -> Value | None:
     values = [x for x in args if not isinstance(x, Type)]
     if any(x == ir.Name("undef") for x in call.expr.args):
         return _made(call, *args)
-    if not values:
+    if not values or (len(values) > 1 and call.name in _OF_ONE):
         return None
     if call.name == "vector" and (filled := _vector(call, values)) is not None:
         return filled
@@ -487,6 +499,12 @@ def _of_slice(call: KnownCall, *rest: Value) -> Value | None:
     is_by_rows = call.name == "from_row_slice"
     shaped = _reshaped(call, entries, *(sizes if is_by_rows else sizes[::-1]))
     return shaped if shaped is None or is_by_rows else transposed(shaped, call.line)
+
+
+@_known("from_shape_vec")
+def _of_shape(call: KnownCall, shape: Value, entries: Value) -> Value | None:
+    """``Array2::from_shape_vec((2, 2), …)``: a matrix from its entries by rows, or a list."""
+    return _reshaped(call, entries, shape) if isinstance(shape, Array) else entries
 
 
 @_known("vcat concatenate hstack vstack")

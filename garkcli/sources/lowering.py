@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, ClassVar
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
+from garkcli.sources.known import SAME
 from garkcli.sources.naming import ROLES, speaks
 from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import SIGNATURES, other_kind
@@ -437,14 +438,6 @@ _OPERATIONS = (
 )
 """Methods of numbers that are operations with another number."""
 _UNITS = {"getZero": "0.0", "getOne": "1.0"}
-_ITSELF = frozenset(
-    {
-        *("unwrap", "expect", "into", "iter", "into_iter", "collect", "to_vec", "to_owned"),
-        *("clone", "copied", "cloned", "as_slice", "as_ref", "to_subset"),
-        *("doubleValue", "getReal", "toArray"),
-    }
-)
-"""Methods that return the number or the list itself."""
 _OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
     x: x for x in ("sqrt", "cbrt", "cos", "sin", "len", "map", "transpose", "sum")
 }
@@ -459,7 +452,7 @@ def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr 
         return ir.Unary("-", of)
     if name in _UNITS and not args:
         return ir.Literal(_UNITS[name])
-    if name in _ITSELF and len(args) < 2:
+    if name in SAME and len(args) < 2:
         return of
     if name == "newInstance" and args:
         return ir.Call(ir.Name("double"), args[:1])

@@ -185,6 +185,19 @@ SAME = {
         "    b[1] += 0.5;\n    let a = a.map(|row| row.map(|x| T::from_f64(x).unwrap()));\n"
         "    let b = b.iter().map(|&x| T::from_f64(x).unwrap()).collect();\n    Tableau { a, b }\n}\n"
     ),
+    "rs, lists in shapes, boxes and results": (
+        "fn ralston(k: Kind) -> Rk {\n    let s = stages(k);\n"
+        '    let a = Array2::from_shape_vec((s, s), vec![0., 0., 2. / 3., 0.]).expect("a square");\n'
+        "    let b = Some(Arc::new(Array1::from_shape_vec(s, vec![0.25, 0.75]).unwrap()));\n"
+        "    Rk { a: a.to_owned(), b }\n}\n"
+    ),
+    "cpp, values that are moved and shared": (
+        "Rk ralston() {\n  std::vector<double> w{0.25, 0.75};\n  auto b = std::move(w);\n"
+        "  auto A = std::make_shared<Rows>(Rows{{0, 0}, {2.0 / 3, 0}});\n  return Rk(A, b);\n}\n"
+    ),
+    "py, copies of arrays": (
+        "A = np.ascontiguousarray(np.array([[0, 0], [2/3, 0]]))\nb = np.squeeze([1/4, 3/4]).copy()\n"
+    ),
     "rs, a record by position": (
         "struct Rk { a: Vec<Vec<f64>>, b: Vec<f64> }\nimpl Rk {\n"
         "    fn new(a: Vec<Vec<f64>>, b: Vec<f64>) -> Self { Self { a, b } }\n"
