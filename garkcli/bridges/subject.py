@@ -163,8 +163,12 @@ def _short_units(table: FoundTable) -> Mapping[Number, fmpq]:
 
 
 def _places(value: Number) -> int:
-    """The places behind the point of a decimal; more than a few for other numbers."""
+    """The places behind the point of a decimal, or its digits if these are few behind zeros; more
+    than a few for other numbers.
+    """
     most = FEW_PLACES.stop
     if not isinstance(value, fmpq):
         return most
-    return next((n for n in range(most) if not 10**n % int(value.q)), most)
+    places = next((n for n in range(2 * most) if not 10**n % int(value.q)), 2 * most)
+    has_few_digits = places < 2 * most and abs(value) * 10**places < 10 ** (most - 1)
+    return min(places, most - has_few_digits)

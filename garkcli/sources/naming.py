@@ -12,7 +12,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
     "b": (
         *("b", "B", "w", "bvec", "b_sol", "bsol"),
-        *("c_sol", "weights", "α", "b_vec", "bCoefficients"),
+        *("c_sol", "weights", "α", "b_vec", "bCoefficients", "b_high", "b_high_order"),
     ),
     "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae", "cCoefficients"),
     "embedded": (

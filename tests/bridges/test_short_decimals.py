@@ -51,6 +51,13 @@ def test_the_order_holds_within_the_last_place(text: str, places: int, is_declar
     assert loads(f"{file}tolerance: 1e-{places + 1}\n").order < 4
 
 
+def test_zeros_before_few_digits_are_no_further_digits() -> None:
+    """0.062502 beside numbers of five places has five digits."""
+    text = FIVE.replace("0.125, 0.375, 0.375", "0.062502, 0.37500, 0.4375")
+    found = audited(text.replace("order = 4", ""))
+    assert {x.level for x in found.findings} <= {"note"}
+
+
 def test_the_file_has_the_tolerance() -> None:
     (table,) = python.find(RK4, "x.py")
     method = imported(table, "rk4")
