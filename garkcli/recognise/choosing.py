@@ -27,6 +27,8 @@ FEWEST_FRACTIONS = 2
 """Weights of order 2 or the matrix beside them have fractions."""
 MOST_LEFT = 60
 """The most arrays without a reading that are tried with those of the scope around them."""
+ALONE = 8.0
+"""Bits of three arrays of a scope that are a method, where nothing else is."""
 NEAR = 100
 """Equal numbers within so many lines are one method."""
 
@@ -108,7 +110,7 @@ def _best(
         each = by_names(reading, alike[reading.matrix]) if reading.form == "rk" else reading
         is_matrix = each.form in ("rk", "nystrom")
         own = each.used[:1] if is_matrix else each.used
-        bits = each.bits - cost
+        bits = each.bits - cost + ALONE * _is_all(group, arrays, each)
         if bits < ENOUGH_FOR_DOUBT or any(id(x) in taken for x in own):
             continue
         each = replace(each, bits=bits, group=group, declared=_declared(group, each))
@@ -120,6 +122,14 @@ def _best(
         taken |= ids
         used |= ids
         yield each
+
+
+def _is_all(group: Group, arrays: Sequence[Given], reading: Reading) -> bool:
+    """Whether a scope that speaks of methods has one matrix, and weights and nodes for it alone,
+    that meet what is tried.
+    """
+    is_whole = len(arrays) == len(reading.used) == 3 and sum(x.is_matrix for x in arrays) == 1
+    return group.speaks and is_whole and reading.is_plain and reading.order > 1
 
 
 def _declared(group: Group, reading: Reading) -> DeclaredOrder | None:

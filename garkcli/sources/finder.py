@@ -648,8 +648,8 @@ def _fits(role: str, value: Value) -> bool:
 
 
 def _with_grid(numbered: Roles) -> Roles:
-    """Blocks ``A1_2`` and weights ``b1`` as nested arrays; b1 and b2 beside a single A are the
-    weights and the embedded ones.
+    """Blocks ``A1_2`` and weights ``b1`` as nested arrays; b1 and b2, or b4 and b5, beside a single
+    A are the weights and the embedded ones.
     """
     of = {
         tuple(role.replace("_", " ").split(" ")): x for role, x in numbered.items() if " " in role
@@ -663,8 +663,9 @@ def _with_grid(numbered: Roles) -> Roles:
         roles["A"] = Array(list(rows))
         for role in {at[0] for at in of if len(at) == 2}:
             roles[role] = Array([of.get((role, l), NULL) for l in numbers])
-    elif {at for at in of if at[0] == "b"} == {("b", "1"), ("b", "2")}:
-        roles = {"b": of["b", "1"], "embedded": of["b", "2"], **roles}
+    elif not blocks and len(numbers := sorted(at[1:] for at in of if at[0] == "b")) == 2:
+        low, high = (of["b", *at] for at in numbers)
+        roles = {"b": low, "embedded": high, **roles}
     empty = {x for x in ("A", "c") if isinstance(roles.get(x), Array) and not items_of(roles[x])}
     if "A" in empty and len(items_of(roles.get("b"))) == 1:
         roles["A"] = Array([Array([FILL])])

@@ -9,12 +9,24 @@ from functools import lru_cache
 from garkcli.sources.values import Value, is_matrix, items_of, near
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
-    "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
+    "A": (
+        "A",
+        "a",
+        "Amat",
+        "amat",
+        "beta",
+        "β",
+        "a_lower",
+        "A_matrix",
+        "aCoefficients",
+        "AA",
+        "aa",
+    ),
     "b": (
         *("b", "B", "w", "bvec", "b_sol", "bsol"),
-        *("c_sol", "weights", "α", "b_vec", "bCoefficients", "b_high", "b_high_order"),
+        *("c_sol", "weights", "α", "b_vec", "bCoefficients", "b_high", "b_high_order", "bb"),
     ),
-    "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae", "cCoefficients"),
+    "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae", "cCoefficients", "cc"),
     "embedded": (
         *("bhat", "b_hat", "bh", "bembed", "bstar", "b_star", "btilde"),
         *("b_tilde", "b_embedded", "bemb", "b_err_weights", "b_low_order"),

@@ -937,3 +937,19 @@ def test_entries_of_a_column_that_are_not_assigned_are_zeros(
     (table,) = find(f"b = {size}\n{text.format(*places)}", "x")
     assert table.b == (("1/4", "0", "3/4"),)
     assert not table.trouble
+
+
+@pytest.mark.parametrize(
+    ("names", "low"), [("AA bb cc", ""), ("A b2 c", "b3"), ("A b7 c", "b8"), ("rows total at", "")]
+)
+def test_two_stages_by_doubled_letters_numbers_and_alone(names: str, low: str) -> None:
+    """Weights may have the orders as numbers; three neutral arrays are enough where nothing else is
+    in a function about methods, and in no other one.
+    """
+    A, b, c = names.split()
+    more = f"    {low} = [0, 1]\n" if low else ""
+    body = f"    {A} = [[0, 0], [3/4, 0]]\n    {b} = [1/3, 2/3]\n{more}    {c} = [0, 3/4]\n"
+    (table,) = python.find(f"def runge_kutta():\n{body}", "x")
+    assert (table.b, bool(table.embedded)) == ((("1/3", "2/3"),), bool(low))
+    if A == "rows":
+        assert python.find(f"def parking():\n{body}", "x") == []
