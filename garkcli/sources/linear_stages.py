@@ -233,25 +233,33 @@ def _as_stored(
     sums = _solved(low_C, gamma.near, [1.0] * stages)
     first = (stages - 1) * (stages - 2) // 2
     last, above = low_A[first:], low_A[first - stages + 2 : first]
-    if any(map(near, last)) and not is_written(last[-1]) and "b" not in vectors:
-        # the entry is either 0 or 1, and no weights decide
-        return {}
-    ways = [last] if any(map(near, last)) or stages < 3 else [[*above, ONE], [*above, FILL]]
-    for last in ways:
-        low_A = [*low_A[:first], *last]
-        m = vectors.get("b", Array([*last, ONE]))
+    is_whole = "b" in vectors or is_written(last[-1])
+    if not any(map(near, last)):
+        ways = [last] if stages < 3 else [[*above, ONE], [*above, FILL]]
+    else:
+        # the conditions decide whether the entry is 0 or 1
+        ways = [last] if is_whole else [[*last[:-1], ONE], last]
+    b: Value
+    fitting: list[tuple[Array, list[Value]]] = []
+    for way in ways:
+        low_A = [*low_A[:first], *way]
+        m = vectors.get("b", Array([*way, ONE]))
         if not isinstance(m, Array) or len(m.items) != stages or abs(_dot(m, sums) - 1) > CLOSE:
             continue
         both = [_below(low_A, i, sums) + sums[i] for i in range(stages)]
         if abs(_dot(m, _solved(low_C, gamma.near, both)) - 0.5) < CLOSE:
-            break
+            fitting.append((m, low_A))
+    if len(fitting) > 1 and any(map(near, last)):
+        return {}
+    if fitting:
+        b, low_A = fitting[0]
     else:
-        m, low_A = vectors.get("b", FILL), _triangle(A, stages)
-        rows = {len(items_of(x)) for x in (A, C, m)}
-        if not is_told or rows != {stages} or first_unknown(Array([A, C, m])) is not None:
+        b, low_A = vectors.get("b", FILL), _triangle(A, stages)
+        rows = {len(items_of(x)) for x in (A, C, b)}
+        if not is_told or rows != {stages} or first_unknown(Array([A, C, b])) is not None:
             return {}
     nodes = [_below(low_A, i, sums) for i in range(stages)]
-    roles: dict[str, Value] = {"A": Array([*_rows(low_A, stages)]), "b": m, "gamma": gamma}
+    roles: dict[str, Value] = {"A": Array([*_rows(low_A, stages)]), "b": b, "gamma": gamma}
     roles["C"] = Array([*_rows(low_C, stages)])
     for role, name, known in (("c", "c", nodes), ("d", "d", sums)):
         row = _completed(vectors.get(name), known)

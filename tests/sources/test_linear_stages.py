@@ -174,3 +174,14 @@ def test_records_of_letters() -> None:
     assert [x.table.gamma is None for x in found if x] == [False, True]
     found = [audit(x) for x in python.find(RECORDS.format(-1.2773502691896258), "x.py")]
     assert [x.order.order for x in found if x and x.order and x.table.gamma] == [1]
+
+
+@pytest.mark.parametrize("own", ["", ", a32 = 1", ", c21 = 0"])
+def test_a_last_entry_and_zeros_may_be_left_out(own: str) -> None:
+    """The weights are the last row and 1; of 0 and 1 one alone has order 2."""
+    numbers = f"gamma = 0.5, a21 = 1, a31 = 0.5, c31 = 3, c32 = -4{own}"
+    (table,) = c.find(f"namespace rosenbrock {{ const double {numbers}; }}", "x")
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, table.b) == (2, (("1/2", "1", "1"),))
