@@ -477,8 +477,9 @@ class Evaluator:
                 row = items_of(inside[key]) if isinstance(inside, list) else []
                 if len(row) == 1 and isinstance(item, Number):
                     # an entry of a column
-                    inside, key = row, 0
-                inside[key] = item
+                    row[0] = item
+                else:
+                    inside[key] = item
         elif isinstance(target, ir.Index):
             self.spoil(target.of, space, "an entry at an unknown place", line)
 

@@ -663,8 +663,8 @@ def _with_grid(numbered: Roles) -> Roles:
         roles["A"] = Array(list(rows))
         for role in {at[0] for at in of if len(at) == 2}:
             roles[role] = Array([of.get((role, l), NULL) for l in numbers])
-    elif not blocks and len(numbers := sorted(at[1:] for at in of if at[0] == "b")) == 2:
-        low, high = (of["b", *at] for at in numbers)
+    elif not blocks and len(numbers := sorted(at[1] for at in of if at[0] == "b")) == 2:
+        low, high = (of["b", number] for number in numbers)
         roles = {"b": low, "embedded": high, **roles}
     empty = {x for x in ("A", "c") if isinstance(roles.get(x), Array) and not items_of(roles[x])}
     if "A" in empty and len(items_of(roles.get("b"))) == 1:

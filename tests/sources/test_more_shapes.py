@@ -953,3 +953,21 @@ def test_two_stages_by_doubled_letters_numbers_and_alone(names: str, low: str) -
     assert (table.b, bool(table.embedded)) == ((("1/3", "2/3"),), bool(low))
     if A == "rows":
         assert python.find(f"def parking():\n{body}", "x") == []
+
+
+@pytest.mark.parametrize(
+    ("b", "e", "order"),
+    [
+        ("[1/2, 3/4]", "[1/4, 0]", 1),
+        ("[1/2, 1/2]", "[1/4, 1/4]", None),
+        ("[1/2, 1/2]", "[1, 0]", 1),
+    ],
+)
+def test_an_error_with_another_sum(b: str, e: str, order: int | None) -> None:
+    """It is b − b̂ if b̂ has the sum 1 so, though b has another one; a note where nothing fits."""
+    (table,) = python.find(f"A = [[0, 0], [1, 0]]\nb = {b}\ne = {e}\nc = [0, 1]\n", "x")
+    found = audit(table)
+    assert found is not None
+    assert (found.embedded_order and found.embedded_order.order) == order
+    assert bool(table.notes) == (order is None)
+    assert "embedded-weights" not in {x.code for x in found.findings}
