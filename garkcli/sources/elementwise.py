@@ -91,7 +91,9 @@ def loop_over(loop: ir.Loop) -> tuple[Mapping[str, ir.Expr | None], ir.Body]:
     return dict(zip(names, vectors_of(names, loop.over), strict=False)), body
 
 
-def substituted(node: T, values: Mapping[str, ir.Expr], calls: frozenset[str] = frozenset()) -> T:
+def substituted(
+    node: T, values: Mapping[str, ir.Expr], calls: frozenset[ir.Expr] = frozenset()
+) -> T:
     """Statements or an expression with other expressions for some names, and calls for entries of
     others.
     """
@@ -103,7 +105,7 @@ def substituted(node: T, values: Mapping[str, ir.Expr], calls: frozenset[str] = 
         return node
     parts = {name: getattr(node, name) for name in fields(node)}
     made = {name: substituted(x, values, calls) for name, x in parts.items()}
-    if isinstance(node, ir.Index) and isinstance(node.of, ir.Name) and node.of.name in calls:
+    if isinstance(node, ir.Index) and node.of in calls:
         return ir.Call(made["of"], made["at"])  # type: ignore[return-value]
     changed = {name: x for name, x in made.items() if x is not parts[name] and x != parts[name]}
     return replace(node, **changed) if changed else node

@@ -85,6 +85,7 @@ class Follower(Evaluator):
     Attributes:
         has_others: whether there are such functions.
         helpers: the functions of the source that compute with slopes or evaluate f.
+        is_open: whether nothing says which result is the step.
     """
 
     def __init__(
@@ -107,6 +108,7 @@ class Follower(Evaluator):
         self._ignores_others = ignores_others
         self.has_others = False
         self.helpers: set[str] = set()
+        self.is_open = False
         self._given: set[str] = set()
         calls = [x.value for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
         callees = [x.callee for x in calls]
@@ -338,6 +340,9 @@ class Follower(Evaluator):
                 end, first = symbols
                 value = step = Form({(f"step@{end}",): ONE})
                 self._later[end] = Form({(first,): ONE, **step.terms})
+            if isinstance(value, Form) and _is_scaled(value.terms, target.name):
+                # h = factor*h
+                value = Form({(f"{target.name}'{line}",): ONE})
             # names are in the order of their last assignments
             space.pop(target.name, None)
             if isinstance(value, Unknown):
@@ -739,7 +744,7 @@ class Follower(Evaluator):
         of_f = {x.callee for x in slopes}
         others = [y for x in self._slopes if x.callee not in of_f for y in x.args if y]
         try:
-            roles = step_in(slopes, values, returned, self._counters, others)
+            roles, self.is_open = step_in(slopes, values, returned, self._counters, others)
         except NoStep as error:
             try:
                 roles = nystrom_in(slopes, values, returned)
@@ -798,6 +803,12 @@ class Follower(Evaluator):
             for name in at
             if len(at) == 2
         )
+
+
+def _is_scaled(terms: Terms, name: str) -> bool:
+    """Whether a polynomial is the product of a name and others, none of them a slope."""
+    (at, *others) = terms or [()]
+    return not others and len(at) == len({*at}) > 1 and name in at and " " not in "".join(at)
 
 
 _PARTED = re.compile(r"[.\[]")

@@ -99,8 +99,9 @@ def step_in(
     returned: Sequence[str],
     counters: Sequence[str],
     others: Sequence[Terms] = (),
-) -> Roles:
-    """A, b, c, the error and the embedded weights of a step.
+) -> tuple[Roles, bool]:
+    """A, b, c, the error and the embedded weights of a step, and whether another result may be the
+    step: nothing says which is.
 
     Args:
         slopes: all evaluations of functions, in order.
@@ -114,18 +115,23 @@ def step_in(
     """
     step = FollowedStep(slopes, values, returned, counters, others)
     try:
-        return step.roles()
+        return step.roles(), step.is_open
     except NoStep:
         if not step.is_backward:
             raise
     backward = [replace(x, args=tuple(map(step.turned, x.args))) for x in slopes]
     turned = {x: step.turned(terms_of(y)) for x, y in values.items()}
     ends = {x: y if (form := turned[x]) is None else Form(form) for x, y in values.items()}
-    return FollowedStep(backward, ends, returned, counters).roles()
+    step = FollowedStep(backward, ends, returned, counters)
+    return step.roles(), step.is_open
 
 
 class FollowedStep:
-    """The parts of a step."""
+    """The parts of a step.
+
+    Attributes:
+        is_open: whether nothing says which result is the step.
+    """
 
     def __init__(
         self,
@@ -159,6 +165,7 @@ class FollowedStep:
         self._others = [*others, *given]
         self._places = {x.name: i for i, x in enumerate(slopes)}
         self._given = ""
+        self.is_open = False
 
     def roles(self) -> Roles:
         """The coefficients of all components, which are the same."""
@@ -375,6 +382,7 @@ class FollowedStep:
         if len(others) == 2:
             # returned values keep their order, a copied value is the result
             is_copied = sum(_are_equal(x, others[0]) for x in of_base.values()) > 1
+            self.is_open |= not is_returned and not is_copied
             first, second = others[:: 1 if is_returned or is_copied else -1]
             return first, second
         is_lost = base in self._values and (base,) not in self._forms.get(base, ())
@@ -382,7 +390,11 @@ class FollowedStep:
         if not is_whole(of_base[names[0]]) or is_lost or not self._is_end(base, names[0], of_base):
             # its last value is another one
             raise NoStep(is_idle=not is_lost and not others)
-        return of_base[names[0]], {}
+        result = of_base[names[0]]
+        self.is_open |= not is_returned and base not in of_base
+        # a stage value beside another result
+        is_pair = others and not _are_equal(result, others[0])
+        return result, others[0] if is_pair else {}
 
     def _is_end(self, base: str, name: str, of_base: Mapping[str, Mapping[str, Value]]) -> bool:
         """Whether a stage value is the result, too: it is returned, copied or takes the place of

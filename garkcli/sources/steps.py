@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence, Set
+from contextlib import suppress
 from itertools import pairwise
 
 from garkcli.sources import ir
@@ -161,6 +162,7 @@ class _StepReader:
     Attributes:
         looks_like: whether a part of them looks like a step.
         helpers: the functions on all paths that would be followed.
+        is_open: whether nothing says which result of the last step is the step.
     """
 
     def __init__(self, space: Space, like: Evaluator, inlined: Set[str]) -> None:
@@ -170,6 +172,7 @@ class _StepReader:
         self._paths = 0
         self.looks_like = False
         self.helpers: set[str] = set()
+        self.is_open = False
 
     def by_every_way(self, body: ir.Body, counters: Sequence[str] = ()) -> Roles:
         """The common step of all paths through some statements. A path without a step is left out,
@@ -179,6 +182,7 @@ class _StepReader:
             NoStep: there is none.
         """
         by_content: dict[object, Roles] = {}
+        guesses: set[object] = set()
         is_lost = is_idle = False
         arms = (arm for x in body if isinstance(x, ir.Branch) for arm in x.arms)
         have_sums = any(map(_has_sums, arms))
@@ -207,13 +211,22 @@ class _StepReader:
                     raise
                 is_lost = True
             else:
-                by_content[shown(SourceRecord("", roles))] = roles
+                content = shown(SourceRecord("", roles))
+                by_content[content] = roles
+                if follower.is_open:
+                    guesses.add(content)
                 self._like.followed |= follower.followed
             finally:
                 self.helpers |= follower.helpers
+        sure = [y for x, y in by_content.items() if x not in guesses]
+        for x in guesses:
+            if any(_has_result(y, by_content[x]) for y in sure):
+                # the step is rejected
+                del by_content[x]
         if len(by_content) != 1 or (is_lost and have_sums):
             raise NoStep(looks_like=is_idle or bool(by_content), is_idle=is_idle)
-        _, roles = by_content.popitem()
+        content, roles = by_content.popitem()
+        self.is_open = content in guesses
         if is_lost and len(items_of(roles["b"])) < 2:
             raise NoStep
         return roles
@@ -225,7 +238,7 @@ class _StepReader:
 
     def in_parts(self, body: ir.Body, counters: Sequence[str] = ()) -> Iterator[Roles]:
         """The steps with several stages in branches and in loops over time."""
-        for statement in body:
+        for i, statement in enumerate(body):
             parts: Iterable[tuple[ir.Body, Sequence[str]]] = ()
             if isinstance(statement, ir.Branch):
                 parts = ((_plain(arm), counters) for arm in statement.arms)
@@ -241,8 +254,18 @@ class _StepReader:
                     self.looks_like |= error.looks_like and not found
                     yield from found
                 else:
+                    if self.is_open and isinstance(statement, ir.Loop) and not statement.name:
+                        # a step that is tried again; what follows may take a result
+                        with suppress(NoStep):
+                            roles = self.by_every_way((*inside, *body[i + 1 :]), names)
                     if len(items_of(roles["b"])) > 1:
                         yield roles
+
+
+def _has_result(roles: Roles, other: Roles) -> bool:
+    """Whether the result of another step is one of the two results of a step."""
+    results = [shown(roles[x]) for x in ("b", "embedded") if x in roles]
+    return shown(roles["A"]) == shown(other["A"]) and shown(other["b"]) in results
 
 
 def _hints(body: Sequence[ir.Statement], like: Evaluator) -> Hints:

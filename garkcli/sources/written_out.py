@@ -53,13 +53,16 @@ def is_written_out(callee: ir.Expr) -> bool:
 
 
 def with_calls(body: ir.Body) -> ir.Body:
-    """Statements of Fortran with calls in place of what looks like entries, ``f(u + h*k)``."""
+    """Statements of Fortran with calls in place of what looks like entries, ``f(u + h*k)``, and
+    ``f%eval(t, u + h*k)``.
+    """
     targets = (x.target for x in ir.statements(body) if isinstance(x, ir.Assign))
     assigned = {x.of for x in targets if isinstance(x, ir.Index)}
-    entries = (x for x in ir.parts_of(body) if isinstance(x, ir.Index) and len(x.at) == 1)
-    called = {x.of for x in entries if any(map(_is_multiple, ir.inside(x.at[0])))}
-    names = frozenset(x.name for x in called - assigned if isinstance(x, ir.Name))
-    return substituted(body, {}, names) if names else body
+    entries = (x for x in ir.parts_of(body) if isinstance(x, ir.Index))
+    entries = (x for x in entries if len(x.at) == 1 or isinstance(x.of, ir.Field))
+    called = {x.of for x in entries if any(map(_is_multiple, ir.inside(x.at)))}
+    functions = frozenset(called - assigned)
+    return substituted(body, {}, functions) if functions else body
 
 
 def _is_multiple(expr: object) -> bool:

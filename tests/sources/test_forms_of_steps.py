@@ -295,6 +295,66 @@ def run(f, g, x_0, v_0, t_0, h, end):
         v_0 = vs[n]
     return xs, vs
 """
+TYPE_BOUND = """
+subroutine ralston(u, t, h, field)
+    class(vector_field), intent(inout) :: field
+    real(dp), dimension(size(u)) :: k1, k2
+    k1 = field % slope(t, u)
+    k2 = field % slope(t + 2*h/3, u + 2*h*k1/3)
+    u = u + h*(k1 + 3*k2)/4
+    t = t + h
+end subroutine
+"""
+ACCEPTED = """
+subroutine pair(u, t, h, f, g1, atol, is_good)
+    real(dp), dimension(size(u)) :: g2, g3, low, high
+    g2 = f(t + h/3, u + h*g1/3)
+    g3 = f(t + 2*h/3, u + 2*h*g2/3)
+    high = u + h*(g1 + 3*g3)/4
+    low = u + h*(3*g2 - g1)/2
+    call control(low, high, atol, h, h_new, is_good)
+    if (is_good) then
+        u = high
+        t = t + h
+    end if
+    h = h_new
+end subroutine
+"""
+KEPT_BY_ITS_END = """
+subroutine fsal(u, t, h, f, g1, is_good)
+    real(dp), dimension(size(u)) :: g2, g3, low, high
+    g2 = f(t + 2*h/3, u + 2*h*g1/3)
+    high = u + h*(g1 + 3*g2)/4
+    g3 = f(t + h, high)
+    low = u + h*(3*g1 + 3*g2 + 2*g3)/8
+    call control(low, high, h, h_new, is_good)
+    if (is_good) then
+        u = high
+        t = t + h
+        g1 = g3
+    end if
+    h = h_new
+end subroutine
+"""
+TRIED_AGAIN = """
+function [U, T] = again(f, h, tol, u, t)
+factor = 1;
+is_bad = 1;
+while is_bad
+  h = h*factor;
+  g1 = f(t, u);
+  low = u + h*g1;
+  g2 = f(t + 3*h/4, u + 3/4*h*g1);
+  high = u + h*(g1 + 2*g2)/3;
+  factor = sqrt(tol/norm(high - low));
+  if factor > 1
+    is_bad = 0;
+  end
+end
+T = t + h;
+U = high;
+end
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -324,6 +384,10 @@ FORMS = {
     "components": (python.find, COMPONENTS, (2, None), "y + h/2*l1)", "y + h*l1)", UNREAD),
     "backward": (python.find, BACKWARD, (2, None), "x - 0.5*h", "x + 0.5*h", NODE),
     "kept entries": (python.find, KEPT_ENTRIES, (2, None), "v_0 = vs[n]", "v_0 = xs[n]", UNREAD),
+    "type-bound functions": (fortran.find, TYPE_BOUND, (2, None), "t + 2*h/3,", "t + h/3,", NODE),
+    "an accepted result": (fortran.find, ACCEPTED, (3, 2), "t + h/3", "t + h/2", NODE),
+    "a kept slope": (fortran.find, KEPT_BY_ITS_END, (2, 2), "t + 2*h/3", "t + h/3", NODE),
+    "tried again": (matlab.find, TRIED_AGAIN, (2, 1), "t + 3*h/4", "t + h/4", NODE),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 
