@@ -41,6 +41,9 @@ def each_in(call: ir.Expr) -> Each | None:
             vectors = vectors_of(names, over)
         case ir.Call(ir.Name("map"), (ir.Lambda(names, body), over, *others), ()):
             vectors = (over, *others) if len(names) == 1 + len(others) else ()
+        case ir.Call(ir.Name("map"), (ir.Name() as function, over), ()):
+            names, vectors = (ITEM,), (over,)
+            body = ir.Call(function, (ir.Name(ITEM),))
         case _:
             return None
     return Each(names, vectors, body, over) if vectors else None

@@ -50,6 +50,7 @@ from garkcli.sources.values import (
     ZERO,
     Array,
     Form,
+    Function,
     Number,
     SourceRecord,
     Space,
@@ -557,6 +558,9 @@ class Follower(Evaluator):
             return self.combined(OPERATIONS[name], *pair)
         if (followed := self._followed(call, args)) is not None:
             return followed
+        local = space.find(call.callee.name) if isinstance(call.callee, ir.Name) else NULL
+        if isinstance(local, Function) and args and all(map(is_of_slopes, args)):
+            return self.applied(local, args)
         parts = args
         if name not in CALLS or any(isinstance(x, Form) for x in args):
             parts = [y for x in args for y in components_of(x)]

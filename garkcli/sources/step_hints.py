@@ -77,6 +77,7 @@ class Hints:
         self._functions = functions
         self._has_status = has_status
         self._named: dict[str, _Made] = {}
+        self._lambdas: dict[ir.Expr, ir.Lambda] = {}
         self._given: dict[ir.Expr, set[str]] = defaultdict(set)
         self._passed: dict[ir.Expr, set[ir.Expr]] = defaultdict(set)
         self._calls: Counter[ir.Expr] = Counter()
@@ -102,6 +103,8 @@ class Hints:
     def _over(self, body: Iterable[ir.Statement]) -> None:
         for statement in body:
             match statement:
+                case ir.Assign(ir.Name() as target, ir.Lambda() as function):
+                    self._lambdas[target] = function
                 case ir.Assign(target, value, sign=sign) if value is not None:
                     made = self._value(value)
                     if self._has_status and isinstance(value, ir.Call):
@@ -200,6 +203,12 @@ class Hints:
     def _called(self, call: ir.Call, is_effect: bool = False) -> _Made:
         if (each := each_in(call)) is not None:
             return self._each(each)
+        if (function := self._lambdas.pop(call.callee, None)) is not None:
+            for parameter, x in zip(function.parameters, call.args, strict=False):
+                self._stored(ir.Name(parameter), self._value(x))
+            made = self._value(function.body)
+            self._lambdas[call.callee] = function
+            return made
         callee, name = call.callee, callee_name(call.callee)
         count = len(call.args) + len(call.named)
         given = self._all((*call.args, *(x for _, x in call.named)))

@@ -7,7 +7,7 @@ import pytest
 from garkcli.bridges.audit import audit
 from garkcli.bridges.readers import mathematica
 from garkcli.sources.found import Find
-from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust
+from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust, typescript
 
 KEPT_IN_A_LOOP = """
 def bs32(f, t0, x0, end, h):
@@ -355,6 +355,14 @@ T = t + h;
 U = high;
 end
 """
+MAPPED = """
+export function ralston(rhs, state, dt) {
+  const byStep = x => x * dt;
+  const k1 = rhs(state).map(byStep);
+  const k2 = rhs(state.map((s, i) => s + 2/3*k1[i])).map(byStep);
+  return state.map(function (s, i) { return s + (k1[i] + 3*k2[i]) / 4; });
+}
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -388,6 +396,7 @@ FORMS = {
     "an accepted result": (fortran.find, ACCEPTED, (3, 2), "t + h/3", "t + h/2", NODE),
     "a kept slope": (fortran.find, KEPT_BY_ITS_END, (2, 2), "t + 2*h/3", "t + h/3", NODE),
     "tried again": (matlab.find, TRIED_AGAIN, (2, 1), "t + 3*h/4", "t + h/4", NODE),
+    "mapped entries": (typescript.find, MAPPED, (2, None), "s + 2/3*", "s*2/3*", UNREAD),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 
