@@ -130,6 +130,7 @@ class TableFinder(Harvester):
 
     Attributes:
         told: the values of each table by its ``id``.
+        makers: the calls with arguments in it, each with a table without coefficients.
     """
 
     def __init__(
@@ -144,6 +145,7 @@ class TableFinder(Harvester):
         self._halves: set[tuple[str, int]] = set()
         self._made: set[int] = set()
         self.told: dict[int, Roles] = {}
+        self.makers: list[tuple[FoundTable, SourceRecord]] = []
 
     def tables(self, body: ir.Body, text: str) -> list[FoundTable]:
         """The distinct tables of a source; arrays passed to a call are found with it."""
@@ -214,6 +216,7 @@ class TableFinder(Harvester):
         records_made += [
             x for x in space.values() if isinstance(x, SourceRecord) and x.kind in _MADE
         ]
+        self.makers += [(self._place(scope.title, x.line), x) for x in records_made if x.args]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count, first = self._count(), len(self._meant)

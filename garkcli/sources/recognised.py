@@ -67,6 +67,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
     made_of: list[_NumbersByRole] = []
+    layouts: dict[str, dict[int, str]] = {}
     rivals: dict[int, list[FoundTable]] = {}
     linked: dict[int, float] = {}
     settled: set[int] = set()
@@ -115,6 +116,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
                 made_table = made_table if is_own else replace(made_table, order=None)
             new.append(made_table)
             made_of.append({"": numbers})
+            source.learn(reading, layouts)
             settled |= {*about, *_in_place_of(reading, tables)}
     kept = [
         replace(x, rivals=(*x.rivals, *rivals.get(i, ())), linked=float(linked[i]))
@@ -124,6 +126,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         if i not in settled
     ]
     known = {n for x in (*numbers_of_tables, *made_of) for own in x.values() for n in own}
+    new += source.with_layouts(layouts, known)
     return sorted([*kept, *new, *source.untold([*kept, *new], known)], key=lambda x: x.line)
 
 
@@ -150,6 +153,7 @@ class _Source:
     def __init__(self, finder: TableFinder) -> None:
         self._numbers = finder.harvest.numbers
         self._groups = finder.groups
+        self._makers = finder.makers
         self._source, self._format = finder.source, finder.format
         self._texts: dict[int, str] = {}
 
@@ -245,6 +249,47 @@ class _Source:
         """A key of the occurrences of numbers in one row of a reading."""
         row = reading.rows.get(role)
         return frozenset(id(self._numbers[int(x[-1])]) for x in (() if row is None else row))
+
+    def learn(self, reading: Reading, layouts: dict[str, dict[int, str]]) -> None:
+        """Adds the roles of the arguments of a call, by their places, from a reading of them; none
+        if readings differ.
+        """
+        of_roles = {role: frozenset(self._keys(self._value(x))) for role, x in reading.rows.items()}
+        for _, record in self._makers if reading.form == "rk" else ():
+            of_args = [frozenset(self._keys(x)) for x in record.args]
+            layout = {of_args.index(x): role for role, x in of_roles.items() if x and x in of_args}
+            if len(layout) == len(of_roles) > 1 and not reading.idle:
+                is_same = layouts.setdefault(record.kind, layout) == layout
+                layouts[record.kind] = layout if is_same else {}
+
+    def with_layouts(
+        self, layouts: Mapping[str, Mapping[int, str]], known: set[int]
+    ) -> Iterator[FoundTable]:
+        """The tables of other calls with the same names as those of readings: too few numbers for
+        a reading of their own.
+
+        Args:
+            layouts: the roles of their arguments by places.
+            known: the numbers of other tables; those of these are added.
+        """
+        for place, record in self._makers:
+            layout = layouts.get(record.kind, {})
+            roles = {role: record.args[i] for i, role in layout.items() if i < len(record.args)}
+            numbers = {key for x in roles.values() for key in self._keys(x)}
+            if not layout or len(roles) < len(layout) or numbers & known:
+                continue
+            try:
+                table = table_of(Meant(place, roles, NAMED, record.kind))
+            except NoTable:
+                continue
+            known |= numbers
+            yield table
+
+    def _keys(self, value: Value) -> Iterator[int]:
+        """Keys of the occurrences of numbers in an array."""
+        for x in value.flat() if isinstance(value, Array) else ():
+            if isinstance(x, Number) and not x.is_zero:
+                yield id(x)
 
     def untold(self, tables: Iterable[FoundTable], known: set[int]) -> Iterator[FoundTable]:
         """A placeholder for each scope about methods with arrays like those of one, but without a

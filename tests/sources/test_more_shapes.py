@@ -971,3 +971,28 @@ def test_an_error_with_another_sum(b: str, e: str, order: int | None) -> None:
     assert (found.embedded_order and found.embedded_order.order) == order
     assert bool(table.notes) == (order is None)
     assert "embedded-weights" not in {x.code for x in found.findings}
+
+
+LARGE = "make([0, 1/3, 2/3], [1/4, 0, 3/4], [[0, 0, 0], [1/3, 0, 0], [0, 2/3, 0]])"
+
+
+@pytest.mark.parametrize(
+    ("small", "b"),
+    [
+        ("make([0, 1/2], [0, 1], [[0, 0], [1/2, 0]])", ("0", "1")),
+        ("make([1], [1], [[1]])", ("1",)),
+        ("make([0, 1/2], [0, 1], [[0, 0, 1], [1/2, 0, 0]])", None),
+        ("other([0, 1/2], [0, 1], [[0, 0], [1/2, 0]])", None),
+        ("make([0, 1/2], [0, 1])", None),
+    ],
+)
+def test_arguments_of_a_call_are_those_of_another_one(
+    small: str, b: tuple[str, ...] | None
+) -> None:
+    """Nodes, weights and matrix of three stages say what the arguments of two and one are."""
+    text = f"# Runge-Kutta\ndef heun3():\n    return {LARGE}\ndef small():\n    return {small}\n"
+    rows = [x.b for x in python.find(text, "x") if x.b]
+    assert rows == [(("1/4", "0", "3/4"),), *([(b,)] if b else [])]
+    assert b is None or not any(
+        x.b == (b,) for x in python.find(text.replace(LARGE, "0"), "x") if x.stages == 1
+    )
