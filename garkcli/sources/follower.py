@@ -65,6 +65,8 @@ from garkcli.sources.values import (
 )
 from garkcli.sources.values import whole as whole_number
 
+NEVER = ir.Opaque("never assigned")
+"""The value of an array without entries, ``new double[n]``."""
 MAX_TERMS = 4 * MAX_STAGES
 MAX_TURNS = 20
 """Most turns of a loop over stages."""
@@ -157,6 +159,9 @@ class Follower(Evaluator):
                 super()._step(statement, space)
 
     def _loop(self, loop: ir.Loop, space: Space) -> None:
+        if all(isinstance(x, ir.Assign) and x.value == NEVER for x in loop.body):
+            # makes room for arrays
+            return
         if loop.name and _is_over_components(loop.name, loop.body):
             self._is_lost |= self._spans.setdefault(len(self._components), loop.over) != loop.over
             self._components.append(loop.name)
@@ -942,6 +947,7 @@ def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
 
 def _is_over_components(name: str, body: ir.Body) -> bool:
     """Whether a loop computes arrays entry by entry, with nothing across entries."""
+    body = tuple(x for x in body if not (isinstance(x, ir.Do) and _tells_entry(x.value, name)))
     assigned = [x for x in body if isinstance(x, ir.Assign)]
     entries = [x for x in assigned if isinstance(x.target, ir.Index)]
     others = [x for x in assigned if not isinstance(x.target, ir.Index)]
@@ -951,6 +957,12 @@ def _is_over_components(name: str, body: ir.Body) -> bool:
     if isinstance(inner, ir.Loop):
         return bool(inner.name) and _is_over_components(inner.name, inner.body)
     return are_plain and are_own and bool(entries)
+
+
+def _tells_entry(value: ir.Expr, name: str) -> bool:
+    """Whether a call stores or prints an entry, at the index with a name."""
+    is_of_entry = any(x == ir.Name(name) for x in ir.inside(value))
+    return isinstance(value, ir.Call) and tells(callee_name(value.callee)) and is_of_entry
 
 
 def is_of_fortran(like: Evaluator) -> bool:

@@ -29,6 +29,8 @@ OTHERS = re.compile(
 """Names of scopes with other numbers than those of a step."""
 ABOVE = 8
 """Lines above a scope that may describe it."""
+FEWEST_NUMBERED = 4
+"""Fewest terms with names that differ in numbers."""
 WIDEST = 500
 """Characters read of a line, as many scopes may share one."""
 
@@ -117,12 +119,20 @@ def _is_method(
 
 
 def _adds_stages(own: Iterable[ir.Statement], is_titled: bool) -> bool:
-    """Whether a sum has several members of a family: ``k1 + 2*k2``, ``k[0] + k[1]``."""
+    """Whether a sum has several members of a family: ``k1 + 2*k2``, ``k[0] + k[1]``; beside the
+    name of a method four numbers of any name.
+    """
     least = 2 if is_titled else 3
     for x in (x for statement in own for x in getattr(statement, "parts", ())):
         if isinstance(x, ir.Binary) and x.sign in {"+", ".+"}:
             families = Counter(stem for stem, _ in {*_members(x)})
             if max(families.values(), default=0) >= least:
+                return True
+            any_names = (
+                {y.name for y in ir.inside(x) if isinstance(y, ir.Name)} if is_titled else ()
+            )
+            numbered = Counter(y.rstrip("0123456789") for y in any_names if y[-1:].isdigit())
+            if max(numbered.values(), default=0) >= FEWEST_NUMBERED:
                 return True
     return False
 

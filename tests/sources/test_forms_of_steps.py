@@ -363,6 +363,20 @@ export function ralston(rhs, state, dt) {
   return state.map(function (s, i) { return s + (k1[i] + 3*k2[i]) / 4; });
 }
 """
+ROOM = """
+void Solver::heun(double t, double h) {
+  double **g = new double *[2];
+  for (int s = 0; s < 2; s++) { g[s] = new double[n]; }
+  double *z = new double[n];
+  rhs(t, y, g[0]);
+  for (int i = 0; i < n; i++) { z[i] = y[i] + h*g[0][i]; }
+  rhs(t + h, z, g[1]);
+  for (int i = 0; i < n; i++) {
+    y[i] += h*(g[0][i] + g[1][i])/2.;
+    track[i].push_back(y[i]);
+  }
+}
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -397,6 +411,7 @@ FORMS = {
     "a kept slope": (fortran.find, KEPT_BY_ITS_END, (2, 2), "t + 2*h/3", "t + h/3", NODE),
     "tried again": (matlab.find, TRIED_AGAIN, (2, 1), "t + 3*h/4", "t + h/4", NODE),
     "mapped entries": (typescript.find, MAPPED, (2, None), "s + 2/3*", "s*2/3*", UNREAD),
+    "room for slopes": (c.find, ROOM, (2, None), "t + h,", "t + h/2,", NODE),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 

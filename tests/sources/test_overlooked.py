@@ -59,11 +59,21 @@ subroutine dirk(i, a)
   a(i,3) = 1d0/3 + 2d0/7
 end subroutine
 """
+STAGES_INSIDE = """
+void rungeKuttaBody(struct Body *body, double h) {
+  slopes(body, x, x, h, 0.0, dx1);
+  slopes(body, x, dx1, h, 0.5, dx2);
+  slopes(body, x, dx2, h, 0.5, dx3);
+  slopes(body, x, dx3, h, 1.0, dx4);
+  for (j = 0; j < n; j++) { x[j] = x[j] + (dx1[j] + 2.0*dx2[j] + 2.0*dx3[j] + dx4[j])/6.0; }
+}
+"""
 
 
 @pytest.mark.parametrize(
     ("find", "text", "name"),
     [
+        (c.find, STAGES_INSIDE, "rungeKuttaBody"),
         (c.find, STEP, "rk4_step"),
         (python.find, STRONG, "ssp43"),
         (c.find, LOW_STORAGE, "x"),
