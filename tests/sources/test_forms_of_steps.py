@@ -7,7 +7,17 @@ import pytest
 from garkcli.bridges.audit import audit
 from garkcli.bridges.readers import mathematica
 from garkcli.sources.found import Find
-from garkcli.sources.languages import c, fortran, java, julia, matlab, python, rust, typescript
+from garkcli.sources.languages import (
+    c,
+    csharp,
+    fortran,
+    java,
+    julia,
+    matlab,
+    python,
+    rust,
+    typescript,
+)
 
 KEPT_IN_A_LOOP = """
 def bs32(f, t0, x0, end, h):
@@ -377,6 +387,25 @@ void Solver::heun(double t, double h) {
   }
 }
 """
+COUNTER_BEFORE = """
+class Midpoint {
+  double[] slope, k2, u, next;
+  void Step(double t, double h, double[] x) {
+    int i;
+    for (i = 0; i < n; ++i) { u[i] = x[i] + h/2 * slope[i]; }
+    rhs(t + h/2, u, k2);
+    for (i = 0; i < n; ++i) { next[i] = x[i] + h*k2[i]; }
+  }
+}
+"""
+COUNTER_BEFORE_JS = """
+function midpoint(f, t, y, h, n) {
+  var i, u = [], k1 = f(t, y), k2;
+  for (i = 0; i < n; i++) { u[i] = y[i] + h/2 * k1[i]; }
+  k2 = f(t + h/2, u);
+  for (i = 0; i < n; i++) { y[i] = y[i] + h * k2[i]; }
+}
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -412,6 +441,10 @@ FORMS = {
     "tried again": (matlab.find, TRIED_AGAIN, (2, 1), "t + 3*h/4", "t + h/4", NODE),
     "mapped entries": (typescript.find, MAPPED, (2, None), "s + 2/3*", "s*2/3*", UNREAD),
     "room for slopes": (c.find, ROOM, (2, None), "t + h,", "t + h/2,", NODE),
+    "counters of C#": (csharp.find, COUNTER_BEFORE, (2, None), "t + h/2", "t + h", NODE),
+    "counters of JavaScript": (
+        *(typescript.find, COUNTER_BEFORE_JS, (2, None), "t + h/2", "t + h", NODE),
+    ),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 

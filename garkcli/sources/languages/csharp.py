@@ -78,8 +78,10 @@ class CSharpLowering(Lowering):
             case "method_declaration" | "constructor_declaration" | "local_function_statement":
                 yield self._function(node)
             case "for_statement":
-                declared = next(iter(self.children(part(node, "initializer"))[1:]), None)
-                name, first = self.text(part(declared, "name")), self._value(declared)
+                start = part(node, "initializer")
+                declared = next(iter(self.children(start)[1:]), None)
+                first = part(start, "right") or self._value(declared)
+                name = self.text(part(start, "left") or part(declared, "name"))
                 ends = first, part(node, "condition"), self.text(part(node, "update"))
                 yield self.loop(node, *counted(self, name, *ends))
             case "foreach_statement":

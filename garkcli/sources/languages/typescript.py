@@ -75,8 +75,10 @@ class TypeScriptLowering(Lowering):
                 title = self.name(part(node, "name"))
                 yield self._function(node, self._owner if title == "constructor" else title)
             case "for_statement":
-                declared = next(iter(self.children(part(node, "initializer"))), None)
-                first, counter = part(declared, "value"), self.text(part(declared, "name"))
+                start = part(node, "initializer")
+                declared = next(iter(self.children(start)), None)
+                first = part(start, "right") or part(declared, "value")
+                counter = self.text(part(start, "left") or part(declared, "name"))
                 ends = first, part(node, "condition"), self.text(part(node, "increment"))
                 yield self.loop(node, *counted(self, counter, *ends))
             case "for_in_statement":
