@@ -35,7 +35,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     ),
     "error": ("E", "e", "evec", "b_error", "b_err", "berr", "c_error", "err"),
     "dense": ("P", "dense", "binterp", "binterpt"),
-    "order": ("order", "ORDER", "RK_ORDER", "q", "ord", "DifferenceOrder", "order_b"),
+    "order": ("order", "ORDER", "q", "ord", "DifferenceOrder", "order_b"),
     "embedded_order": (
         *("embedded_order", "error_estimator_order", "p", "Q", "adaptiveorder"),
         *("order_embedded", "embeddedOrder", "orderhat", "EmbeddedDifferenceOrder", "order_bt"),
@@ -63,7 +63,7 @@ first one counts.
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEedw]|err|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _ESTIMATES = "|".join([*_WORDS["embedded"], *_WORDS["error"]])
 _SUFFIX = re.compile(
-    rf"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|w|order|{_ESTIMATES}"
+    rf"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|w|order|ORDER|{_ESTIMATES}"
     r"|embedded_order|dense|nodes|weights|stages|fsal|name|[ab]_type)"
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")

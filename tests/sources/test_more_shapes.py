@@ -996,3 +996,10 @@ def test_arguments_of_a_call_are_those_of_another_one(
     assert b is None or not any(
         x.b == (b,) for x in python.find(text.replace(LARGE, "0"), "x") if x.stages == 1
     )
+
+
+def test_an_order_in_capitals_is_that_of_its_table() -> None:
+    text = "RK_ORDER = 3\nRK_A = [[0, 0, 0], [1/3, 0, 0], [0, 2/3, 0]]\n"
+    text += "RK_B = [1/4, 0, 3/4]\nRK_C = [0, 1/3, 2/3]\n"
+    (table,) = python.find(text, "x")
+    assert (table.order, table.b) == (3, (("1/4", "0", "3/4"),))
