@@ -38,6 +38,7 @@ from garkcli.sources.step_words import (
     ELEMENTARY,
     MATHEMATICS,
     OPERATIONS,
+    SHAPES,
     SUMS,
     TELLING,
     callee_name,
@@ -543,6 +544,8 @@ class Follower(Evaluator):
         if name in CONVERSIONS and len(args) == 1:
             return args[0]
         of = [self.value(call.callee.of, space)] if isinstance(call.callee, ir.Field) else []
+        if name in SHAPES and isinstance(of[0] if of else NULL, Form):
+            return of[0]
         if name in DOTS and len(args) == 2 and all(isinstance(x, Array) for x in args):
             return self._weighted(*args)
         if (

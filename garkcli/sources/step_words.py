@@ -37,6 +37,8 @@ OPERATIONS = {
     **dict.fromkeys(("divide", "div"), "/"),
 }
 """Functions and methods that are operations on vectors."""
+SHAPES = {"reshape", "flatten", "ravel", "squeeze"}
+"""Methods that return a vector in another shape."""
 CHANGING = {
     *("match statement", "where statement", "forall statement", "goto statement"),
     *("select type statement", "select rank statement"),
@@ -68,4 +70,4 @@ ELEMENTARY = {
     *("prod", "cumsum", "mean", "argmax", "argmin", "argsort", "unique", "nonzero", "searchsorted"),
 }
 """Functions of one number, and of arrays, in various languages: seldom vector fields."""
-NO_SLOPES = MATHEMATICS | TELLING
+NO_SLOPES = MATHEMATICS | TELLING | SHAPES

@@ -406,6 +406,12 @@ function midpoint(f, t, y, h, n) {
   for (i = 0; i < n; i++) { y[i] = y[i] + h * k2[i]; }
 }
 """
+RESHAPED = """
+def ralston(field, t, h, u, *given):
+    slope = field(t, u, *given).reshape(-1)
+    other = field(t + 2*h/3, u + 2*h/3*slope, *given).ravel()
+    return u + h*(slope + 3*other)/4
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -445,6 +451,7 @@ FORMS = {
     "counters of JavaScript": (
         *(typescript.find, COUNTER_BEFORE_JS, (2, None), "t + h/2", "t + h", NODE),
     ),
+    "slopes in another shape": (python.find, RESHAPED, (2, None), "t + 2*h/3", "t + h", NODE),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 
