@@ -17,5 +17,5 @@ MATRIX = re.compile(
     r"|butcher\w*|tableau\w*|.*coeff\w*|as)\d*$",
     re.I,
 )
-EMBEDDED = re.compile(r"hat|emb|err|low|tilde|star|2|bh|_e$|b_?e|cmp|E$", re.I)
+EMBEDDED = re.compile(r"hat|emb|err|low|tilde|star|2|bh|(?:^|_)er?$|b_?e|cmp|E$", re.I)
 ALPHA, BETA = re.compile("alpha|α", re.I), re.compile("beta|β", re.I)

@@ -388,7 +388,9 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
         # a column of a matrix may have the sum 1 by chance
         and not (given.is_matrix and min(given.numbers.shape[:2]) > MOST_BESIDE)
     )
-    for each in (x for of in vectors for x in fitted(of, len(b))):
+    # weights of dense output have the sum 0, too
+    told_first = sorted(vectors, key=lambda x: EMBEDDED.search(x.of.name) is None)
+    for each in (x for of in told_first for x in fitted(of, len(b))):
         if each.is_behind_zero or each.is_behind_first:
             continue
         v = each.numbers[:, VALUE]

@@ -1003,3 +1003,14 @@ def test_an_order_in_capitals_is_that_of_its_table() -> None:
     text += "RK_B = [1/4, 0, 3/4]\nRK_C = [0, 1/3, 2/3]\n"
     (table,) = python.find(text, "x")
     assert (table.order, table.b) == (3, (("1/4", "0", "3/4"),))
+
+
+def test_weights_of_dense_output_are_no_error() -> None:
+    """Both have the sum 0; the names say which is which, in any order."""
+    text = "function y = fsal(f, t, y, h)\n% Runge-Kutta\na = zeros(4,4);\na(2,1) = 1/2;\n"
+    text += "a(3,2) = 3/4;\na(4,1) = 2/9;\na(4,2) = 1/3;\na(4,3) = 4/9;\n{}\n{}\n"
+    dense = "d(1) = -3/5;\nd(2) = 2/5;\nd(3) = 1/5;\nd(4) = 0;"
+    error = "er(1) = -5/72;\ner(2) = 1/12;\ner(3) = 1/9;\ner(4) = -1/8;"
+    tables = [matlab.find(text.format(*x), "x")[0] for x in ((dense, error), (error, dense))]
+    lows = [audit(x).embedded_order for x in tables]
+    assert [x.order for x in lows if x is not None] == [2, 2]
