@@ -412,6 +412,19 @@ def ralston(field, t, h, u, *given):
     other = field(t + 2*h/3, u + 2*h/3*slope, *given).ravel()
     return u + h*(slope + 3*other)/4
 """
+ANONYMOUS = """
+class Steps {
+  static Stepper ralston(Field f, double h) {
+    return new Stepper() {
+      public double next(double t, double y) {
+        double k = f.at(t, y);
+        double l = f.at(t + 2*h/3, y + 2*h/3*k);
+        return y + h*(k + 3*l)/4;
+      }
+    };
+  }
+}
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -452,6 +465,7 @@ FORMS = {
         *(typescript.find, COUNTER_BEFORE_JS, (2, None), "t + h/2", "t + h", NODE),
     ),
     "slopes in another shape": (python.find, RESHAPED, (2, None), "t + 2*h/3", "t + h", NODE),
+    "a class without a name": (java.find, ANONYMOUS, (2, None), "t + 2*h/3", "t + h", NODE),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 

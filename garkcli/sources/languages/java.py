@@ -59,6 +59,17 @@ class JavaLowering(Lowering):
         either="ternary_expression",
     )
 
+    def statement(self, node: Node) -> Iterator[ir.Statement]:
+        """The lowered form of a statement; ``return new Solver() {…}`` has a class in it."""
+        declared = part(node, "declarator")
+        value = part(declared, "value") or next(iter(self.children(node)), None)
+        if value is not None and value.type == "object_creation_expression":
+            body = next((x for x in self.children(value) if x.type == "class_body"), None)
+            if body is not None:
+                name = self.text(part(value, "type"))
+                yield ir.Scope("class", name, self.block([body]), line_of(value))
+        yield from super().statement(node)
+
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
             case _ if self.is_a("record", node):
