@@ -441,7 +441,21 @@ _UNITS = {"getZero": "0.0", "getOne": "1.0"}
 _OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
     x: x for x in ("sqrt", "cbrt", "cos", "sin", "len", "map", "transpose", "sum")
 }
+_OF_IT["Select"] = "map"
 """Methods that are functions of the number or the list."""
+
+
+def with_counter(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr | None:
+    """``x.map((y, i) => …)``, whose function is given the counter behind the entry; ``x.Zip(z, (y,
+    w) => …)``; None for other methods.
+    """
+    match args:
+        case (ir.Lambda((entry, counter, *_), body),) if _OF_IT.get(name) == "map":
+            each = ir.Lambda((counter, entry), body)
+            return ir.Call(ir.Name("map"), (each, ir.Call(ir.Field(of, "enumerate"), ())))
+        case (other, ir.Lambda() as each) if name == "Zip":
+            return ir.Call(ir.Name("map"), (each, of, other))
+    return None
 
 
 def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr | None:

@@ -425,6 +425,15 @@ class Steps {
   }
 }
 """
+SELECTED = """
+class Ralston {
+  double[] Step(Field f, double t, double[] y, double h) {
+    var k = f.At(t, y);
+    var l = f.At(t + 2*h/3, y.Zip(k, (v, w) => v + 2*h/3*w).ToArray());
+    return y.Select((v, i) => v + h*(k[i] + 3*l[i])/4).ToArray();
+  }
+}
+"""
 NODE, UNREAD = "nodes", ""
 """A misprint that is an error, and one that makes no step."""
 FORMS = {
@@ -466,6 +475,7 @@ FORMS = {
     ),
     "slopes in another shape": (python.find, RESHAPED, (2, None), "t + 2*h/3", "t + h", NODE),
     "a class without a name": (java.find, ANONYMOUS, (2, None), "t + 2*h/3", "t + h", NODE),
+    "selected entries": (csharp.find, SELECTED, (2, None), "t + 2*h/3", "t + h", NODE),
     "a list of results": (python.find, LISTS_OF_RESULTS, (2, None), "h/2*(", "h/3*(", UNREAD),
 }
 

@@ -18,6 +18,7 @@ from garkcli.sources.lowering import (
     part,
     reader,
     unmeant,
+    with_counter,
 )
 
 if TYPE_CHECKING:
@@ -263,7 +264,8 @@ class CSharpLowering(Lowering):
         if of is None or (of.type == "identifier" and self.text(of)[:1].isupper()):
             return self.call(ir.Name(name), args, named)
         value = self.expr(of)
-        operation = None if is_statement else method_called(value, name, args)
+        operation = with_counter(value, name, args)
+        operation = operation or (None if is_statement else method_called(value, name, args))
         return operation or ir.Call(ir.Field(value, name), args, named)
 
 

@@ -15,6 +15,7 @@ from garkcli.sources.lowering import (
     part,
     reader,
     unmeant,
+    with_counter,
 )
 
 if TYPE_CHECKING:
@@ -185,12 +186,8 @@ class TypeScriptLowering(Lowering):
         if is_of_class or of is None:
             return self.call(ir.Name(name), args)
         value = self.expr(of)
-        match args:
-            case (ir.Lambda((entry, counter, *_), body),) if name == "map":
-                # (x, i) => … is given the counter behind the entry
-                args = (ir.Lambda((counter, entry), body),)
-                value = ir.Call(ir.Field(value, "enumerate"), ())
-        return method_called(value, name, args) or ir.Call(ir.Field(value, name), args)
+        made = with_counter(value, name, args) or method_called(value, name, args)
+        return made or ir.Call(ir.Field(value, name), args)
 
 
 READER = reader(
