@@ -111,7 +111,7 @@ class Evaluator:
     Attributes:
         lost: reasons why scopes are not read, by their kinds and lines.
         functions: the functions of the source by name, if only one has the name.
-        followed: the lines of those that are parts of steps.
+        followed: the lines of functions that are parts of steps.
     """
 
     def ended(self, scope: ir.Scope, space: Space) -> None:

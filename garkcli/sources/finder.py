@@ -308,7 +308,7 @@ class TableFinder(Harvester):
         return bool(form)
 
     def _has_no_table(self, first: int, count: int) -> bool:
-        """Whether what was found since is no table: arrays with the names of one."""
+        """Whether the arrays since then only have the names of a table."""
         if self._count() - count > len(self._meant) - first:
             return False
         for meant in self._meant[first:]:

@@ -436,7 +436,7 @@ class Follower(Evaluator):
             root = root.of
         of = terms_of(self.value(root, space)) if isinstance(root, ir.Name) else None
         if of is None and isinstance(root, ir.Name):
-            # what is not changed yet of a record or an array
+            # the entries of a record or an array that are unchanged
             whole = space.find(root.name)
             of = {((isinstance(whole, SourceRecord) and whole.key) or root.name,): ONE}
         if any(" " in name for name in symbols([of or {}])):

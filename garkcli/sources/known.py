@@ -208,7 +208,7 @@ _TYPES = """
 CONVERSIONS = frozenset(_TYPES.split())
 """Types, and functions that return their argument, a number, list or matrix."""
 _OF_ONE = frozenset({"make_shared", "make_unique", "shared_ptr", "unique_ptr", "move"})
-"""Of several arguments these make something else."""
+"""Functions that return a single argument, and mean something else with several."""
 _METHODS = """
     copy astype tolist to clone item double float numpy
     unwrap unwrap_unchecked expect into iter into_iter collect to_vec to_owned copied cloned

@@ -28,7 +28,7 @@ INCLUDED = ".inc"
 FEWEST_NUMBERS = 5
 SHORT = 300
 A_PART = 400
-"""Length below which a function may be part of a step, whatever is in it."""
+"""Length below which any function may be part of a step."""
 MOST_OF_A_STEP = 4_000
 """Length above which a function without numbers like those of a table is no step."""
 _CALL = re.compile(r"(?P<name>[^\W\d]\w{0,40})\(")
