@@ -32,16 +32,7 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
         (phi,) = solution()
         return [(phi.diff(t),), (-rational(stiffness) * (y - phi),)]
 
-    name = f"prothero-robinson stiffness={stiffness}"
-    return RightHandSide(
-        "prothero-robinson",
-        variables,
-        shared(name, parts, terms),
-        (fmpq(1),),
-        fmpq(1),
-        exact=Deferred(f"{name} solution", solution, 1),
-        stiffness=stiffness,
-    )
+    return _decay("prothero-robinson", parts, solution, terms, stiffness)
 
 
 def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
@@ -183,14 +174,25 @@ def dahlquist(terms: int, stiffness: fmpq) -> RightHandSide:
         (t,) = symbols(variables, TIME)
         return (sympy.exp(-rational(stiffness) * t),)
 
-    name = f"dahlquist stiffness={stiffness}"
+    return _decay("dahlquist", parts, solution, terms, stiffness)
+
+
+def _decay(
+    name: str,
+    parts: Callable[[], list[Exprs]],
+    solution: Callable[[], Exprs],
+    terms: int,
+    stiffness: fmpq,
+) -> RightHandSide:
+    """A problem with one value y, which is 1 at t = 0; ``solution`` is y(t)."""
+    key = f"{name} stiffness={stiffness}"
     return RightHandSide(
-        "dahlquist",
-        variables,
-        shared(name, parts, terms),
+        name,
+        ("y",),
+        shared(key, parts, terms),
         (fmpq(1),),
         fmpq(1),
-        exact=Deferred(f"{name} solution", solution, 1),
+        exact=Deferred(f"{key} solution", solution, 1),
         stiffness=stiffness,
     )
 
