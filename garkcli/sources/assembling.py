@@ -246,7 +246,6 @@ def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
     are_alike = len(set(A)) == 1 and len(set(c or "-")) == 1
     return replace(
         empty,
-        is_sure=empty.is_sure or colours > 1,
         A=A[:1] if are_alike else A,
         b=b,
         c=(c or (None,) * len(A))[: 1 if are_alike else None],

@@ -202,7 +202,7 @@ _TYPES = """
     from_f64 from_f32 from_usize from_i32 from Ratio BigDecimal BigFraction Some Ok Box valueOf
     constant to_array from_slice from_array arr1 arr2 Rational64 BigRational
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
-    move make_shared make_unique shared_ptr unique_ptr Arc Rc RefCell Cell Mutex Cow
+    move make_shared make_unique shared_ptr unique_ptr Arc Rc RefCell Cow
     ascontiguousarray asfortranarray atleast_1d squeeze require device_put stop_gradient
 """
 CONVERSIONS = frozenset(_TYPES.split())

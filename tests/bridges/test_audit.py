@@ -491,3 +491,17 @@ def test_processes_find_what_one_finds(tmp_path: Path) -> None:
     assert len(alone) > 2
     with pytest.raises(UsageProblem, match="cannot be read"):
         list(audited([*files, str(tmp_path / "none.py")], 2))
+
+
+@pytest.mark.parametrize(
+    ("weights", "count"), [("[[1/2, 1/2], [1/2, 1/2]]", 1), ("[[3, 0], [4, 0]]", 0)]
+)
+def test_numbers_in_blocks_are_a_method_if_they_fit(
+    tmp_path: Path, weights: str, count: int
+) -> None:
+    """Arrays of arrays called A and B are no method of two vector fields unless weights fit."""
+    path = tmp_path / "x.py"
+    first, second = "[[0, 0], [1, 0]]", "[[1/2, 0], [1/2, 0]]"
+    path.write_text(f"A = [[{first}, {second}], [{first}, {second}]]\nB = {weights}\n", "utf-8")
+    found = list(audited([str(path)]))
+    assert [x.has_errors for x in found] == [False] * count
