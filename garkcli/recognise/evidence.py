@@ -186,7 +186,8 @@ def evidence(A: Floats, b: Floats, c: Floats | None) -> Evidence:
                 break
             if not abs(residual) <= tolerance:
                 is_met = False
-                if agreed < NEARLY or unit > 1e-7:
+                # without nodes nothing else ties these numbers to a method
+                if agreed < NEARLY or unit > 1e-7 or c is None:
                     break
             gained += min(agreed, _taken(*((of_b,) if q == 1 else (of_b, of_c, of_A))))
         else:

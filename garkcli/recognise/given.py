@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -144,10 +145,13 @@ class Group(Frozen, eq=False):
 
 
 def bits_of(value: fmpq) -> float:
-    """Returns the length in bits of a fraction, or of the decimal that it is.
+    """The length in bits of a fraction, or of the decimal that it is, or of a fraction that is
+    rounded to it.
 
     >>> bits_of(fmpq(1, 6)), round(bits_of(fmpq(123, 1000)), 2)
     (3.584962500721156, 9.96)
+    >>> bits_of(fmpq(1666667, 10**7)) == bits_of(fmpq(1, 6))
+    True
     """
     p, q = abs(int(value.p)), int(value.q)
     if not p:
@@ -161,4 +165,14 @@ def bits_of(value: fmpq) -> float:
         places = next(k for k in range(1, q.bit_length() + 1) if not 10**k % q)
         digits = p * 10**places // q
         long = min(long, PER_DIGIT * math.ceil(math.log10(digits + 1)))
+        long = min(long, bits_of_rounded(Fraction(p, q), places))
     return min(long, MOST_BITS)
+
+
+def bits_of_rounded(value: Fraction, places: int) -> float:
+    """The length in bits of a decimal, or of a fraction that is rounded to it."""
+    unit = 10**places
+    near = value.limit_denominator(math.isqrt(unit) // 10 or 1)
+    if abs(near - value) * unit < 1:
+        return math.log2(abs(near.numerator) + 1) + math.log2(near.denominator)
+    return MOST_BITS

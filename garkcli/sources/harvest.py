@@ -6,6 +6,7 @@ import math
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from fractions import Fraction
 from itertools import pairwise
 from pathlib import PurePath
 
@@ -20,6 +21,7 @@ from garkcli.recognise.given import (
     Given,
     Group,
     bits_of,
+    bits_of_rounded,
 )
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
@@ -286,7 +288,9 @@ class Harvest:
         if plain:
             digits = len((plain[1] + plain[2]).lstrip("0"))
             unit = 10.0 ** (int(plain[3] or 0) - len(plain[2])) if digits < 19 else 0.0
-            return Entry(x.near, max(unit, least), min(MOST_BITS, PER_DIGIT * digits), at)
+            places = len(plain[2]) - int(plain[3] or 0)
+            rounded = bits_of_rounded(Fraction(x.near), places) if 0 < places < 19 else MOST_BITS
+            return Entry(x.near, max(unit, least), min(rounded, PER_DIGIT * digits), at)
         places = min((len(d) for d in _LONG.findall(text)), default=0)
         if places:
             # computed from decimals

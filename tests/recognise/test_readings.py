@@ -10,9 +10,10 @@ import pytest
 
 from garkcli.frozen import replace
 from garkcli.recognise.choosing import readings_of
-from garkcli.recognise.evidence import conditions, order_of, unit_of
+from garkcli.recognise.evidence import conditions, evidence, order_of, unit_of
 from garkcli.recognise.given import Entry, Given, Group
 from garkcli.recognise.readings import Reading
+from garkcli.sources.languages import python
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -153,3 +154,20 @@ def test_short_numbers_among_long_ones_are_exact() -> None:
     assert unit_of(np.array([long, short, long])) == 1e-16
     assert unit_of(np.array([long, short, short])) == 1e-6
     assert unit_of(None) == 0
+
+
+@pytest.mark.parametrize("has_nodes", [False, True])
+def test_order_two_nearly(has_nodes: bool) -> None:
+    """Nearly equal numbers tie weights to a matrix where nodes speak for it, too."""
+    matrix = np.array([[1 / 2 - 1e-9, 0], [1 / 2 - 1e-9, 0]])
+    of = given("A", matrix).numbers, given("b", np.array([1 / 4, 3 / 4])).numbers
+    nodes = given("c", matrix.sum(1)).numbers if has_nodes else None
+    assert evidence(*of, nodes).nearly == (2 if has_nodes else 1)
+
+
+@pytest.mark.parametrize("text", ["5/12", "0.41666667"])
+def test_rounded_fractions_are_short_numbers(text: str) -> None:
+    """Short numbers meet order 2 by chance, and say little also as decimals."""
+    sixth = "1/6" if "/" in text else "0.16666667"
+    source = f"def f():\n    t = [0, 1, 2, 3, 4, 5]\n    check(t, [{text}, {text}, {sixth}, 0])\n"
+    assert not any(x.b for x in python.find(source, "x"))
