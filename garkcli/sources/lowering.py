@@ -438,10 +438,9 @@ _OPERATIONS = (
 )
 """Methods of numbers that are operations with another number."""
 _UNITS = {"getZero": "0.0", "getOne": "1.0"}
-_OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
+_OF_IT = {"recip": "inv", "reciprocal": "inv", "Select": "map"} | {
     x: x for x in ("sqrt", "cbrt", "cos", "sin", "len", "map", "transpose", "sum")
 }
-_OF_IT["Select"] = "map"
 """Methods that are functions of the number or the list."""
 
 

@@ -279,7 +279,8 @@ class _Source:
             if not layout or len(roles) < len(layout) or numbers & known:
                 continue
             try:
-                table = table_of(Meant(place, roles, NAMED, record.kind))
+                # another function may have that name
+                table = replace(table_of(Meant(place, roles, NAMED, record.kind)), is_sure=False)
             except NoTable:
                 continue
             known |= numbers

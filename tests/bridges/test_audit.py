@@ -505,3 +505,16 @@ def test_numbers_in_blocks_are_a_method_if_they_fit(
     path.write_text(f"A = [[{first}, {second}], [{first}, {second}]]\nB = {weights}\n", "utf-8")
     found = list(audited([str(path)]))
     assert [x.has_errors for x in found] == [False] * count
+
+
+@pytest.mark.parametrize(("weights", "count"), [("[1/2, 1/2]", 2), ("[3, 4]", 1)])
+def test_calls_of_one_name_are_methods_if_they_fit(
+    tmp_path: Path, weights: str, count: int
+) -> None:
+    """A function ``check`` that is given a method once may be given other numbers, too."""
+    zeros, others = "[0, 0, 0, 0]", "[1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]"
+    method = f"check([0, 1/2, 1/2, 1], [{zeros}, {others}], [1/6, 1/3, 1/3, 1/6])"
+    path = tmp_path / "x.py"
+    path.write_text(f"{method}\ncheck([0, 1], [[0, 0], [1, 0]], {weights})\n", "utf-8")
+    found = list(audited([str(path)]))
+    assert [x.has_errors for x in found if x.is_read] == [False] * count
