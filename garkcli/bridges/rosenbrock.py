@@ -201,7 +201,7 @@ def row_findings(subject: RowSubject) -> Iterator[Remark]:
 
 
 def _slip(subject: RowSubject) -> Iterator[Remark]:
-    """One number costs a method without a declared order several orders, or it is no method."""
+    """A remark if no order is declared and one wrong number lowers it by several."""
     order = subject.order
     found = misprints(subject.method, order) if not order.is_open else ()
     message = f"order {order.order}{_why(order)}"

@@ -118,7 +118,7 @@ def _above(lines: Sequence[str], at: int) -> Sequence[str]:
 
 
 def _quoted(lines: Sequence[str], at: int, step: int) -> Sequence[str]:
-    """One end is on a line, the other below for step 1, above for -1."""
+    """The lines of a quoted text with one end on a line: down for step 1, up for -1."""
     text = lines[at].strip().lstrip("rRuU") if at >= 0 else ""
     mark = text[:3] if step > 0 else text[-3:]
     if step < 0 and text.endswith("*/"):

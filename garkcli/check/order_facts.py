@@ -238,7 +238,7 @@ class OrderFacts(Shown, Frozen):
 
     @property
     def dense(self) -> None:
-        """None: such methods have no dense output."""
+        """None, as such methods have no dense output."""
 
     @cached_property
     def subject(self) -> NoProperties | LinearSubject:

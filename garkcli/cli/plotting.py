@@ -59,7 +59,7 @@ def plot(given: PlotOptions, output: Output) -> None:
 
 
 def _temporary(what: str) -> str:
-    """It stays when the command ends, for the browser to read."""
+    """A path in a new folder, which stays when the command ends, for the browser to read."""
     from pathlib import Path
     from tempfile import mkdtemp
 

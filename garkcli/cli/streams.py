@@ -93,7 +93,7 @@ def put_help(text: str) -> None:
 
 
 def put_exactly(text: str) -> None:
-    """As UTF-8 with its line ends, on any stream; NoStandardOutput or ReaderGone."""
+    """Writes UTF-8 with the line ends of the text; raises NoStandardOutput or ReaderGone."""
     if sys.stdout is None:
         raise NoStandardOutput
     buffer = getattr(sys.stdout, "buffer", None)

@@ -159,7 +159,7 @@ class _Finding(Frozen):
     wanted: int | None = None
 
     def steps(self) -> list[Step]:
-        """One for each order up to the wanted one or the highest with values; or one undecided."""
+        """A step for each order, up to the wanted, the last with values or an undecided one."""
         wanted = self.wanted
         if self.family.unsettled:
             return [Undecided(wanted or 1, None)]

@@ -51,7 +51,7 @@ class Branch(Frozen, eq=False):
         )
 
     def at(self, t: RealRoot) -> RealRoot | None:
-        """As a limit at an end of the strip; None if roots meet or escape to infinity there."""
+        """The root, at an end of the strip its limit; None if roots meet or are infinite there."""
         degree = self.curve.degrees()[0]
         critical = [
             projection.leading(self.curve),

@@ -324,7 +324,7 @@ class Source:
     def whole(
         self, node: Node, where: str, smallest: int = 0, largest: int | None = None
     ) -> int | None:
-        """Only decimal digits without leading zeros count."""
+        """The whole number; only decimal digits without leading zeros are one."""
         text = self.scalar(node, where)
         if text is None:
             return None

@@ -145,7 +145,7 @@ _NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
 
 
 def number_text(source: Source, node: Node, where: str) -> str | None:
-    """As written; None, with a fault, if YAML does not read the number it looks like."""
+    """The number as written; None, with a fault, if YAML reads another value."""
     text = source.scalar(node, where)
     if text is None or not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return text

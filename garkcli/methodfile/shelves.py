@@ -157,7 +157,8 @@ class Package(Shelf):
 
 
 def _resource(file: str) -> bytes:
-    """It may be in an archive; ``importlib.resources`` takes as long to import as a check."""
+    """The content of a file of the package, also of one in an archive."""
+    # importlib.resources takes as long to import as a check
     from pkgutil import get_data
 
     data = get_data("garkcli", file)

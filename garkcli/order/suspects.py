@@ -57,7 +57,7 @@ def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) ->
 def suspected_numbers(
     rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT
 ) -> list[SuspectedNumber]:
-    """As ``suspects``, also where a number is part of several entries."""
+    """The numbers that may be wrong, each perhaps part of several entries; see ``suspects``."""
     numbers = rounded.search.box.numbers
 
     def changed(k: int, change: fmpq) -> tuple[fmpq, fmpq]:

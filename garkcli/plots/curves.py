@@ -28,7 +28,7 @@ FACTOR = 20.0
 """An axis is logarithmic if its largest number is more than this times the smallest."""
 
 NOTHING = 1e-6
-"""It is not if the smallest is a smaller part of the largest: rounding in place of zero."""
+"""An axis with a smaller ratio is linear: its smallest number is a rounded zero."""
 
 
 def curve_scene(optima: Optima, title: str) -> Scene:
