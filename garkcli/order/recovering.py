@@ -241,7 +241,10 @@ class Recovery(SearchedBox):
         self, name: str, limit: int
     ) -> tuple[int, RecoveryFailure | None, list[Tree]]:
         """The largest order that earlier results allow, why the next fails, the trees missed."""
-        at_once, alone = self.explained(name, limit)
+        # the nodes and weights of s stages are a quadrature formula of order 2s at most; further
+        # conditions, explained by large radii alone, fail one order at a time, which is fast
+        most = 2 * max((space.stages for space in self.origin.exact(name).spaces), default=limit)
+        at_once, alone = self.explained(name, min(limit, most))
         if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:
             return limit, None, []
         for order in range(self._reached.get(name, 0) + 1, limit + 1):

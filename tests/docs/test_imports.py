@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 import garkcli
@@ -22,6 +23,11 @@ def module_files() -> dict[str, Path]:
         name = ".".join(parts).removesuffix(".__init__")
         found[name] = path
     return found
+
+
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
 
 
 def is_for_types_only(node: ast.AST) -> bool:
@@ -44,10 +50,11 @@ def executed(node: ast.AST) -> Iterator[ast.AST]:
                 pending.append(child)
 
 
-def imported_modules(text: str, modules: Mapping[str, Path], for_types: bool = False) -> set[str]:
+def imported_modules(
+    tree: ast.Module, modules: Mapping[str, Path], for_types: bool = False
+) -> set[str]:
     """The modules of the package that a file imports, at its top or in a function."""
     found = set()
-    tree = ast.parse(text)
     for node in ast.walk(tree) if for_types else executed(tree):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
@@ -62,8 +69,7 @@ def test_no_circle_of_imports() -> None:
     """Each module can be read after those it imports: components of the graph are single modules."""
     modules = module_files()
     graph = {
-        name: sorted(imported_modules(path.read_text(encoding="utf-8"), modules))
-        for name, path in modules.items()
+        name: sorted(imported_modules(tree_of(path), modules)) for name, path in modules.items()
     }
     assert len(graph) > 100
     assert not any(name in imported for name, imported in graph.items())
@@ -79,7 +85,7 @@ def test_no_circle_of_annotations() -> None:
     """In the other rooms each file can be understood after those that it imports, for types too."""
     modules = module_files()
     graph = {
-        name: sorted(imported_modules(path.read_text(encoding="utf-8"), modules, for_types=True))
+        name: sorted(imported_modules(tree_of(path), modules, for_types=True))
         for name, path in modules.items()
     }
     circles = [component for component in components(graph) if len(component) > 1]
@@ -95,7 +101,7 @@ def test_imports_in_functions_are_seen_and_those_for_types_are_not() -> None:
         "if TYPE_CHECKING:\n    from garkcli.b import x\n"
         "def f():\n    from garkcli.c import y\n    from garkcli import d\n"
     )
-    assert imported_modules(text, modules) == {"garkcli.a", "garkcli.c", "garkcli.d"}
+    assert imported_modules(ast.parse(text), modules) == {"garkcli.a", "garkcli.c", "garkcli.d"}
 
 
 def test_no_room_hides_a_public_name() -> None:
@@ -110,9 +116,7 @@ GIVE_MEANING = {"garkcli.cli.options", "garkcli.sources.ir"}
 
 def test_a_class_name_means_one_thing() -> None:
     """Each is used once in the package, except in modules that are imported as modules."""
-    trees = {
-        name: ast.parse(path.read_text(encoding="utf-8")) for name, path in module_files().items()
-    }
+    trees = {name: tree_of(path) for name, path in module_files().items()}
     homes: dict[str, list[str]] = {}
     for name, tree in trees.items():
         for node in ast.walk(tree):
