@@ -38,21 +38,23 @@ def refuse_large(stages: int, cure: str) -> None:
 
 
 class Substep(Frozen):
-    """On point stages; the fraction of the step may be negative."""
+    """One substep: a method on point stages and its fraction of the step, which may be negative."""
 
     tableau: Tableau
     fraction: Number
 
 
 def composed(substeps: Sequence[Substep]) -> Tableau:
-    """Equal stages are merged: substeps share one if one ends with the value at which the next
-    begins. MethodError for different vector fields, or too many stages.
+    """Returns the composition with equal stages merged.
+
+    Substeps share a stage if one ends with the value at which the next begins. Raises MethodError
+    for different vector fields, or too many stages.
     """
     return merged(in_turn(substeps))
 
 
 def in_turn(substeps: Sequence[Substep]) -> Tableau:
-    """Every stage of every substep; MethodError for different vector fields, or too many stages."""
+    """Returns the composition with every stage of every substep; raises as ``composed``."""
     tableaus = [substep.tableau for substep in substeps]
     for tableau in tableaus:
         tableau.demand_fields("a composition")
@@ -76,7 +78,9 @@ def count_stages(tableau: Tableau) -> int:
 
 
 def seen_in_nodes(tableau: Tableau, l: int) -> int | None:
-    """Colour l if its stages see it, else the first that they see; None if they see none."""
+    """Returns the colour whose time the nodes of colour l are: l itself if its stages see it, else
+    the first that they see; None if they see none.
+    """
     seen = [m for k, m in tableau.edges() if k == l]
     return l if l in seen or not seen else seen[0]
 
@@ -96,7 +100,7 @@ def _fields(tableau: Tableau) -> tuple[object, ...]:
 
 
 class _Composition:
-    """Colours share a stage space if they do in every method."""
+    """The tableau of a composition; colours share a stage space if they do in every method."""
 
     def __init__(self, substeps: Sequence[Substep]) -> None:
         self.substeps = substeps
@@ -147,7 +151,7 @@ Flow = tuple[int, Number]
 
 
 def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
-    """Part 0 moves q, part 1 moves p; ``is_nystrom``: velocities are linear in the momenta."""
+    """Part 0 drifts q, part 1 kicks p; with ``is_nystrom`` velocities are linear in the momenta."""
     nothing: matrix.Vector = ()
     drift = separable_prk(((), (ONE,), ()), (((),), nothing, (ZERO,)))
     kick = separable_prk((((),), nothing, (ZERO,)), ((), (ONE,), ()))
@@ -157,7 +161,7 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
 
 
 def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
-    """A splitting for ẏ = Σ f^{l}(y), with one colour and method on point stages for each part."""
+    """Returns a splitting of ẏ = Σ f^{l}(y), with one colour and method on point stages a part."""
     parts = [alone(methods, l) for l in range(len(methods))]
     return composed([Substep(parts[l], g) for l, g in flows if g])
 

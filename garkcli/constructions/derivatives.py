@@ -29,7 +29,7 @@ from garkcli.tableau.tableau import Colour, Method, Tableau
 
 class Derivatives(AlongFlow):
     def tableau(self, order: int) -> Tableau:
-        """With the conditions of the method up to an order."""
+        """Returns a tableau with the conditions of the method up to an order."""
         flow = _flow(order)
         rows: list[Vector] = []
         for i in range(len(self.b[0])):
@@ -53,7 +53,7 @@ class Derivatives(AlongFlow):
         )
 
     def arrays(self, count: int) -> tuple[Tableau, ...]:
-        """For ``count`` derivatives f_k, with zeros for unused ones."""
+        """Returns the arrays of ``count`` derivatives f_k, with zeros for unused ones."""
         s = len(self.b[0])
         zeros = (ZERO,) * s
         unused = [((zeros,) * s, zeros)] * (count - len(self.A))
@@ -65,8 +65,8 @@ class Derivatives(AlongFlow):
         return tuple(made)
 
     def apparent_order(self, weights: Weights) -> int:
-        """Unbranched trees and quadrature fit up to this order, or rounding may explain it; it is
-        finite, as R(z) has degrees of at most s times the number of derivatives.
+        """Returns the order up to which unbranched trees and quadrature fit, within rounding. It is
+        finite: R(z) has degrees of at most s times the number of derivatives.
         """
         return fitting(self._sums(weights))
 
@@ -91,7 +91,7 @@ def _dot(u: Sequence[float], v: Sequence[float]) -> float:
 
 
 def plan(method: Derivatives, embedded: Weights | None = None) -> int:
-    """The apparent order plus one, or less to have fewer stages; MethodError for too many."""
+    """Returns the apparent order plus one, or less to have fewer stages; raises MethodError."""
     stages, least = len(method.b[0]), len(method.A)
     refuse_large(stages * least, "take fewer stages")
     weights = [method.b] if embedded is None else [method.b, embedded]
@@ -120,6 +120,6 @@ def _flow(order: int) -> Method:
 
 @lru_cache(maxsize=32)
 def _derivatives(order: int) -> tuple[Vector, ...]:
-    """From values at these nodes to the derivatives at 0, from order 0 on."""
+    """Returns the functionals from values at the nodes to the derivatives 0, 1, … at 0."""
     basis = list(_flow(order).space.basis_polynomials())
     return tuple(tuple(factorial(k) * polynomial[k] for polynomial in basis) for k in range(order))

@@ -298,8 +298,8 @@ _PLAIN = 1e-3
 
 
 def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
-    """Quadrature and the unbranched trees fit up to this order, or rounding may explain it, for the
-    slow method with equal parts, with b or the embedded weights.
+    """Returns the order up to which quadrature and the unbranched trees fit, or rounding may
+    explain it, for the slow method with equal parts, with b or the embedded weights.
     """
     still = CollocationPlan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
     made, further = _Infinitesimal(coupling, still, None, 1).made()
@@ -357,7 +357,9 @@ def collocation_at(nodes: Vector) -> Method:
 def infinitesimal(
     coupling: Coupling, plan: CollocationPlan, fast: Method | None = None, steps: int = 1
 ) -> tuple[Tableau, Further]:
-    """``fast`` is None for exact solutions; ``steps`` lie between two slow stages; MethodError."""
+    """Returns the method with its embedded weights; raises MethodError for too many stages.
+    ``fast`` is the method of the ``steps`` between two slow stages, None for exact solutions.
+    """
     if fast is not None:
         refuse_large(len(coupling.every) * (steps * fast.stages + 2), multirate.SMALLER)
     return _finished(_Infinitesimal(coupling, plan, fast, steps), plan)
@@ -372,7 +374,7 @@ def _finished(program: _Infinitesimal, plan: CollocationPlan) -> tuple[Tableau, 
 
 
 def interpolation(slow: Method) -> Powers:
-    """Interpolates the slopes at the nodes; CoincidingNodes if two of them are equal."""
+    """Returns the forcing that interpolates the slopes; CoincidingNodes for two equal nodes."""
     polynomials = tuple(slow.space.basis_polynomials())
     return tuple(tuple(p[k] for p in polynomials) for k in range(slow.stages))
 
@@ -380,7 +382,7 @@ def interpolation(slow: Method) -> Powers:
 def plan_for_predictor(
     slow: Method, forcing: Iterable[Powers], fast: Method | None
 ) -> CollocationPlan:
-    """``forcing`` is that of the fast problem, and for the embedded value."""
+    """Returns the plan of a step-predictor; ``forcing`` also has that for the embedded value."""
     s = slow.stages
     stages = tuple(range(s))
     degrees = [max(len(powers), 1) for powers in forcing]
@@ -551,7 +553,7 @@ class _Infinitesimal:
 
 
 class _Predicted(_Infinitesimal):
-    """The slow stages are those of a method for both parts."""
+    """The tableau of a step-predictor; its slow stages are those of a method for both parts."""
 
     def __init__(
         self,

@@ -88,13 +88,15 @@ def _alone(tableau: Tableau) -> Method:
 
 
 def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
-    """MethodError if the transfer rule needs distinct nodes, or for too many stages."""
+    """Returns small steps and a slow step, coupled both ways by a transfer rule. Raises MethodError
+    if the rule needs distinct nodes, or for too many stages.
+    """
     whole = small_steps(fast, steps)
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
 
 def add_slow_stages(program: SmallSteps, slow: Method) -> None:
-    """The slow method takes the step for both parts."""
+    """Adds the stages of a slow method that takes the step for both parts."""
     every = range(slow.stages)
     for row, node in zip(slow.A, slow.c, strict=True):
         coarse = summed(of_slopes(FAST, every, row), of_slopes(SLOW, every, row))
@@ -126,14 +128,14 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
 
 
 class Blocks(Frozen):
-    """For every small step λ A^{f,s,λ} and A^{s,f,λ}, with entries in small steps."""
+    """The coupling A^{f,s,λ} and A^{s,f,λ} of each small step λ; entries are in small steps."""
 
     fast_slow: tuple[Matrix, ...]
     slow_fast: tuple[Matrix, ...]
 
 
 def by_blocks(slow: Method, fast: Method, blocks: Blocks) -> Tableau:
-    """With coupling matrices for each small step; MethodError for too many stages."""
+    """Returns the method with a coupling for each small step; MethodError for too many stages."""
     steps = len(blocks.fast_slow)
     refuse_large(slow.stages + steps * fast.stages, SMALLER)
     length = fmpq(1, steps)

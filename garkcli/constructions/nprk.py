@@ -86,7 +86,9 @@ def matrix_of(row: Vector, tableau: Tableau) -> Matrix:
 
 
 def additive(tableau: Tableau) -> Tableau:
-    """For F(u, v) = f₁(u) + f₂(v): the stages of f₁ are the first arguments of the pairs."""
+    """Returns the method for F(u, v) = f₁(u) + f₂(v): the stages of f₁ are the first arguments of
+    the pairs, those of f₂ the second.
+    """
     (space,) = tableau.spaces
     colours = tuple(
         Colour(colour.name, l, colour.b, colour.c, term=l)

@@ -52,7 +52,7 @@ class Nystrom(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Nystrom:
-        """``of(method.tableau) == method``."""
+        """The inverse of ``tableau``: ``of(method.tableau) == method``."""
         blocks = tableau.blocks
         c = tuple(row[0] for row in blocks[0, START])
         bbar, b = (tableau.colours[l].b for l in (POSITIONS, VELOCITIES))
@@ -60,7 +60,7 @@ class Nystrom(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """The colours are g in q, g in q′, and q′ at the beginning of the step."""
+        """The tableau with the colours g in q, g in q′, and q′ at the beginning of the step."""
         spaces = (PointSpace(self.c), PointSpace((ZERO,)))
         rows = ((0, self.bbar, self.c), (0, self.b, self.c), (1, (ONE,), (ZERO,)))
         colours = tuple(
@@ -103,7 +103,7 @@ class Nystrom(Frozen):
 
     @property
     def split(self) -> Tableau:
-        """For (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
+        """The method for (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
         made = self.partitioned
         nothing = tuple((ZERO,) * len(self.b) for _ in self.b)
         width = len(self.b) + 2
@@ -120,7 +120,7 @@ class Nystrom(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """Ā with c and b̄, and A with b; A is zero if there is none."""
+        """The printed arrays: Ā with c and b̄, and A with b, where A is zero if there is none."""
 
         def array(name: str, A: Matrix, b: Vector) -> Tableau:
             colour = Colour(name, 0, b, self.c)
@@ -164,7 +164,7 @@ def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
 
 
 def weights_of(bbar: Vector, b: Vector) -> Weights:
-    """From those of the steps in q and q′, such as embedded ones."""
+    """Returns the weights by colours from those of the steps in q and q′, such as embedded ones."""
     return bbar, b, (ONE,)
 
 

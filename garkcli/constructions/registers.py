@@ -24,7 +24,9 @@ Numbers: TypeAlias = Sequence[Any]
 
 
 class Steps(Frozen):
-    """``starts`` has the coefficients of the initial value in stages and final value: all 1."""
+    """An executed method; ``starts`` are the coefficients of the initial value in the stages and in
+    the final value, 1 for a method.
+    """
 
     A: Sequence[Numbers]
     b: Numbers
@@ -32,7 +34,7 @@ class Steps(Frozen):
 
 
 class _Registers:
-    """The coefficient of the initial value, then those of the slopes."""
+    """Registers, each a row: the coefficient of the initial value, then those of the slopes."""
 
     def __init__(self, stages: int) -> None:
         self._size = stages + 1
@@ -222,7 +224,11 @@ OF_FILES: Mapping[str, Callable[..., Steps]] = {
 def as_butcher(
     scheme: str, numbers: Sequence[Any], c: Vector | None = None, grain: Any = 0
 ) -> Method:
-    """MethodError if the numbers are no method, or a stage does not begin at the initial value."""
+    """Returns the Runge–Kutta method of a scheme in ``OF_FILES``.
+
+    ``c`` is None for the row sums; ``grain`` is the rounding of the nodes. Raises MethodError if
+    the numbers are no method, or a stage does not begin at the initial value.
+    """
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
         off = start - ONE
@@ -249,6 +255,8 @@ FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {
 
 
 def nystrom(A: Sequence[Numbers], b: Numbers, c: Numbers) -> tuple[list[Numbers], Numbers]:
-    """Weights of velocities for a pair (q, p), one more than forces; ``A`` is Ā, ``b`` is b̄."""
+    """Returns the weights of velocities for a pair (q, p): one more than there are forces. ``A`` is
+    Ā and ``b`` is b̄.
+    """
     first = [node - sum(row) for node, row in zip(c, A, strict=True)]
     return [[x, *row] for x, row in zip(first, A, strict=True)], [1 - sum(b), *b]

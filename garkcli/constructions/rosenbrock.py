@@ -58,7 +58,7 @@ class Rosenbrock(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Rosenbrock:
-        """``of(method.tableau) == method``, with its nodes."""
+        """The inverse of ``tableau``: ``of(method.tableau) == method``, with its nodes."""
         N = tableau.size // 2
 
         def blocks(first: int) -> Blocks:
@@ -82,19 +82,19 @@ class Rosenbrock(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """With the Jacobians of all f^{l} at the beginning of the step."""
+        """The tableau with the Jacobians of all f^{l} at the beginning of the step."""
         return self._tableau(
             ("f", nature.NOT_ONE, self.alpha), ("f'", nature.ONE_BRANCH, self._beta)
         )
 
     @property
     def with_any_matrix(self) -> Tableau:
-        """The W-method, with an arbitrary matrix for each Jacobian."""
+        """The tableau of the W-method, with an arbitrary matrix for each Jacobian."""
         return self._tableau(("f", nature.PLAIN, self.alpha), ("W", nature.MATRIX, self.gamma))
 
     @property
     def with_old_jacobian(self) -> Tableau:
-        """For matrices that differ from the Jacobians by O(h)."""
+        """The tableau for matrices that differ from the Jacobians by O(h)."""
         return self._tableau(
             ("f", nature.NOT_ONE, self.alpha),
             ("f'", nature.ONE_BRANCH, self._beta),
@@ -103,7 +103,7 @@ class Rosenbrock(Frozen):
 
     @property
     def with_time(self) -> Tableau:
-        """For f(t, y), with h d_i f_t added to the stages, and time as a colour."""
+        """The tableau for f(t, y), with h d_i f_t added to the stages, and time as a colour."""
         return beside_clock(self.tableau, len(self.b))
 
     @property
@@ -117,12 +117,12 @@ class Rosenbrock(Frozen):
 
     @property
     def on_dae_in_y(self) -> Tableau:
-        """On DAEs with the conditions of y only."""
+        """The tableau on DAEs with the conditions of y only."""
         return self._on_dae(late=None)
 
     @property
     def on_dae_in_z(self) -> Tableau:
-        """On DAEs with the conditions of z, which include those of y."""
+        """The tableau on DAEs with the conditions of z, which include those of y."""
         return self._on_dae(late=0)
 
     def _on_dae(self, late: int | None) -> Tableau:
@@ -153,7 +153,7 @@ class Rosenbrock(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """α with c and b, and γ with d."""
+        """The printed arrays: α with c and b, and γ with d."""
         made = []
         for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self.nodes, strict=True):
             spaces = tuple(map(PointSpace, nodes))
@@ -262,7 +262,7 @@ def _seen(which: Which, tableau: Tableau) -> Tableau:
 
 
 def transformed_weights(further: Further, gamma: matrices.Matrix) -> Further:
-    """From the stored form m = b Γ⁻¹."""
+    """Returns embedded weights and dense output from their stored form m = b Γ⁻¹."""
     return _times(further, gamma)
 
 
@@ -280,15 +280,7 @@ def _times(further: Further, matrix: matrices.Matrix) -> Further:
 
 
 def rosenbrock(alpha: matrices.Matrix, gamma: matrices.Matrix, b: matrices.Vector) -> Rosenbrock:
-    """Shapes (s, s) and length s; ShapeMismatch if they do not fit.
-
-    >>> from flint import fmpq
-    >>> from garkcli.order.certificate import find_order
-    >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
-    >>> ros2 = rosenbrock(((zero, zero), (one, zero)), ((half, zero), (-one, half)), (half, half))
-    >>> find_order(ros2.tableau), find_order(ros2.with_any_matrix)
-    (<Order 2>, <Order 2>)
-    """
+    """Returns a method of one colour; ShapeMismatch unless shapes are (s, s) and length is s."""
     s = len(b)
     for letter, matrix in (("alpha", alpha), ("gamma", gamma)):
         if len(matrix) != s or {*map(len, matrix)} != {s}:
@@ -300,9 +292,10 @@ def rosenbrock(alpha: matrices.Matrix, gamma: matrices.Matrix, b: matrices.Vecto
 def transformed(
     A: matrices.Matrix, C: matrices.Matrix, gamma: matrices.Vector, m: matrices.Vector
 ) -> Rosenbrock:
-    """From the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹, ``gamma`` the γ_ii.
+    """Returns the method of the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
 
-    MethodError if a γ_ii is zero, or C has a nonzero entry on or above the diagonal.
+    ``gamma`` has the γ_ii. Raises MethodError if one is zero, or C has a nonzero entry on or above
+    the diagonal.
     """
     full = _full(C, gamma)
     return rosenbrock(matrices.multiply(A, full), full, matrices.apply_left(m, full))
@@ -319,15 +312,7 @@ class Stored(Frozen):
 
 
 def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
-    """The stored form; MethodError if γ is not lower triangular, or a γ_ii is zero.
-
-    >>> from flint import fmpq
-    >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
-    >>> ros2 = rosenbrock(((zero, zero), (one, zero)), ((half, zero), (-one, half)), (half, half))
-    >>> found = stored(ros2)
-    >>> found.A, found.C, found.m
-    (((0, 0), (2, 0)), ((0, 0), (-4, 0)), (3, 1))
-    """
+    """Returns the stored form; MethodError if γ is not lower triangular, or a γ_ii is zero."""
     alpha, gamma, b = method.alpha[0][0], method.gamma[0][0], method.b[0]
     cure = "its coefficients are divided by the diagonal: write alpha, gamma and b"
     if any(any(row[i + 1 :]) for i, row in enumerate(gamma)):

@@ -132,7 +132,13 @@ Meant = Callable[[Tableau], Tableau]
 
 
 class OfKind(Frozen):
-    """By key: requirements of their ``own``, tableaus ``meant`` by others, other meanings."""
+    """Requirements on one kind of methods, all by key.
+
+    Attributes:
+        own: requirements for these methods only.
+        meant: makes the tableau that another requirement is about.
+        instead: meanings that replace the usual ones.
+    """
 
     name: str
     has: Callable[[Tableau], bool]
@@ -185,7 +191,7 @@ EVERY = {**WANTS, **{key: want for kind in KINDS for key, want in kind.own.items
 
 
 def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
-    """The tableau that a requirement is about; MethodError if this kind of methods has none."""
+    """Returns the tableau that a requirement is about; MethodError if it has none for this kind."""
     own = next((kind for kind in KINDS if kind.has(tableau)), None)
     owner = next((kind for kind in KINDS if want.key in kind.own), None)
     if owner is not None and owner is not own:

@@ -19,7 +19,11 @@ T = TypeVar("T", bound="AlongFlow")
 
 
 class AlongFlow(Frozen):
-    """``A``: matrices a^1, a^2, … of f, f' f, …, shape (s, s); ``c`` is None for sums of a^1."""
+    """A method that uses derivatives of f along the solution, f_1 = f, f_2 = f' f, …
+
+    ``A`` has their matrices, of shape (s, s), and ``b`` their weights; ``c`` is None for row sums
+    of the first.
+    """
 
     A: tuple[Matrix, ...]
     b: Weights
@@ -27,7 +31,7 @@ class AlongFlow(Frozen):
 
     @classmethod
     def of(cls: type[T], tableau: Tableau) -> T:
-        """``of(method.tableau(n)) == method``, with its nodes."""
+        """The inverse of ``tableau``: ``of(method.tableau(n)) == method``, with its nodes."""
         space = jets_of(tableau)
         firsts = range(0, space.stages, space.order)
         rows = [weights_of(tableau.blocks[0, 0][i], space) for i in firsts]
@@ -41,7 +45,9 @@ class AlongFlow(Frozen):
 
     @property
     def additive(self) -> Tableau:
-        """One colour for each f_k, all at the same stages; its coefficients are those of h^k."""
+        """The method with a colour for each f_k on shared stages; its coefficients are those of
+        h^k.
+        """
         pairs = enumerate(zip(self.A, self.b, strict=True))
         colours, blocks = [], {}
         for k, (A, b) in pairs:

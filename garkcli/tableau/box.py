@@ -24,7 +24,9 @@ FAMILY_BITS = 1000
 
 
 class Box(Frozen, eq=False):
-    """Printed numbers are off by at most radii t_k > 0; further weights are unseen colours."""
+    """All methods whose printed numbers are off by at most their radii t_k > 0. Further weights are
+    colours that no stage sees, as in ``embedded.as_colours``.
+    """
 
     numbers: tuple[Number, ...]
     radii: tuple[fmpq, ...]
@@ -57,7 +59,7 @@ class FormTableau:
 
     @property
     def in_balls(self) -> Tableau:
-        """Each entry as a ball around all its values."""
+        """Returns the tableau with each entry as a ball around all its values."""
         return self.made.changed(lambda x: x.ball if isinstance(x, Affine) else constant(x))
 
     def block(self, l: int, m: int) -> FormMatrix:
@@ -72,7 +74,7 @@ def rational_or_ball(number: Any) -> Any:
 
 
 def to_points(tableau: Tableau) -> Tableau:
-    """On point stages, in balls if nodes are irrational."""
+    """Returns the tableau on point stages, in balls if nodes are irrational."""
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
     into, back = [], []
@@ -158,9 +160,11 @@ def _maker(
     sums: Sequence[int | None],
     first: Sequence[int],
 ) -> Make:
-    """``rows``: weights, rows of blocks, printed nodes; ``radii`` are 0 for exact numbers. ``sums``
-    has for each colour l the m with A^{l,m} 𝟙 as nodes; ``first`` the first colour with these nodes
-    and stages.
+    """Returns the function that makes the method of other numbers.
+
+    ``rows`` are weights, rows of blocks and printed nodes; ``radii`` are 0 for exact numbers.
+    ``sums`` has for each colour l the m with A^{l,m} 𝟙 as nodes, None if they are printed;
+    ``first`` is the first colour with these nodes and stages.
     """
     colours = len(sums)
 

@@ -24,7 +24,7 @@ def conjugate_block(
     other: StageSpace,
     b_other: matrix.Vector,
 ) -> matrix.Matrix:
-    """Â^{l,m}, shape (s_l, s_m), from ``block`` A^{m,l}; ZeroWeight if b^{l} has a zero weight."""
+    """Returns Â^{l,m}, shape (s_l, s_m), from ``block`` A^{m,l}; ZeroWeight for a zero in b^{l}."""
     try:
         adjoint = other.adjoint(block, b_other, here, b)
     except matrix.SingularMatrixError:
@@ -36,9 +36,10 @@ def conjugate_block(
 
 
 def conjugate(tableau: Tableau) -> Tableau:
-    """(Â^{l,m}, b, c); conjugated again it is ``tableau``. For a partitioned one, (A, Â), momentum
-    blocks come from position blocks and vice versa. Raises ZeroWeight, or MethodError for no GARK
-    method.
+    """Returns (Â^{l,m}, b, c), of which ``tableau`` is the conjugate again.
+
+    For a partitioned one, (A, Â), momentum blocks come from position blocks and vice versa. Raises
+    ZeroWeight, or MethodError for no GARK method.
     """
     tableau.demand_fields("the symplectic conjugate")
     if tableau.is_partitioned:
@@ -83,7 +84,7 @@ def are_opposite(one: Colour, other: Colour) -> bool:
 
 
 def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
-    """All zero if the tableau is symplectic; 1 for a block without an opposite."""
+    """Yields numbers that vanish if the tableau is symplectic; 1 for a block without opposite."""
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
             if one.space == other.space and {one.part, other.part} == {"q", "p"}:

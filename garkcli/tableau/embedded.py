@@ -83,7 +83,7 @@ class Predictor(Frozen):
 
 
 class Further(Frozen):
-    """Each is None without such weights; ``predictor`` is for methods of one colour."""
+    """Further weights of a method, None if it has none; a ``predictor`` is for one colour."""
 
     embedded: Weights | None = None
     dense: DenseOutput | None = None
@@ -109,7 +109,7 @@ class Further(Frozen):
 
     @property
     def rows(self) -> tuple[Weights, ...]:
-        """The embedded weights, then the powers of θ."""
+        """All rows of weights: the embedded ones, then those of the powers of θ."""
         return self.powers if self.embedded is None else (self.embedded, *self.powers)
 
     def changed(self, change: Callable[[Number], Number]) -> Further:
@@ -186,7 +186,9 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
 
 
 def as_colours(tableau: Tableau, further: Further) -> Tableau:
-    """One more colour for each row, which no stage sees: operations on stages also apply to it."""
+    """Returns the tableau with a colour for each row of further weights, which no stage sees. So
+    operations on stages, such as merging equal ones, also apply to these rows.
+    """
     if not further.rows:
         return tableau
     colours = list(tableau.colours)
@@ -197,7 +199,7 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """The inverse of ``as_colours``, without predictor, which belongs to the original stages."""
+    """Inverts ``as_colours``, without the predictor, which belongs to the original stages."""
     if not further.rows:
         return tableau, replace(further, predictor=None)
     size = tableau.size // (len(further.rows) + 1)

@@ -23,8 +23,10 @@ GUARD_OF_ENTRIES = 32
 
 
 class Enclosure(Frozen):
-    """Balls on point stages, for arithmetic with ``bits``: A as in ``Tableau.blocks``, shape
-    (s_space, s_colour), and b as columns, shape (s_colour, 1).
+    """Balls around the entries of a tableau on point stages, for arithmetic with ``bits``.
+
+    ``A`` is by the keys of ``Tableau.blocks``, shape (s_space, s_colour); ``b`` has columns, shape
+    (s_colour, 1).
     """
 
     bits: int
@@ -34,7 +36,7 @@ class Enclosure(Frozen):
 
 
 def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
-    """Spelled-out numbers have any precision, nodes of families at most ``MAX_DIGITS`` digits."""
+    """Returns the entries to ``bits`` bits, nodes of families to at most ``MAX_DIGITS`` digits."""
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
     with ctx.workprec(bits + GUARD_OF_ENTRIES):
         if all(isinstance(space, PointSpace) for space in tableau.spaces):
@@ -66,7 +68,7 @@ def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:
 
 
 def in_balls(tableau: Tableau, grain: fmpq, bits: int) -> Tableau:
-    """On point stages, with balls of radius ``grain`` around nonzero numbers."""
+    """Returns the tableau on point stages with balls of radius ``grain`` around nonzero numbers."""
     radius = arb(0, arb(grain).abs_upper())
 
     digits = int(bits * DIGITS_OF_A_BIT)

@@ -23,7 +23,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Radical(Frozen):
-    """A zero of ``relation``, nonnegative if ``is_even``, ``meant`` if several are real."""
+    """A root among the coefficients, as an unknown: a zero of ``relation``. It is the nonnegative
+    zero if ``is_even`` (the root is), and ``meant`` if several are real.
+    """
 
     name: str
     relation: fmpq_mpoly
@@ -60,7 +62,9 @@ OSCILLATING = ("p-stable", "i-stable")
 
 
 class RequiredStability(Frozen):
-    """``colour``: of a diagonal method, from 0; ``is_embedded``: with embedded weights as b."""
+    """A required kind of stability, of all colours or of the diagonal method of one, from 0. With
+    ``is_embedded`` the embedded weights take the place of b.
+    """
 
     kind: str
     colour: int | None = None
@@ -72,7 +76,7 @@ class RequiredStability(Frozen):
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
     def in_words(self, tableau: Tableau) -> str:
-        """With the vector fields that it is about if there are several colours."""
+        """Returns the text, with its vector fields if there are several colours."""
         if on_linear_problems(tableau).size == 1 or self.kind in OSCILLATING:
             return str(self)
         fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
@@ -150,7 +154,9 @@ def ring_of(tableau: Tableau) -> Parameters:
 
 
 def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
-    """On point stages; None if the nodes have no simple radicals. ``ring`` has no roots."""
+    """Returns the family on point stages; None if the nodes have no simple radicals. ``ring`` is
+    that of the parameters, without roots.
+    """
     nodes = nodes_in_radicals(tableau)
     if not nodes:
         return None if nodes is None else tableau

@@ -21,7 +21,7 @@ _NewBlocks: TypeAlias = dict[Edge, Matrix]
 
 
 def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
-    """Diagonal ``methods`` and blocks ``transfer[l, m]``, eq. (GARK)."""
+    """Returns the tableau of diagonal ``methods`` and blocks ``transfer[l, m]``, eq. (GARK)."""
     spaces = []
     colours = []
     blocks: _NewBlocks = {}
@@ -48,7 +48,7 @@ def spelled_out(
     c: Sequence[Vector | None],
     linear: Iterable[int] = (),
 ) -> Tableau:
-    """Missing nodes are row sums."""
+    """Returns a GARK tableau by blocks; missing nodes are row sums."""
     linear = frozenset(linear)
     spaces = []
     colours = []
@@ -78,7 +78,7 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
 
 
 def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
-    """One set of stages, with a matrix and weights for each colour."""
+    """Returns a method with one set of stages, and a matrix and weights for each colour."""
     nodes = c
     if nodes is None:
         nodes = _row_sums(0, A, len(A[0]))
@@ -88,7 +88,7 @@ def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tabl
 
 
 def partitioned(q: Method, p: Method) -> Tableau:
-    """For q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
+    """Returns a method for q̇ = v(q, p), ṗ = f(q, p), both with the same stages."""
     velocity = Colour("q", 0, q.b, q.c, 0, "q")
     force = Colour("p", 0, p.b, p.c, 1, "p")
     return Tableau((q.space,), (velocity, force), {(0, 0): q.A, (0, 1): p.A})
@@ -188,7 +188,9 @@ def pair(tableau: Tableau) -> Tableau:
 
 
 def on_linear_problems(tableau: Tableau) -> Tableau:
-    """A = β = α + γ for a Rosenbrock method, as vertices of linear problems have one branch."""
+    """Returns the GARK method with the same step on linear problems. For a Rosenbrock method it has
+    A = β = α + γ, as vertices of linear problems have one branch.
+    """
     kinds = {colour.kind for colour in tableau.colours}
     if kinds != {NOT_ONE, ONE_BRANCH}:
         return tableau
@@ -233,7 +235,9 @@ def with_time(tableau: Tableau) -> Tableau | None:
 
 
 def beside_clock(tableau: Tableau, term: int) -> Tableau:
-    """Time is the last colour, with term ``term``; colours that share stages share nodes."""
+    """Returns the tableau with time, term ``term``, as last colour, which stages see as nodes.
+    Colours that share stages have to share nodes.
+    """
     time = tableau.size
     columns = {(x.space, time): tuple((c_i,) for c_i in x.c) for x in tableau.colours}
     clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=term, kind=LEAF)

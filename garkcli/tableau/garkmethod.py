@@ -42,7 +42,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
         self._parts: dict[K, Any] = dict(parts)
 
     def __getitem__(self, key: K) -> Any:
-        """NoSuchColour if there is no part of a colour, or of a pair (l, m)."""
+        """The part of a colour, or of a pair (l, m); raises NoSuchColour."""
         try:
             return self._parts[key]
         except (KeyError, TypeError):
@@ -66,7 +66,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
 
 
 Derivation: TypeAlias = Literal["", "conjugate", "pair"]
-"""Empty for a given method."""
+"""The construction of a method from its base; empty for a given method."""
 
 
 def derived_name(derivation: str, name: str) -> str:

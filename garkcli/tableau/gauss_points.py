@@ -21,7 +21,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def is_gauss(tableau: Tableau) -> bool:
-    """A collocation method with Gauss nodes."""
+    """Whether a tableau is that of collocation with Gauss nodes."""
     if tableau.size > 1 or not has_gauss_nodes(tableau.spaces[0]):
         return False
     space, colour, block = tableau.spaces[0], tableau.colours[0], tableau.block(0, 0)

@@ -20,7 +20,7 @@ Defined: TypeAlias = Mapping[AlgebraicRoot, str]
 def with_letters(
     tableau: Tableau | None, written: Mapping[str, str] = NOTHING, taken: str = ""
 ) -> Iterator[Defined]:
-    """Yields letters of roots of degree 3 or more so far; arguments as in ``Letters``."""
+    """Gives roots of degree 3 or more letters in texts made inside; yields those in use so far."""
     letters = Letters(_diagonal(tableau), written, taken) if _has_roots(tableau) else None
     with lettered(letters):
         yield {} if letters is None else letters.of

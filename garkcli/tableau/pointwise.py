@@ -92,7 +92,7 @@ class Entries(Frozen):
 
 @doing("entries")
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """Exact if all nodes are rational or quadratic, else enclosures."""
+    """Returns exact entries if all nodes are rational or quadratic, else enclosures."""
     exact = in_points(tableau)
     if exact is None:
         return numeric_entries(tableau, digits)
@@ -116,7 +116,9 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
-    """None if the nodes have no simple radicals, or too large a field with the coefficients."""
+    """Returns the tableau on point stages; None if the nodes have no simple radicals, or generate
+    too large a field with the coefficients.
+    """
     radical_nodes = nodes_in_radicals(tableau)
     if not radical_nodes:
         return None if radical_nodes is None else tableau
@@ -164,7 +166,7 @@ def at_points(
     coefficient: Callable[[Any], Any],
     number: Callable[[Number], Any],
 ) -> Tableau:
-    """Blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c, V the Vandermonde matrices of the nodes.
+    """Returns blocks V_k A V_m⁻¹, weights b V⁻¹ and nodes V c with Vandermonde matrices V of nodes.
 
     ``nodes`` are those of the polynomial stage spaces, from ``domain``; ``coefficient`` maps
     coefficients and ``number`` numbers of the domain.
@@ -200,7 +202,7 @@ def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
 
 @doing("entries")
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """Enclosures of width below 10^(−digits)."""
+    """Returns enclosures of width below 10^(−digits)."""
     goal = int(digits * BITS_OF_A_DIGIT) + 8
     if is_gauss(tableau):
         with ctx.workprec(goal + 64):
@@ -220,7 +222,7 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
 
 
 def _numeric(tableau: Tableau, digits: int) -> Entries | None:
-    """At the current precision; None if it is too low for a Vandermonde matrix."""
+    """Returns enclosures; None if the precision is too low to invert a Vandermonde matrix."""
     try:
         frames = [_numeric_frame(space) for space in tableau.spaces]
     except ZeroDivisionError:

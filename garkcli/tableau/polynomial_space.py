@@ -26,7 +26,7 @@ MAX_MOMENTS = 8
 
 
 class PolynomialSpace(StageSpace):
-    """The basis is 1, x, …, x^(s−1); M is monic with distinct real roots."""
+    """ℚ[x]/(M) with the basis 1, x, …, x^(s−1); M is monic with distinct real roots."""
 
     modulus: fmpq_poly
 
@@ -185,7 +185,7 @@ def antiderivative(coefficients: Sequence[Number]) -> matrix.Vector:
 
 
 def integration(degree: int) -> matrix.Matrix:
-    """Integration ∫_0^x of polynomials of degree < ``degree``, shape (degree + 1, degree)."""
+    """Returns the map f ↦ ∫_0^x f for degrees < ``degree``, shape (degree + 1, degree)."""
     columns = [
         antiderivative((ZERO,) * j + (ONE,)) + (ZERO,) * (degree - 1 - j) for j in range(degree)
     ]
@@ -193,13 +193,7 @@ def integration(degree: int) -> matrix.Matrix:
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
-    """Ascending nodes as expressions with at most one square root each; None if they need more.
-
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.exact.rewriting import format_expression
-    >>> [format_expression(c) for c in simple_nodes(diagonal_method("gauss", 2).space)]
-    ['1/2-((1/6)*sqrt(3))', '1/2+(1/6)*sqrt(3)']
-    """
+    """Returns ascending nodes with at most one square root each; None if they need more."""
     nodes: list[Expression] = []
     _, factors = space.modulus.factor()
     for factor, _ in factors:
@@ -210,7 +204,7 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
 
 
 def _roots(factor: fmpq_poly) -> list[Expression]:
-    """A linear factor has one root, a quadratic one m ± r√d with rational m, r, d."""
+    """Returns the root of a linear factor, or m ± r√d with rational m, r, d of a quadratic one."""
     if factor.degree() == 1:
         return [Literal(-factor[0] / factor[1])]
     constant, linear, leading = factor.coeffs()
@@ -231,7 +225,9 @@ def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
 
 
 def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
-    """From values at the nodes to coordinates; ZeroDivisionError if the precision is too low."""
+    """Returns the inverse Vandermonde matrix, which maps values at the nodes to coordinates. Raises
+    ZeroDivisionError if the precision is too low.
+    """
     inverse = _coordinates_at_nodes(space, ctx.prec)
     if inverse is None:
         raise ZeroDivisionError

@@ -59,14 +59,14 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def of_polynomial(self, coefficients: Sequence[Number]) -> matrix.Vector:
-        """A polynomial, lowest coefficient first; at points its values at the nodes."""
+        """The class of a polynomial, lowest coefficient first; at points its values."""
 
     @abstractmethod
     def basis_polynomials(self) -> Iterator[matrix.Vector]:
-        """The polynomial of degree < s of each basis vector, lowest coefficient first: at points
-        the Lagrange polynomials of the nodes. CoincidingNodes if two nodes are equal.
+        """The polynomial of degree < s of each basis vector: at points the Lagrange polynomials.
 
-        They are made one at a time: together they can be far larger than the results.
+        Coefficients begin with the lowest. They are made one at a time: together they can be far
+        larger than the results. Raises CoincidingNodes if two nodes are equal.
         """
 
     @abstractmethod
@@ -85,7 +85,7 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def zero_weights(self, weights: matrix.Vector) -> Reason:
-        """At least one weight must be zero."""
+        """Says which weights are zero; at least one must be."""
 
     def form(self, weights: matrix.Vector, block: matrix.Matrix) -> matrix.Matrix:
         """The bilinear form (f, g) ↦ weights(f ⊙ A g), one row for each f."""
@@ -98,19 +98,14 @@ class StageSpace(Frozen):
         source: StageSpace,
         source_weights: matrix.Vector,
     ) -> matrix.Matrix:
-        """A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩, for a block A from ``source`` to
-        here.
-
-        At points this is B_source⁻¹ Aᵀ B_here. SingularMatrixError if a weight of ``source`` is
-        zero.
+        """A* from here to ``source`` with ⟨A f, g⟩ = ⟨f, A* g⟩; A maps ``source`` to here. At
+        points this is B_source⁻¹ Aᵀ B_here; SingularMatrixError if a weight of ``source`` is zero.
         """
         return source.divide_by_weights(source_weights, matrix.transpose(self.form(weights, block)))
 
     @abstractmethod
     def divide_by_weights(self, weights: matrix.Vector, right: matrix.Matrix) -> matrix.Matrix:
-        """G⁻¹ ``right`` with the ``gram`` G: at points B⁻¹ ``right``; SingularMatrixError for a
-        zero.
-        """
+        """G⁻¹ ``right``, G the ``gram``: at points B⁻¹ ``right``; raises SingularMatrixError."""
 
 
 def in_flint(coefficients: Sequence[Number]) -> fmpq_poly:
@@ -154,7 +149,9 @@ class PointSpace(StageSpace):
         return tuple(_value(coefficients, c) for c in self.points)
 
     def interpolation_bits(self, enough: int) -> int:
-        """Bits of the common denominator of the Lagrange polynomials, or a bound that is enough."""
+        """The bits of the common denominator of the Lagrange polynomials; or a simple upper bound,
+        if that is at most ``enough``, or the denominator is costly.
+        """
         bound = sum(_bits(x - y) for x, y in combinations(self.points, 2))
         if bound <= enough or bound > MAX_BITS_COMPARED:
             return bound
@@ -204,11 +201,11 @@ OF_OTHERS = (
     "gark check, show, tableau, conditions, converge, diff, report and export know such methods; "
     "gark stability and plot know them but for nonlinearly partitioned ones"
 )
-"""For commands that are for GARK methods only."""
+"""The cure where a command is for GARK methods only."""
 
 
 class Flow(PointSpace):
-    """Collocation stages as exact solution: conditions up to ``order`` agree with those of that."""
+    """Collocation stages in place of the exact solution: up to ``order`` the conditions agree."""
 
     order: int
 
@@ -217,7 +214,9 @@ class Flow(PointSpace):
 
 
 class Jets(Flow):
-    """Each stage has ``order`` nodes on its exact solution, for f_1, …, f_``derivatives``."""
+    """Nodes on the exact solution through each stage, ``order`` of them, the first at the stage.
+    ``derivatives`` is the number of f_k that the method uses.
+    """
 
     derivatives: int
 

@@ -244,7 +244,9 @@ class Tableau(Frozen):
 
 
 class Method(Frozen):
-    """Transfer rules use the nodes of ``space``; ``A`` has shape (s, s), ``b`` is a functional."""
+    """A Runge–Kutta method on a stage space, at whose nodes transfer rules interpolate. ``A`` has
+    the shape (s, s); ``b`` is a functional of length s.
+    """
 
     name: str
     space: StageSpace
@@ -261,7 +263,7 @@ class Method(Frozen):
 
 
 def butcher(A: Matrix, b: Vector, c: Vector | None = None, name: str = "") -> Method:
-    """``c`` defaults to the row sums of ``A``."""
+    """Returns the method of a Butcher tableau; ``c`` defaults to the row sums of ``A``."""
     nodes = c
     if nodes is None:
         nodes = apply(A, PointSpace(b).one)

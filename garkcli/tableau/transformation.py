@@ -40,7 +40,9 @@ class Transformation(Frozen):
 
 
 def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
-    """Width below 10^(−digits); MethodError for singular A or multiple eigenvalues."""
+    """Returns balls of width below 10^(−digits) for a method of one colour. Raises MethodError for
+    singular A, a multiple eigenvalue, several colours or too many stages.
+    """
     stages = tableau.spaces[0].stages
     if tableau.size > 1 or tableau.block(0, 0) is None:
         message = "the transformation is for a method of one colour"
@@ -60,7 +62,7 @@ def transformation(tableau: Tableau, digits: int = 17) -> Transformation:
 
 
 def _of_matrix(A: arb_mat) -> Transformation | None:
-    """At the current precision; None if it does not exist, or was not found."""
+    """Returns the form at the current precision; None if it does not exist, or was not found."""
     try:
         values, vectors = acb_mat(A.inv()).eig(right=True)
     except (ZeroDivisionError, ValueError):
