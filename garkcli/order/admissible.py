@@ -97,7 +97,7 @@ def are_few(tableau: Tableau, order: int, most: int) -> bool:
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
-    """Groups of root colours with equal stages and weights, so equal conditions, by their first."""
+    """Root colours with equal stages and weights, so equal conditions, by the first of a group."""
     groups: dict[int, tuple[int, ...]] = {}
     for l in tableau.roots:
         colour = tableau.colours[l]

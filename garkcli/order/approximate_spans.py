@@ -45,7 +45,9 @@ class _Hull(Frozen, eq=False):
 
 
 class HullSizes(Frozen, eq=False):
-    """``bound`` is on |b_lᵀ ψ(u) − 1/ρ| ≥ |residual|; members have |residual|, largest first."""
+    """The size of an order: ``bound`` is on |b_lᵀ ψ(u) − 1/ρ| ≥ |residual| for all trees.
+    ``members`` are pairs of |residual| and tree, the largest first.
+    """
 
     bound: arb
     members: list[tuple[arb, Tree]]
@@ -56,7 +58,7 @@ class HullSizes(Frozen, eq=False):
 
 
 class ApproximateSpans(OrderByOrder[_Hull]):
-    """Members and bounds by stage space; remainders below ``grain`` are errors, not members."""
+    """The hulls of each stage space; remainders below ``grain`` are errors, not members."""
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
         self.enclosure = enclosure

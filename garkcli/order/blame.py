@@ -35,9 +35,11 @@ FEW_CONDITIONS_UNASKED = 2_000
 
 
 class MissedOrder(Frozen):
-    """``order`` is the first failing one, ``of`` the key of the claim. With ``is_embedded`` it is
-    about embedded weights, which alone may be wrong if they are exact. With ``keeps_shape`` zeros
-    outside the pattern of a block, as on the diagonal of an explicit method, are right.
+    """A claimed order that the method misses; ``order`` is the first failing one, ``of`` the claim.
+
+    With ``is_embedded`` it is about embedded weights, which alone may be wrong if they are exact.
+    With ``keeps_shape`` zeros outside the pattern of a block, as on the diagonal of an explicit
+    method, are right.
     """
 
     order: int
@@ -127,7 +129,7 @@ def _has_points(method: Tableau, l: int) -> bool:
 def _solution(
     method: Tableau, missed: MissedOrder, entry: RepairedEntry, failing: Condition
 ) -> Number | None:
-    """The root of a failing condition in an entry, if linear: from its values there and beyond."""
+    """Returns the value at which a failing condition holds; None if constant or not linear."""
     values = [failing.value]
     for step in (ONE, ONE + ONE):
         moved = missed.made_of(entry.put(method, entry.old + step))
@@ -222,7 +224,8 @@ def blame_of(
 
 @doing("which entry is wrong")
 def slip_of(method: AnyTableau, missed: MissedOrder, found: AnyOrder) -> Blame | None:
-    """A single entry that costs a method several orders, without a claim; None if there is none.
+    """Returns a single entry that costs a method several orders, if no order is claimed; or None.
+
     Some value of an entry may satisfy a condition by chance, but hardly all of two orders. One
     order is enough for an entry whose row then sums to its printed node.
     """

@@ -44,7 +44,7 @@ class Solver:
         self._cut = 0.0
 
     def nearest(self, parts: Sequence[arb], shifts: Sequence[fmpq], cut: float) -> Floats | None:
-        """The shifts nearest to the print, to first order; None without any."""
+        """Returns the shifts nearest to the print to first order; None if none meet the rows."""
         here = np.array([to_float(x) for x in shifts])
         floats = np.array([float(x.mid()) for x in parts])
         near = nearest(self.slopes, floats - self.alone @ here, cut)
@@ -77,6 +77,7 @@ def together(slopes: Floats, groups: Floats) -> Floats:
 
 
 def orthonormal(rows: Floats) -> Floats:
+    """Returns a basis of the span of rows, without directions that are rounding."""
     norms = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
     _, s, v = np.linalg.svd(rows / norms[:, None], full_matrices=False)
     basis: Floats = v[: int((s > INDEPENDENT).sum())]
@@ -163,6 +164,7 @@ def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
 
 
 def _nearest(J: Floats, c: Floats, cut: float, end: float, miss: float) -> Floats | None:
+    """Returns ``nearest`` with |x_k| ≤ ``end`` and residuals up to ``miss``."""
     count = J.shape[1]
     held = np.zeros(count)
     for _ in range(count + 20):

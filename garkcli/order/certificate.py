@@ -147,7 +147,7 @@ def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
 
 
 def required_of(tree: Tree, share: int = 1) -> fmpq:
-    """share/γ(u), or 0 if the exact solution has no such tree."""
+    """The elementary weight of the exact solution: share/γ(u), or 0 if it has no such tree."""
     return fmpq(share * tree.is_exact, tree.density)
 
 
@@ -173,7 +173,7 @@ class StageSpans(Spans):
 def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
-    """For each colour trees whose ψ span those of all trees with that root, order by order."""
+    """Yields by orders, for each root colour, trees whose ψ span those of all with that root."""
     spans = StageSpans(tableau)
     for order in orders:
         yield tuple(

@@ -14,7 +14,7 @@ from garkcli.tableau.tableau import Edge, Tableau
 
 
 class Defects:
-    """Left sides minus right sides for one tableau, computed with ``entries``."""
+    """The conditions on a tableau as left minus right sides, computed with ``entries``."""
 
     def __init__(self, tableau: Tableau, entries: Tableau | None = None) -> None:
         self.tableau = tableau
@@ -74,6 +74,7 @@ class Defects:
             return (dot(weighted, image) - fmpq(1, 2 * (k + 1) ** 2),)
 
     def of(self, letter: str, l: int, m: int, k: int) -> Vector:
+        """The defect of a condition by its letter; a condition B belongs to colour l."""
         found: Vector = self.B(l, k) if letter == "B" else getattr(self, letter)(l, m, k)
         return found
 

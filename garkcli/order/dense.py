@@ -48,10 +48,6 @@ class DenseOrder(Shown, Frozen):
         witness: a failing condition of the next order; None if not searched or undecided.
         undecided: why the next order is undecided, or empty.
         tolerance: the rounding of the coefficients; None for exact ones.
-
-    >>> from garkcli import analyse
-    >>> analyse("dormand-prince-5").dense.order
-    <DenseOrder 4>
     """
 
     order: int
@@ -124,7 +120,9 @@ class Slopes(Frozen):
 
 
 def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
-    """A slope is right if stages at x_0 or x_1 alone weigh in it, wrong if a weight differs."""
+    """Returns whether the slopes at both ends of a step are f(x_0) and f(x_1). They are if only
+    stages at x_0 or x_1 have weights in them, and not if an elementary weight differs.
+    """
     return slopes_where(method, dense, lambda known, _: slopes_at_ends(known), with_ends)
 
 
@@ -137,7 +135,7 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Whether the weights of both ``ends`` vanish on every problem, the tableau changed first."""
+    """Returns whether the weights of both ``ends`` vanish on every problem, after ``change``."""
     whole: Tableau | Near
     if isinstance(method, Tableau):
         tableau = change(method)
@@ -191,7 +189,7 @@ def _beside(rows: Weights, ends: Vector) -> Weights:
 
 
 def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
-    """Whether it is zero on every problem; None if undecided."""
+    """Whether a functional is zero on every problem; None if undecided."""
     tableau, grain = (method, ZERO) if isinstance(method, Tableau) else (method.near, method.grain)
     if all(_cancels(tableau, grain, functional.weights, l) for l in range(tableau.size)):
         return True

@@ -45,7 +45,7 @@ DIGITS = (4, 7, 10, 14)
 
 
 class Existence(Frozen):
-    """A method near ``shifts``, in the box of ``widths`` around them; both in units of the radii.
+    """A proof of a method near ``shifts``, off by ``widths`` at most, both in units of the radii.
     ``W``, of shape (numbers, trees), says how the numbers move together.
     """
 
@@ -93,7 +93,7 @@ def is_proved_to_exist(search: Recovery, order: int) -> bool:
 
 
 def prove_existence(search: Recovery, order: int) -> Existence | None:
-    """A proof in few digits, to be checked by others; None if there is none."""
+    """Returns a proof in few digits, which others can check; None if there is none."""
     if not is_proved_to_exist(search, order):
         return None
     with ctx.workprec(search.bits):
@@ -163,7 +163,7 @@ def _towards_zero(x: fmpq, unit: fmpq) -> fmpq:
 
 
 def exclusion(search: Recovery, order: int) -> tuple[tuple[Tree, fmpq], ...] | None:
-    """Trees with factors of b·ψ(u) − 1/ρ(u) whose sum is nonzero in the whole box, or None."""
+    """Returns trees with factors of b·ψ(u) − 1/ρ(u) whose sum is not 0 in the box, or None."""
     place = search.origin
     tableau = place.exact("method")
     admissible = coupling_graph(tableau)

@@ -60,7 +60,9 @@ def first_failure(
     orders: Iterable[int],
     spans: StageSpans | None = None,
 ) -> FailedCondition | None:
-    """The first condition, by order, that is not met, else None; TooManyTrees for rounded ones."""
+    """Returns the first condition, by order, that is not met; None if all are. Raises TooManyTrees
+    for a rounded method if an order has more than ``MOST_TREES``.
+    """
     if isinstance(method, Tableau):
         return _first_exact(method, functionals, orders, spans)
     from garkcli.order.rounded import tree_missed  # balls, which exact methods do without

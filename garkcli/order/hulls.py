@@ -22,7 +22,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Hull(Frozen):
-    """All base + Σ_k λ_k direction_k, in reduced echelon form; ``base`` is zero at all pivots."""
+    """The affine space of all base + Σ_k λ_k direction_k, directions in reduced echelon form.
+    ``base`` is zero at all pivots.
+    """
 
     base: tuple[fmpq, ...]
     directions: tuple[tuple[int, tuple[fmpq, ...]], ...] = ()
@@ -50,8 +52,10 @@ class Hull(Frozen):
 
 
 class Hulls(Frozen):
-    """``trees[k][l]`` holds ψ of the trees of order k + 1 ≤ p with root colour l, and
-    ``branches[j][l]`` A^{l,m} (j ψ(u)) for all trees u of order j < p; None if there are none.
+    """The hulls for all trees up to an order p; None stands for no trees.
+
+    ``trees[k][l]`` holds ψ of the trees of order k + 1 ≤ p with root colour l, and
+    ``branches[j][l]`` A^{l,m} (j ψ(u)) for all trees u of order j < p.
     """
 
     trees: tuple[tuple[Hull | None, ...], ...]

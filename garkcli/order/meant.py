@@ -71,7 +71,7 @@ def remember_digits(tableau: Tableau, box: ByRadii) -> None:
 def remember(
     tableau: Tableau, tolerance: fmpq | None, box: Callable[[], tuple[Box, Further]]
 ) -> None:
-    """Stores which numbers are rounded; without it ``meant`` takes each coefficient as printed."""
+    """Stores which numbers are rounded; without it ``meant`` takes each coefficient for printed."""
     tableau.__dict__["box"] = tolerance, box
 
 

@@ -93,7 +93,7 @@ def _suspect(search: Recovery, shifts: Floats) -> int | None:
 
 
 def far_alone(basis: Floats, shifts: Floats) -> int | None:
-    """The number that alone is far off, in an orthonormal basis of the slopes; None without any."""
+    """Returns the number that alone is far off, or None; ``basis`` is one of the slopes."""
     if len(basis) < FEWEST_ROWS:
         return None
     projector = basis.T @ basis

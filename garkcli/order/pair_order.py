@@ -17,7 +17,7 @@ class SimplifyingCondition(Frozen):
     """A simplifying condition of one colour or block.
 
     Attributes:
-        letter: ``even`` is b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
+        letter: B, C or D; ``even`` is b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
         number: n of B(n), k of C(k), D(k) and ``even``.
         m: the second colour of the block A^{l,m}; ``l`` for B.
     """

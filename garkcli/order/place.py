@@ -159,7 +159,9 @@ class BoxPlace:
         return self._beyond_slack(name, members, share)
 
     def _bush_missed(self, name: str, order: int) -> Tree | None:
-        """A bush whose condition no method of the box meets: few of high order integrate better."""
+        """Returns a bush whose condition no method of the box meets; None if there is none. These
+        are cheap to test first: few methods integrate to a higher order than they have.
+        """
         tableau = self.exact(name)
         for l in twin_roots(tableau):
             for m in range(tableau.size):

@@ -36,7 +36,9 @@ class Missed(Frozen):
 
 
 class StageOrder(Frozen):
-    """Orders for every ratio of step sizes and for ratio 1, with conditions that fail one above."""
+    """The order of a prediction for every ratio of step sizes, and for equal steps. The conditions
+    that fail are one order above; None if the search stopped.
+    """
 
     stage: int
     order: int
@@ -71,7 +73,7 @@ def implicit_stages(tableau: Tableau) -> list[int]:
 
 
 def check_predictor(tableau: Tableau, predictor: Predictor) -> None:
-    """Raises MethodError if nothing is to be predicted, or slopes are used too early."""
+    """Raises MethodError if no stage has to be predicted, or slopes are used too early."""
     implicit = implicit_stages(tableau)
     if not implicit:
         message = "predictor: every stage is explicit, so none has to be predicted"
@@ -88,6 +90,7 @@ def check_predictor(tableau: Tableau, predictor: Predictor) -> None:
 
 
 def _needed(A: Matrix) -> list[set[int]]:
+    """For each stage the stages that have to be known with it, itself among them."""
     needed = [{i, *(j for j, a in enumerate(row) if a)} for i, row in enumerate(A)]
     for _ in A:
         needed = [set().union(*(needed[j] for j in found)) for found in needed]

@@ -24,9 +24,8 @@ FILE = Path(__file__).with_name("recovered.json")
 
 
 class Recovered(Frozen):
-    """A method of a box, by the ``shifts`` of its numbers in units of their radii. ``shape`` has
-    the simplifying and similar conditions that it meets, ``system`` the order conditions that
-    determined it.
+    """A method that meets the conditions of ``shape`` and the order conditions of ``system``.
+    ``shifts`` are those of the numbers of the box, in units of their radii.
     """
 
     shifts: tuple[fmpq, ...]

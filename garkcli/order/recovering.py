@@ -147,7 +147,9 @@ class Recovery(SearchedBox):
         return order == reached + 1 and failure is not None and failure.is_proved
 
     def note(self, name: str, order: int, missed: Tree) -> bool:
-        """Records the order that printed digits reach; False if the method found is below it."""
+        """Records an order that printed digits reach; no method of the box meets the tree
+        ``missed``. Returns False, without a record, if the method found so far is below that order.
+        """
         if self.place is not self.origin and name not in self._reached:
             with np.errstate(all="ignore"):
                 if any(self.place.missed(name, q) for q in range(1, order + 1)):
@@ -240,7 +242,9 @@ class Recovery(SearchedBox):
     def recover_order(
         self, name: str, limit: int
     ) -> tuple[int, RecoveryFailure | None, list[Tree]]:
-        """The largest order that earlier results allow, why the next fails, the trees missed."""
+        """Moves to a method of the largest order that earlier results leave possible. Returns the
+        order, why the next one fails, and the trees that it misses.
+        """
         # the nodes and weights of s stages are a quadrature formula of order 2s at most; further
         # conditions, explained by large radii alone, fail one order at a time, which is fast
         most = 2 * max((space.stages for space in self.origin.exact(name).spaces), default=limit)
@@ -257,7 +261,9 @@ class Recovery(SearchedBox):
         return limit, None, []
 
     def explained(self, name: str, limit: int) -> tuple[int, Tree | None]:
-        """The order up to which radii explain each residual, and a tree of the next at fault."""
+        """Returns the order to which radii explain each residual, and a tree of the next that no
+        method of the box meets.
+        """
         for order in range(1, limit + 1):
             for tree in self.place.missed(name, order):
                 if not self.origin.may_meet(name, tree):
@@ -365,7 +371,9 @@ class Recovery(SearchedBox):
         return None
 
     def _newton(self, system: System, place: BoxPlace) -> BoxPlace | None:
-        """A method of the box at which all rows vanish; equal digits first move together."""
+        """Returns a method of the box where all rows vanish, or None; equal digits first move
+        together.
+        """
         self._runs += 1
         if self._runs > MOST_RUNS:
             return None
@@ -394,8 +402,9 @@ class Recovery(SearchedBox):
         return [alone] if tied == alone else [tied, alone]
 
     def _iterate(self, system: System, place: BoxPlace, groups: Sequence[int]) -> BoxPlace | None:
-        """A method at which all rows vanish, or of the box where they do to second order, or None.
-        The first steps go to the method nearest to the print, to first order.
+        """Returns a method at which all rows vanish, or a method of the box where they do to second
+        order; None if neither is found. The first steps go to the method nearest to the print, to
+        first order.
         """
         floor, cut = bounded.FLOOR, max(bounded.FLOOR, 30 * self.radius)
         best: arb | None = None

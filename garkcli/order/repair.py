@@ -17,7 +17,7 @@ HIGHEST_LOW = 4
 
 
 class RepairedEntry(Frozen):
-    """One entry, by indices from 0: ``m`` and ``i`` are None for the weights b^{l}."""
+    """One entry of a method, by indices from 0; weights b^{l} have no ``m`` and no ``i``."""
 
     l: int
     m: int | None

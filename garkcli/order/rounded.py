@@ -36,7 +36,7 @@ from garkcli.upward import Shown
 
 
 class Near(Frozen, eq=False):
-    """A method ``near`` on point stages, to many bits; numbers below ``grain`` count as zero."""
+    """A method on point stages, known to many bits; numbers below ``grain`` count as zero."""
 
     near: Tableau
     grain: fmpq
@@ -67,7 +67,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
-        """Coefficients are off by their ``units``; those made of printed numbers by the largest."""
+        """Every coefficient is off by its unit, or the largest if it is made of printed numbers."""
         largest = max(units.values(), default=fmpq(0))
         return _around(tableau, NOTHING, largest, lambda x: units.get(x, largest))
 

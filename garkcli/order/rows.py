@@ -129,7 +129,9 @@ class FormDefects:
         return self._words[path]
 
     def _damping(self, x: Label) -> Forms:
-        """The z^k of the numerator of R, k from the degree of the denominator: 0 if R(∞) = 0."""
+        """The coefficients of z^k in the numerator of R of colour l, k at least the degree of the
+        denominator: R(∞) = 0 if they vanish. Empty if all stages are explicit.
+        """
         denominator, series = self._fraction(x.l)
         if not x.k:
             return part(series, [])
@@ -146,7 +148,7 @@ class FormDefects:
         return max(k for k in range(len(denominator)) if not may_vanish(denominator, k))
 
     def _fraction(self, l: int) -> tuple[Forms, Forms]:
-        """Coefficients of det(I − zA) up to z^s, by Newton's identities, and of R as a series."""
+        """Coefficients of det(I − zA) up to z^s, by Newton's identities, and of the series R."""
         block, stages = self.tableau.block(l, l), len(self.tableau.b[l])
         unit = part(self.tableau.one(l), [0])
         columns = [block.column(i) for i in range(stages)]

@@ -30,7 +30,7 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """The defects of the method that is meant; MethodError if it is not GARK."""
+    """The defects of the method that is meant; MethodError if it is no GARK method."""
     tableau = method if isinstance(method, Tableau) else method.tableau
     tableau.demand_fields("a simplifying condition", with_flow=True)
     if isinstance(method, Tableau):
@@ -138,7 +138,9 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """B, C and D, or only ``letters``, up to ``limit``, as far as rounding explains all defects."""
+    """Returns B, C and D, or only ``letters``, up to ``limit``. A rounded method meets a condition
+    if rounding explains every entry of its defect.
+    """
     defects = defects_of(method)
     tableau = defects.tableau
     alike = _Alike.of(tableau)
@@ -166,7 +168,9 @@ def simplifying(
 
 
 class _Alike(Frozen):
-    """For each colour the first with equal stages and nodes, and weights too: equal conditions."""
+    """For each colour the first one with equal stages and nodes, and with equal weights too.
+    Conditions of such colours are equal.
+    """
 
     nodes: tuple[int, ...]
     weights: tuple[int, ...]

@@ -12,7 +12,7 @@ from garkcli.tableau.tableau import Edge
 
 
 class WrongSum(Frozen):
-    """A wrong sum of a row of a block, or of b^{l} with ``m`` and ``i`` None; all from 0."""
+    """A wrong sum of a row of a block, or of b^{l}, with ``m`` and ``i`` None; indices from 0."""
 
     l: int
     m: int | None

@@ -48,7 +48,9 @@ LONGEST = 1e9
 
 
 def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) -> dict[Repair, int]:
-    """Single entries that give an order, others within rounding; the smallest change first."""
+    """Returns single entries whose change gives a larger order, with that, the others being within
+    their rounding; the smallest change is first.
+    """
     search = rounded.search
     changes = _changes(rounded, order, limit, lambda k, change: _repair(search, k, change))
     return {change.made: change.order for change in changes}
@@ -85,7 +87,7 @@ class _ChangedNumber(Frozen, Generic[T]):
 def _changes(
     rounded: RoundedTableau, order: int, limit: int, made_of: Callable[[int, fmpq], T | None]
 ) -> list[_ChangedNumber[T]]:
-    """Suspected numbers that ``made_of`` makes of index and change, without None."""
+    """The suspected numbers that ``made_of`` makes of index and change, unless it returns None."""
     search = rounded.search
     limit = min(limit, rounded.tableau.exact_to or limit)
     if order > limit or len(search.box.numbers) > MOST_NUMBERS:
@@ -174,7 +176,7 @@ def _candidates(
 
 
 def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candidate | None:
-    """The error of number k alone, the others within their radii to first order; or None."""
+    """Returns the error of number k alone, the others within radii to first order, or None."""
     shift, unit = fmpq(0), to_float(search.box.radii[k])
     before = np.inf
     for _ in range(MAX_STEPS):

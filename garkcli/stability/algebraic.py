@@ -102,7 +102,11 @@ def snapped(ball: arb) -> arb:
 
 
 def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
-    """Whether a method on point stages, in balls, is algebraically stable; None if undecided."""
+    """Whether a method on point stages, in balls, is algebraically stable; None if undecided.
+
+    By symmetric elimination, where a ball with 0 counts as 0: positive pivots are eliminated, and a
+    negative diagonal entry or 2×2 minor excludes stability.
+    """
     with ctx.workprec(bits_for(tolerance)):
         weights = [x for colour in tableau.colours for x in rounded_balls(colour.b, tolerance)]
         if any(b < 0 for b in weights):

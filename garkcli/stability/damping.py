@@ -73,7 +73,7 @@ def _turned(
 
 
 BITS = 192
-"""If these are not enough, a point is decided exactly."""
+"""If so many bits are not enough, a point is decided exactly."""
 
 
 class Ray(Frozen):
@@ -176,6 +176,7 @@ class ImexPair(Frozen):
 
 
 def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
+    """The explicit and the implicit colour of a method with two; None for others or without R."""
     explicit = explicit_colour(tableau)
     if explicit is None or R is None:
         return None
@@ -183,7 +184,7 @@ def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
 
 
 def explicit_colour(tableau: Tableau) -> int | None:
-    """The explicit colour of two, the other being implicit, or None."""
+    """The explicit colour, if the method has two and the other is implicit; else None."""
     if tableau.size != 2:
         return None
     first, second = (_is_explicit(tableau, l) for l in range(2))

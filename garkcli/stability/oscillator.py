@@ -63,7 +63,11 @@ class PhaseError(Frozen):
 
 
 class OscillatorStability(Frozen):
-    """The stability of a method on the oscillator; ``discriminant`` is 4D² − N² for tr M = N/D."""
+    """The stability of a method on the oscillator, by the step matrix M(z) in (ωq, p), z = hω.
+
+    ``determinant`` is det M and ``discriminant`` 4D² − N² for tr M = N/D, in x = z²; ``stable`` are
+    the x ≥ 0 for which all powers of M are bounded.
+    """
 
     step: StepFunction
     trace: Ratio
@@ -104,7 +108,9 @@ class OscillatorStability(Frozen):
 
 
 def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
-    """Raises UsageProblem if the split of ``problem`` does not suit; its frequency is ignored."""
+    """Returns the stability for every step size; the frequency of ``problem`` is ignored. Raises
+    UsageProblem if the split does not suit the structure of the tableau.
+    """
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
     return analysed(tableau, [unit.matrix(colour) for colour in tableau.colours])
@@ -139,7 +145,9 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
 
 
 def _even(p: Polynomial) -> Polynomial:
-    """A polynomial in x = z²: with −z for z the field with ωq reflected has the same trace."""
+    """A polynomial in z with even powers alone, as one in x = z². Traces and determinants are even:
+    reflecting ωq replaces z by −z and keeps them.
+    """
     assert not any(p.coefficients[1::2])
     return Polynomial(p.coefficients[::2])
 

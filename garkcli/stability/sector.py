@@ -71,7 +71,7 @@ class Sector(Frozen):
 
 
 def largest_sector(R: StabilityFunction) -> Sector | None:
-    """The angle of A(α)-stability, None if undecided; A(0) is the negative real axis."""
+    """The angle of A(α)-stability, the negative real axis for α = 0; None if undecided."""
     if is_a_stable(R):
         return Sector(RealRoot.rational(ZERO))
     if not _is_bounded_at(R, ONE):

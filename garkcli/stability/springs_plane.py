@@ -32,7 +32,7 @@ class SpringsPlane(Frozen):
 def springs_plane(
     tableau: Tableau, split: SplitSprings, slow_end: float, fast_end: float, points: int = 160
 ) -> SpringsPlane:
-    """Returns the half trace up to given hω; W = W_0 + a W_a + x W_x from three evaluations."""
+    """Returns the half trace for hω up to both ends, from W = W_0 + a W_a + x W_x."""
     zero, one = fmpq(0), fmpq(1)
     W, B, E = _floats(tableau, split, zero, zero)
     W_one, B_one, _ = _floats(tableau, split, one, zero)
@@ -62,7 +62,7 @@ def springs_plane(
 def plane_with_ends_of(
     tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
-    """Returns the plane around the stable (hω)² of the fast spring, up to the slow one."""
+    """Returns the plane around the stable (hω)² of the fast spring, up to (hω)² = ``slow``."""
     ends = []
     for interval in stable:
         if interval.end is not None:

@@ -32,7 +32,9 @@ class SspCoefficient(Frozen):
 
 
 class AdditiveRadius(Frozen):
-    """The largest ``radius`` r with (r q_1, …, r q_N) in the region, q_l ≥ 0; None if undecided."""
+    """The largest r with (r q_1, …, r q_N) in the region of absolute monotonicity, or None.
+    ``ratios`` are the q_l ≥ 0; ``radius`` is None if undecided.
+    """
 
     ratios: tuple[Number, ...]
     radius: SspCoefficient | None
@@ -41,20 +43,19 @@ class AdditiveRadius(Frozen):
 def ssp_coefficient(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
-    """Returns the SSP coefficient; None without simple nodes or a block. ``shares`` are r_l / r, by
-    default 1; colours with 0, and their own stages, drop out.
+    """Returns the SSP coefficient; None if nodes are not simple or a block is missing.
 
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.tableau.forms import gark
-    >>> ssp_coefficient(gark([diagonal_method("ssp2", 2)], {})).value.exact
-    1
+    ``shares`` are r_l / r, by default 1. A colour with 0 has a zero vector field: it and its own
+    stages are ignored.
     """
     part, ratios = driven_part(tableau, shares or [ONE] * tableau.size)
     return _radius(part, ratios)
 
 
 def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
-    """Returns the end of the region in a direction; a colour with 0 keeps its vector field."""
+    """Returns the end of the region of absolute monotonicity in a direction. A colour with ratio 0
+    keeps its vector field, without a step size of its own.
+    """
     return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 
 

@@ -241,7 +241,11 @@ def stability(
     seconds: float | None = SECONDS,
     embedded: Tableau | None = None,
 ) -> Stability:
-    """Returns all results for an exact method, as far as time allows; NotDecided if R is late."""
+    """Returns all results for an exact method; raises NotDecided if R itself is late.
+
+    ``ratios`` are r_2/r_1 of further additive SSP radii. After ``seconds`` of processor time the
+    rest stays undecided. ``embedded`` is the method with its embedded weights as b.
+    """
     late: set[str] = set()
     with spending(seconds):
         linear = [linear_stability(tableau, *direction) for direction in directions(tableau)]

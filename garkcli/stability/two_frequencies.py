@@ -68,7 +68,9 @@ class TwoFrequencies(Frozen):
 
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:
-    """The fast spring for one term, the slow one for others with forces, or UsageProblem."""
+    """Returns the fast spring for one term and the slow one for the other terms with forces. The
+    first term has all kinetic energy. Raises UsageProblem if no term is left for the slow one.
+    """
     terms = terms_of(tableau)
     if terms < 2:
         message = "a method of one term has no two colours for two springs"
@@ -123,7 +125,7 @@ def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> l
 
 
 def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
-    """D = det(I − W), entries of D · M in (a, x), of total degrees at most the size of W."""
+    """Returns D = det(I − W) and the entries of D · M in (a, x), of degrees ≤ the size of W."""
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)
     points = list(lattice(2, degree))
@@ -204,7 +206,9 @@ class SlowInterval(Frozen):
 
     @property
     def is_stable_for_all(self) -> bool | None:
-        """Whether all fast frequencies are stable, the free particle a = x = 0 aside, or None."""
+        """Whether all fast frequencies are stable; None if single points are undecided. The free
+        particle a = x = 0 is ignored.
+        """
         if len(self.stable) != 1:
             return False
         [interval] = self.stable

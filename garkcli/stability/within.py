@@ -26,7 +26,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class BallFraction(Frozen):
-    """R = P/Q of a rounded method, lowest first; ``Q`` is det(I − zW), and P no shorter."""
+    """R = P/Q of a rounded method, lowest coefficient first; Q is det(I − zW), P no shorter."""
 
     P: list[arb]
     Q: list[arb]
@@ -133,7 +133,9 @@ def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> li
 
 
 class StabilityWithin(Frozen):
-    """Stability of a rounded method, None for undecided; bounds of −z and y² from 0 on."""
+    """Stability of a rounded method; None stands for undecided. Both ends are of intervals from 0
+    on: of −z with |R(z)| ≤ 1, and of y² with |R(iy)| ≤ 1.
+    """
 
     a_stable: bool | None
     l_stable: bool | None
@@ -145,7 +147,7 @@ class StabilityWithin(Frozen):
 def stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> StabilityWithin:
-    """Returns the decided results of a rounded method on point stages; ``shares`` as above."""
+    """Returns the decided results of a rounded method on point stages; ``shares`` are the w_l."""
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
         E = _margin(R)
