@@ -89,8 +89,8 @@ def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen
 
 
 def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
-    """Elements of ℚ[u]/modulus at a root, in simple radicals, or as polynomials in one root. Raises
-    MethodError if no value generates the field, or its degree is beyond method files.
+    """Returns elements of ℚ[u]/modulus at a root, in simple radicals or as polynomials in one root.
+    Raises MethodError if no value generates the field, or its degree is beyond method files.
     """
     texts = {}
     for name, value in values.items():

@@ -65,7 +65,9 @@ def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
 
 
 class SmoothPoints(Frozen):
-    """Smooth points of real zeros, one on each component; ``others`` vanish at all other zeros."""
+    """Smooth real zeros of an ideal, at least one on each component of them. ``others`` vanish at
+    all other zeros.
+    """
 
     points: tuple[Solution, ...]
     others: tuple[fmpq_mpoly, ...]

@@ -88,7 +88,7 @@ class Design(Shown, Frozen):
         return step.is_all and bool(self.family.real)
 
     def parts(self, step: Step) -> list[Part]:
-        """The solution set of a step in parts, with nodes as coordinates; NotDecided."""
+        """The solution set of a step in parts, with nodes as coordinates; raises NotDecided."""
         ideal, family = step.ideal, self.family
         assert ideal is not None
         if isinstance(ideal, Pieces):
@@ -212,7 +212,9 @@ class _Finding(Frozen):
         return Ideal(ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
     def _step(self, order: int, lower: Ideal | Pieces | None) -> Step:
-        """The values of one order more than ``lower``, with all other wants; or NotDecided."""
+        """The values that reach ``order``, with all other wants; raises NotDecided. ``lower`` is
+        the ideal of the order below, None if there is none.
+        """
         start = self._start()
         criterion = self.criterion
         if lower is None:
@@ -288,7 +290,9 @@ class _Finding(Frozen):
         return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
     def _looked_into(self, step: Step, is_last: bool) -> Step:
-        """A step with polynomials, solutions, and for the last one real values; or undecided."""
+        """The step with its polynomials and solutions, and the real values if it is the last. It is
+        undecided if the solutions take too long.
+        """
         if not isinstance(step, Decided):
             return step
         ideal = step.ideal
@@ -351,7 +355,9 @@ class _Finding(Frozen):
     def _by_smooth_points(
         self, step: Many, ideal: Ideal, real: Ideal, known: Knowledge
     ) -> Knowledge:
-        """By critical points: one of them is a method, or all methods are singular points."""
+        """The knowledge by critical points: one of them is a method, or all methods are singular
+        points, at which the gradients of the equations are dependent.
+        """
         smooth = smooth_points(real)
         if smooth is None:
             return known
@@ -401,7 +407,7 @@ class _Finding(Frozen):
         return replace(known, is_real=is_real, stable=stable)
 
     def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Knowledge:
-        """Knowledge of all transfers, with the ideal of the P-stable ones; or NotDecided."""
+        """The knowledge of all transfers, with the ideal of P-stable ones; raises NotDecided."""
         stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, order)))
         solved, is_real = criterion.solved(stable), None
         if solved is None:
@@ -484,7 +490,9 @@ def _as_long_as_small(
 
 
 def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
-    """Two lists of polynomials: an ideal's zeros are the first's without zeros of the second."""
+    """Returns polynomials, and others that vanish nowhere on the zeros of an ideal. The zeros of
+    the first at which none of the second vanishes are those of the ideal.
+    """
     if isinstance(ideal, Pieces):
         return _each_once(ideal.equations), list(ideal.nonzero)
     if ideal.dimension <= 0:

@@ -157,7 +157,9 @@ class FamilyStep(Frozen):
     def of(
         cls, flat: Flat, unknowns: int, step: Callable[[Tableau], Sequence[Polynomial]]
     ) -> FamilyStep:
-        """The ``step`` of members in one, where D is a determinant of ``unknowns`` equations."""
+        """The step N/D of all members, where D is a determinant of ``unknowns`` equations. ``step``
+        returns D and the entries of N of one member, row by row.
+        """
         D, *N = flat.polynomials(unknowns + 1, step)
         d = isqrt(len(N))
         common = D

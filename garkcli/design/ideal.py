@@ -128,8 +128,10 @@ class Ideal:
     def with_zeros_in_turn(
         self, polynomials: Iterable[fmpq_mpoly], generators: Iterable[fmpq_mpoly]
     ) -> tuple[Ideal, int]:
-        """With ``polynomials`` ≠ 0, the fewest first ones that leave no zeros, and their number.
-        ``generators`` are of this ideal, except that with UNIT.
+        """The ideal with further polynomials ≠ 0, and their number.
+
+        If all leave no zeros, they are the fewest first ones that leave none. ``generators`` are of
+        this ideal, without that of UNIT.
         """
         new = [self._integral(p) for p in polynomials]
         old = [*self._unit, *(self._integral(p) for p in generators)]
@@ -137,7 +139,7 @@ class Ideal:
         return self._with_basis(basis, self.is_proved), taken
 
     def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
-        """The ideal with x − c for unknowns x, by their places; it is shortened by them first."""
+        """The ideal with x − c for unknowns x by place; substituting first shortens the basis."""
         new = []
         for place, value in values.items():
             new.append(self._context.gen(place) * value.q - value.p)
@@ -154,7 +156,9 @@ class Ideal:
         return self._with_basis([], self.is_proved)._with_generators(new)
 
     def with_zeros_unproved(self, polynomials: Iterable[fmpq_mpoly]) -> Ideal:
-        """By msolve: the ideal may be larger, with some of the zeros only; or NotDecided."""
+        """The ideal with further polynomials by msolve, perhaps a larger one, with only some of the
+        zeros. Raises NotDecided if msolve is missing or late.
+        """
         new = [self._integral(polynomial) for polynomial in polynomials]
         return self._with_basis(
             groebner.unproved_basis([*self.basis, *new], self._context), is_proved=False
@@ -259,7 +263,9 @@ class Ideal:
 
     @cached_property
     def polynomials(self) -> list[fmpz_mpoly]:
-        """Square-free polynomials without UNIT, with its zeros; of the radical in dimension 0."""
+        """Square-free polynomials without UNIT with the zeros of the ideal. They generate the
+        radical in dimension 0.
+        """
         return self.closure.square_free.basis
 
     @property
@@ -375,7 +381,7 @@ class Ideal:
 
 
 class _Echelon:
-    """Independent columns in echelon form, each a combination of monomials."""
+    """Independent columns in echelon form, with the combination of monomials that each is."""
 
     def __init__(self, size: int) -> None:
         self.size = size

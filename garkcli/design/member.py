@@ -175,7 +175,7 @@ MOST_DEGREE = 6
 def method_at(
     tableau: Tableau, ring: Parameters, solution: Solution, root: RealRoot
 ) -> Tableau | None:
-    """The method at a root; None if its field is too large, ZeroDivisionError at a pole."""
+    """The method at a root; None if its field is too large. Raises ZeroDivisionError at a pole."""
     u = number_of(root, MOST_DEGREE)
     if u is None:
         return None

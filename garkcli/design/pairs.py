@@ -56,12 +56,8 @@ class PairConditions:
         return self.zeros(chain.from_iterable(defects))
 
     def obstacle(self, order: int) -> str:
-        """The first condition up to an order that known numbers fail, and where; else empty.
-
-        >>> from garkcli.methodfile.family import loads_family
-        >>> text = "{methods: [{A: [[1/2]], b: [1]}, {A: [[1/3]], b: [1]}], transfer: '?'}"
-        >>> pair_conditions(loads_family(text)).obstacle(4)
-        'B(2) fails on colour 2'
+        """Says which condition, the first up to an order, known numbers fail, and where; or is
+        empty.
         """
         tableau, count = self.family.tableau, len(self.family.parameters)
         for lower in range(1, order + 1):
@@ -94,7 +90,9 @@ class PairConditions:
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
     def point(self, ideal: Ideal, draw: Draw | None = None) -> Ideal | None:
-        """The zeros with free unknowns at 0, or drawn as multiples of 1/8; None if infinite."""
+        """The zeros with free unknowns at 0, or at drawn multiples of 1/8; None if they are
+        infinitely many.
+        """
         solved = self.solved(ideal)
         if solved is None:
             return None
@@ -119,8 +117,10 @@ class PairConditions:
 
 
 def pair_conditions(family: Family) -> PairConditions | None:
-    """None unless weights are positive numbers and nodes row sums, for every value. The criterion
-    also takes no empty blocks and no linear colours.
+    """Returns the conditions; None if a hypothesis of the criterion fails for some value.
+
+    The hypotheses: weights are positive numbers, nodes row sums, no block is empty and no colour
+    linear.
     """
     tableau = family.tableau
     if tableau.is_partitioned or any(colour.is_linear for colour in tableau.colours):

@@ -114,7 +114,7 @@ class Part(Frozen):
 
     @property
     def is_free(self) -> bool:
-        """Whether all coordinates are solutions, except zeros of ``nonzero``."""
+        """Whether all values of the coordinates are solutions, except zeros of ``nonzero``."""
         return self.ideal.is_trivial
 
     @property

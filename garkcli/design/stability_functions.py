@@ -49,7 +49,9 @@ class FamilyFunction(Frozen):
 
 
 def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction, ...]:
-    """R for all colours together, then for each alone; empty if it does not apply."""
+    """R for all colours together, then for each alone if there are several. Empty if colours drive
+    positions or momenta only, or are not coupled.
+    """
     return tuple(function_of(tableau, ring, *direction) for direction in directions(tableau))
 
 

@@ -117,7 +117,9 @@ class Members(Frozen):
             yield from ((x, root) for x in solutions(ideal) for root in x.real)
 
     def flat(self, tableau: Tableau) -> Flat:
-        """The methods in the parameters; NotDecided if the field of radicals is too large."""
+        """The methods in the parameters; NotDecided if the field of the roots among the
+        coefficients is too large.
+        """
         if self.constants is None:
             raise NotDecided
         return Flat(tableau, self.family.ring, self.constants)
@@ -207,7 +209,7 @@ class StabilityKind(ABC):
         return all(sign_of(self.step.in_t(p), t) == 0 for p in self.narrowing)
 
     def decide(self, t: Point) -> bool:
-        """Whether the method at t has it; False without a method, or NotDecided."""
+        """Whether the method at t has it; False if there is none. Raises NotDecided."""
         tableau = self.members.at(t)
         return tableau is not None and self.holds(tableau)
 
@@ -228,7 +230,7 @@ class StabilityKind(ABC):
 
 
 def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
-    """The linear problem of a stability, y ↦ L^m y for each colour; or UsageProblem."""
+    """The linear problem of a stability, y ↦ L^m y for each colour; raises UsageProblem."""
     if wanted in OSCILLATING:
         problem = Oscillator.default(terms_of(tableau), fmpq(1))
         check_structure(tableau, problem)

@@ -269,7 +269,9 @@ class PartMembers(Members):
     tableau: Tableau
 
     def at(self, t: Point) -> Tableau | None:
-        """A method at a value; None if there is none, NotDecided if none is found."""
+        """A method at a value; None if there is none. Raises NotDecided if no tried point gives
+        one.
+        """
         value = number_of(t, MOST_DEGREE) if isinstance(t, RealRoot) else t
         if value is None:
             raise NotDecided

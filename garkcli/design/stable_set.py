@@ -286,7 +286,7 @@ class _InPlane:
         return self.on_line(self.members.over(t, critical, limits))
 
     def _parts(self, t: fmpq) -> _Parts:
-        """The stable parts of an open strip, from one t inside; or NotDecided."""
+        """The stable parts of an open strip, from one t inside; raises NotDecided."""
         check_time()
         if not _is_within(t, self.range):
             return ()

@@ -51,7 +51,9 @@ class Branch(Frozen, eq=False):
         )
 
     def at(self, t: RealRoot) -> RealRoot | None:
-        """The root, at an end of the strip its limit; None if roots meet or are infinite there."""
+        """The root at t, at an end of the strip as a limit; None if roots meet or are infinite
+        there.
+        """
         degree = self.curve.degrees()[0]
         critical = [
             projection.leading(self.curve),

@@ -73,7 +73,7 @@ def _pair_order(asked: Asked) -> WantConditions:
 
 
 def as_embedded(asked: Asked, key: str) -> Tableau:
-    """With b̂ in place of b; MethodError if it has none, or the want is about some colours only."""
+    """The method with b̂ as b; MethodError without b̂, or if only some colours are wanted."""
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:
         message = f"design: {key} is meant of the embedded weights of the whole method"

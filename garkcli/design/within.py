@@ -70,10 +70,14 @@ class Rounding(Protocol):
         """The family with its numbers shifted by shares of the tolerance; no shifts for none."""
 
     def generic(self) -> Family:
-        """With indeterminates for known numbers: statements hold for all; or MethodFileError."""
+        """The family with indeterminates for known numbers, so that statements hold for all of
+        these. Raises MethodFileError if it is too large.
+        """
 
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Any:
-        """``rounded``, a method with values that may move by ``width``, and its ``shifts``."""
+        """The family with values that may move by ``width``: ``rounded``, and ``shifts`` of its
+        numbers.
+        """
 
 
 class ValuesWithin(Frozen, eq=False):
@@ -110,7 +114,7 @@ class ValuesWithin(Frozen, eq=False):
 
 
 def with_more(found: list[ValuesWithin], values: ValuesWithin) -> list[ValuesWithin]:
-    """With one more, if it is new; admitted ones replace others."""
+    """The solutions with one more, if it is new; admitted ones replace others."""
     if values.is_admitted:
         found = [x for x in found if x.is_admitted]
     elif any(x.is_admitted for x in found):
@@ -320,7 +324,7 @@ class _ValueSearch:
     # one method
 
     def _recovered(self, near: Solved, order: int) -> ValuesWithin | None:
-        """None if no method within the tolerance is found."""
+        """The values of a method within the tolerance that has the order; None if none is found."""
         names = self.printed.family.ring.names
         values = dict(zip(names, map(midpoint, near.point), strict=True))
         parameters = {name: values[name] for name in self.family.parameters}
@@ -427,8 +431,8 @@ class RoundedConditions:
             yield from (x.tree for x in self._of(k) if x.polynomial.is_constant())
 
     def orders(self, values: Mapping[str, Number], grain: fmpq) -> tuple[int, int | None]:
-        """The orders with some values, and of embedded weights or None; ``grain`` is zero. Raises
-        VanishingDenominator if no method has these values.
+        """The orders with some values, of the method and of embedded weights, if any. Residuals
+        below ``grain`` count as zero. Raises VanishingDenominator if no method has these values.
         """
         family, weights = self.family, self.family.further.embedded
         method = TABLEAUS[self.whose](member(family.tableau, family.ring, values))

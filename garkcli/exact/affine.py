@@ -42,7 +42,7 @@ def lost(ball: arb) -> float:
 
 
 class Affine:
-    """A number c + Σ g_k ε_k + ρ. Forms are true, and equal to themselves alone."""
+    """A number c + Σ g_k ε_k + ρ; a form is never false, and equal to itself alone."""
 
     __slots__ = ("centre", "remainder", "slopes")
 

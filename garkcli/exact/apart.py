@@ -34,14 +34,18 @@ Task: TypeAlias = tuple[Callable[..., T], tuple[Any, ...]]
 
 
 def apart(work: Callable[..., T], *arguments: Any) -> T:
-    """work(*arguments) in a process that the deadline ends; NotDecided if it has no result."""
+    """Returns work(*arguments), computed in a process that the deadline ends, if there is one.
+
+    Arguments and result are pickled. Raises NotDecided if the time is over, the process ends
+    without a result (no memory), or only small work is done.
+    """
     if seconds_left() is None and not is_only_small():
         return work(*arguments)
     return first_of((work, arguments))
 
 
 def first_of(*tasks: Task[T]) -> T:
-    """The first result of tasks, each in its own process; NotDecided if there is none in time."""
+    """Returns the first result of tasks, each in its own process; raises as ``apart``."""
     if is_only_small():
         raise NotDecided
     check_time()

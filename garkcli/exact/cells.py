@@ -73,7 +73,9 @@ def sign_of(p: Polynomial, point: Point) -> int:
 def where(
     holds: Callable[[Point], bool], polynomials: Iterable[Polynomial], start: fmpq | None = None
 ) -> tuple[Interval, ...]:
-    """The x ≥ ``start`` with ``holds(x)``, ascending; signs of ``polynomials`` alone decide it."""
+    """Returns the x ≥ ``start`` with ``holds(x)``, which the signs of ``polynomials`` decide. The
+    intervals ascend; ``start`` is None for −∞.
+    """
     roots = roots_of(polynomials)
     left = None if start is None else RealRoot.rational(start)
     if left is not None:
@@ -88,9 +90,10 @@ def pieces(
     roots: Sequence[RealRoot],
     is_bounded: bool = False,
 ) -> list[tuple[Interval, T]]:
-    """The intervals of equal values of a function that is constant between ``roots``. ``inside`` is
-    its value at a rational number between two roots; ``at`` that at a root, given those to the left
-    (None if there is nothing) and right. A bounded one begins at a root.
+    """Returns the intervals of equal values of a function that is constant between ``roots``.
+
+    ``inside`` is its value at a rational number between two roots; ``at`` that at a root, given
+    those to the left (None if there is nothing) and right. If ``is_bounded`` it begins at a root.
     """
     opened: list[Interval] = [
         Interval(left, right) for left, right in pairwise([None, *roots, None])

@@ -31,7 +31,7 @@ MOST_BITS_APART = 1024
 
 
 class Image(Frozen):
-    """The image u + iv under an embedding in ℂ and its conjugate; in ℝ ``imaginary`` is None."""
+    """An image u + iv under an embedding in ℂ, and its conjugate; in ℝ ``imaginary`` is None."""
 
     real: arb_poly
     imaginary: arb_poly | None
@@ -101,7 +101,7 @@ def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
 
 
 def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
-    """The images of Σ p_k(θ) x^k in the order of ``conjugates``; None like those."""
+    """The images of Σ p_k(θ) x^k in the order of ``conjugates``; None if θ has close conjugates."""
     roots = conjugates(field, bits)
     if roots is None:
         return None
@@ -127,7 +127,7 @@ def over_integers(p: Sequence[fmpq_poly]) -> list[fmpz_poly]:
 
 
 def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | None:
-    """Returns an integer multiple of the norm of Σ p_k(θ) x^k ≠ 0; None as for ``images``."""
+    """Returns an integer multiple of the norm of Σ p_k(θ) x^k ≠ 0; None if ``images`` has none."""
     # a product over the roots of c θ^d + … of polynomials of degree n in θ becomes integral by c^n
     leading = abs(field.modulus.numer().leading_coefficient())
     scale = leading ** (max(map(len, p)) - 1)

@@ -81,7 +81,7 @@ def _latex_term(coefficient: fmpq, factors: str) -> str:
 
 
 def to_balls(numbers: Iterable[Number], digits: int) -> list[arb]:
-    """``to_ball`` of each number; equal irrational ones are enclosed once."""
+    """Encloses numbers; equal irrational ones once."""
     known: dict[Algebraic, arb] = {}
     balls = []
     with ctx.workprec(_bits(digits) + 32):

@@ -28,6 +28,7 @@ def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
     if len(coefficients) == 2:
         with ctx.workprec(bits):
             return (arb(fmpq(-coefficients[0], coefficients[1])),)
+    # python-flint's complex_roots may never end if two roots are close
     p = fmpz_poly(list(coefficients))
     return tuple(_narrowed(p, *ends, bits) for ends in _ends(coefficients))
 

@@ -180,8 +180,10 @@ class Fibre:
     def first_failure(
         self, polynomials: Sequence[fmpq_mpoly], holds: Holds
     ) -> FibreRoot | fmpq | None:
-        """The smallest y at which a property fails; 0 if it fails at once, None if never.
-        ``polynomials`` are products of the curves and of factors without a zero on the line.
+        """Returns the smallest y at which a property fails; 0 if it fails at once, None if never.
+
+        ``polynomials``, whose signs decide it, are products of curves and of factors without a zero
+        on the line.
         """
         divisors = [
             frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)

@@ -68,8 +68,8 @@ class NumberField:
 
     @cached_property
     def place(self) -> tuple[int, int] | None:
-        """A prime p and a simple root of the minimal polynomial modulo p; None if none is tried.
-        They map elements with denominators prime to p to F_p.
+        """A prime p and a simple root of the minimal polynomial modulo p; None if no tried prime
+        has one. They map elements with denominators prime to p to F_p.
         """
         primes = (fmpz(n) for n in range(FIRST_PRIME, FIRST_PRIME + PRIMES_WITHIN, 2))
         for p in filter(fmpz.is_prime, primes):
@@ -116,7 +116,8 @@ class NumberField:
             columns += [candidates[j] for j in new]
             if len(columns) == self.degree:
                 break
-            # the products with one factor more; the indices of a word do not descend
+            # the products with one factor more; the indices of a word do not descend; multiples of
+            # dependent products are dependent
             extended: dict[Word, fmpq_poly] = {}
             for word, product in {word: level[word] for word in new_words}.items():
                 for index in range(word[-1] if word else 0, len(self.radicals)):

@@ -103,13 +103,10 @@ _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for n
 
 
 def value_of(expression: nodes.Expression, names: Mapping[str, Value]) -> Value:
-    """The value at the precision of ``flint.ctx``; operations on rational numbers are exact.
+    """Returns the value at the precision of ``flint.ctx``; rational operations are exact.
 
-    Raises UndefinedValue, with offsets, for a value that is not real or not decided: log(-1),
-    1/0; LimitExceeded beyond ``MAX_BITS`` or floats; KeyError for a name without a value.
-
-    >>> value_of(parse_formula("(1 + x)**2/3"), {"x": fmpq(1, 2)})
-    3/4
+    Raises UndefinedValue, with offsets, for a value that is not real or not decided: log(-1), 1/0;
+    LimitExceeded beyond ``MAX_BITS`` or floats; KeyError for a name without a value.
     """
     match expression:
         case nodes.Literal(value=number):

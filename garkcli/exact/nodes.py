@@ -9,7 +9,7 @@ from garkcli.frozen import FrozenBut
 
 
 class Expression(FrozenBut, kw_only=True):
-    """A node. Its offsets, and decimals in the polynomial it is a root of, are not compared."""
+    """A node; comparisons ignore its offsets, and the decimals of the polynomial of a root."""
 
     besides = frozenset({"start", "end", "decimals"})
 
@@ -40,8 +40,8 @@ class Name(Expression):
 
 
 class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or ``* /``, each preceded by a sign. Flat, so
-    that the depth of an expression is that of its parentheses.
+    """Operands joined from left to right by ``+ -`` or ``* /``, each preceded by a sign. It is
+    flat: the depth of an expression is that of its parentheses.
     """
 
     signs: str

@@ -85,7 +85,9 @@ class Parameters:
         return self.context.constant(number)
 
     def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
-        """The quotient in lowest terms, its denominator with leading coefficient 1."""
+        """The quotient in lowest terms, with a monic denominator; raises NotDecided if the time is
+        over.
+        """
         check_time()
         if self.rules:
             numerator = self.reduced(numerator)

@@ -193,6 +193,7 @@ class Polynomial:
         return self._images[bits]
 
     def _norm_by_resultants(self, field: NumberField) -> fmpz_poly:
+        """The norm by interpolation at integers, for conjugates that are too close to isolate."""
         degree = field.degree * self.degree
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]

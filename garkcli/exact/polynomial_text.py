@@ -71,11 +71,7 @@ def multivariate_decimals(p: Multivariate, variables: Sequence[str], digits: int
 
 
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
-    """The highest total degree is first.
-
-    >>> multivariate_text(Multivariate.of(2, {(1, 1): fmpq(-3), (0, 0): fmpq(1)}), ["x", "y"])
-    '-3*x*y + 1'
-    """
+    """Writes a polynomial in several variables, the highest total degree first."""
     return sum_text(_terms(p, variables))
 
 

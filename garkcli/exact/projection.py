@@ -210,7 +210,9 @@ SPACE = fmpq_mpoly_ctx.get(["y", "x", "t"], Ordering.lex)
 
 
 def _beside_number(p: fmpq_mpoly, variables: tuple[int, int], along: Along) -> int | None:
-    """``kept_sign`` beside a number, by one line in each strip between critical values."""
+    """``kept_sign`` of a polynomial in two variables and a number, by one line in each strip
+    between the critical values of a variable.
+    """
     x, y = sorted(variables, key=lambda i: p.degrees()[i], reverse=True)
     moved = p.project_to_context(SPACE, {y: 0, x: 1, along.place: 2})
     root = along.values.start
@@ -239,9 +241,10 @@ MOST_FIELD = 6
 
 
 def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None) -> bool | None:
-    """Whether p(y, t) ≥ 0 for the t of a set; None if an isolated one has a large degree. Signs on
-    the lines t = const do not change between the roots of the projection: one line each decides,
-    the others follow by continuity.
+    """Whether p(y, t) ≥ 0 for all y and the t of a set; None if an isolated t has a large degree.
+
+    Between the roots of the projection the signs on the lines t = const do not change: one line
+    decides for each strip, and continuity at the roots.
     """
     lines: list[Number] = []
     if within is not None:

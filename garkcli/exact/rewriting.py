@@ -39,7 +39,7 @@ class Expanded(NamedTuple):
 def expanded(
     expression: nodes.Expression, values: Mapping[str, Expanded], used: set[str] | None = None
 ) -> Expanded:
-    """``expression`` with values for names, added to ``used``; UndefinedValue without a value."""
+    """Replaces names by values, noted in ``used``; UndefinedValue for a name without one."""
 
     def of(inner: nodes.Expression) -> Expanded:
         return expanded(inner, values, used)

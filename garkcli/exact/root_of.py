@@ -20,16 +20,17 @@ MAX_COEFFICIENT_BITS = 4_000
 BITS = 128
 """First precision for comparing distances; it doubles until they differ."""
 MOST_BITS = 1 << 16
-"""At this precision two roots count as equally near."""
+"""Precision at which two roots count as equally near."""
 VARIABLE = "x"
 
 
 def root_nearest(
     polynomial: nodes.Expression, near: nodes.Expression, start: int, end: int
 ) -> nodes.Expression:
-    """The real root nearest to a number, a ``Literal`` if it is rational. ``start`` and ``end`` are
-    offsets. Raises ExpressionError without a polynomial in x or a number; UndefinedValue without a
-    real root, or with two equally near; LimitExceeded.
+    """Returns the real root nearest to a number, as a ``Literal`` if it is rational.
+
+    ``start`` and ``end`` are offsets. Raises ExpressionError unless given a polynomial in x and a
+    number; UndefinedValue without a real root, or with two equally near; LimitExceeded.
     """
     p = polynomial_in_x(polynomial)
     if p.degree() < 1:

@@ -250,7 +250,7 @@ def roots_below(M: fmpq_poly, x: fmpq) -> int:
 
 
 def root_within(p: Polynomial, ball: Callable[[int], arb]) -> RealRoot:
-    """The real root that a ball of so many bits encloses."""
+    """Returns the real root of p that ``ball(bits)`` encloses."""
     candidates = [x for x, _ in real_roots(p)]
     bits = FIRST_BITS
     while len(candidates) > 1:

@@ -96,7 +96,9 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
 def _vanishing_factor(
     characteristic: fmpq_poly, combination: tuple[int, ...], values: Callable[[], list[arb]]
 ) -> fmpq_poly:
-    """The factors have no common root, so enough digits exclude all but one."""
+    """Returns the factor that vanishes at Σ combination·values. Factors have no common root, so
+    enough digits exclude all except one.
+    """
     _, factors = characteristic.factor()
     candidates = [fmpq_poly(factor) for factor, _ in factors]
     with ctx.workprec(ctx.prec):

@@ -15,7 +15,9 @@ class Untold(ValueError):
 
 
 class Trace:
-    """A printed number, or an expression of ``length`` leaves; true, equal to itself alone."""
+    """A printed number, or an expression of ``length`` leaves. A trace is never false, so never
+    taken for zero, and equal to itself alone.
+    """
 
     __slots__ = ("length", "told")
 

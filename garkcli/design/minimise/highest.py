@@ -45,7 +45,7 @@ _Level: TypeAlias = "RealRoot | FibreRoot | None"
 
 
 class HighAt(Frozen):
-    """A number with the greatest level; a sample is for an interval without critical numbers."""
+    """A number with the greatest level; if ``is_sample`` it stands for an interval around it."""
 
     t: RealRoot
     is_sample: bool = False

@@ -35,7 +35,7 @@ class Within(Frozen):
 
     @property
     def polynomials(self) -> list[Polynomial]:
-        """Polynomials between whose zeros the condition holds for all t or for none."""
+        """Polynomials in t: between their zeros the condition holds for all t or for none."""
         N, D = self.numerator, self.denominator
         critical = [D]
         for end in ends_of(self.intervals):

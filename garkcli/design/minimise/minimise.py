@@ -26,11 +26,11 @@ from garkcli.errors import NotDecided, UsageProblem
 from garkcli.frozen import replace
 
 SHARE = 0.25
-"""For critical points by Gröbner bases; trials that replace them take about as long."""
+"""The part of the time for critical points by Gröbner bases."""
 
 
 def step_to_minimise(design: Design) -> Decided:
-    """The step of the highest order that may have methods, or UsageProblem."""
+    """The step of the highest order that may have methods; UsageProblem if none is decided."""
     for step in reversed(design.steps):
         if isinstance(step, Decided) and step.may_have_methods:
             return step

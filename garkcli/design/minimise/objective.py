@@ -28,7 +28,7 @@ ORIGIN = RealRoot.rational(fmpq(0))
 
 
 class Objective(Frozen):
-    """A rational function to minimise; numbers are ``bounded`` if it is."""
+    """A rational function to minimise; the numbers ``bounded`` are bounded where it is."""
 
     key: str
     summary: str
@@ -103,7 +103,7 @@ class ObjectiveSubject(Frozen):
 
     @property
     def embedded(self) -> tuple[Tableau, int]:
-        """Methods with the embedded weights as b, and their order; or UsageProblem."""
+        """The methods with the embedded weights as b, and their order; raises UsageProblem."""
         if self.further.embedded is None or self.embedded_order is None:
             message = "the objective is about embedded weights with an order: the file wants none"
             cure = "write embedded: true under unknown, and embedded-order: 3 under design"

@@ -44,7 +44,7 @@ def is_linear(tableau: Tableau) -> bool:
 
 
 def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """R = P/Q on the linear test equation, in y for z and t; or UsageProblem."""
+    """R = P/Q on the linear test equation, with y in place of z, and t; raises UsageProblem."""
     refuse_partitioned(tableau)
     tableau = on_linear_problems(tableau)
     fields: list[Matrix] = [((ONE,),)] * tableau.size

@@ -25,8 +25,8 @@ exist near it; or it is better than trials around it. The method itself is alway
 
 
 class Candidate(Frozen):
-    """A method with its objective, constant near it or not; None if infinite. ``index`` is the
-    number of its real root of ``found``.
+    """A method with its objective, None if infinite; it may be constant near the method. ``index``
+    is the number of its real root of ``found``.
     """
 
     value: RealRoot | None

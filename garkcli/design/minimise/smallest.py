@@ -36,7 +36,7 @@ from garkcli.exact.roots import RealRoot
 def critical_equations(
     part: Part, numerator: fmpq_mpoly, denominator: fmpq_mpoly
 ) -> list[fmpq_mpoly]:
-    """Polynomials that vanish at the critical points of N/D on a part; or NotDecided.
+    """Polynomials that vanish at the critical points of N/D on a part; NotDecided for many minors.
 
     On the zeros of f_1, …, f_m of codimension c these are the points at which the gradients of the
     function and of the f_i have rank at most c: all minors of size c + 1 vanish. Singular points of
@@ -59,7 +59,9 @@ def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> li
 
 
 def is_of_one_dimension(part: Part) -> bool:
-    """Whether all components have one dimension, as by codimension many equations (Macaulay)."""
+    """Whether all components have one dimension: as many equations as the codimension imply it (F.
+    S. Macaulay, 1916).
+    """
     codimension = len(part.ring.names) - part.dimension
     return part.is_free or len(part.equations) == codimension
 
@@ -241,7 +243,7 @@ class Smallest(Minimisation):
         )
 
     def _allowed(self, part: Part, place: int) -> tuple[Interval, ...] | None:
-        """The values that conditions on a coordinate alone allow; None without any."""
+        """The values of a coordinate that the conditions on it alone allow; None if it has none."""
         family = self.design.family
         ends = (part.expressed(p, family.ring) for p in not_negative(family))
         signs = [sign_polynomial(x, part.ring) for x in ends]

@@ -121,7 +121,7 @@ def squared(x: Pair) -> Tensor:
 
 
 class Quotient(Frozen):
-    """A value whose denominator is a square, and zero at no method."""
+    """A value as numerator and denominator, which is a square and zero at no method."""
 
     numerator: Entry
     denominator: Entry

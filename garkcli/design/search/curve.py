@@ -71,9 +71,10 @@ class OptimaCurve(Mutable):
 
 
 class CurvePlace(Frozen):
-    """A task: the best method at a place of a curve; None if there is none. The optimiser starts
-    from ``points``; ``objective`` is by default that of the search. ``cap`` is another one and its
-    bound, ``value`` an unknown and its value.
+    """A task: the best method at a place of a curve, or None.
+
+    The optimiser starts from ``points``; ``objective`` is by default that of the search. ``cap`` is
+    another one and its bound, ``value`` an unknown and its value.
     """
 
     points: tuple[Start, ...]

@@ -97,7 +97,7 @@ def lyndon_words(orders: Sequence[int], most: int) -> Iterator[Word]:
 
 
 def flows_of(tableau: Tableau, order: int) -> FlowProduct | None:
-    """The flows that a method composes, with fields up to an order; None if they are not seen."""
+    """The flows that a method composes, with fields up to an order; None if it is not seen to."""
     colours = tableau.colours
     if any(x.late or x.kind != VertexKind() or x.space != l for l, x in enumerate(colours)):
         return None

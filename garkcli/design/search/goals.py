@@ -82,7 +82,9 @@ class Smooth(Frozen):
 
 
 class Reach(Frozen):
-    """A level y to maximise, the last unknown; ``margin`` bounds inequalities for the optimiser."""
+    """A level y to maximise, the last unknown of inequalities; ``margin`` is a lower bound on
+    these.
+    """
 
     at: Callable[[Array], Gradient]
     margin: float = 0.0
@@ -309,7 +311,7 @@ GOALS: dict[str, Callable[[Setting], Goal]] = {
     "infinity": lambda x: _at_infinity(x, x.tableau, "infinity"),
     "embedded-infinity": lambda x: _at_infinity(x, x.subject.embedded[0], "embedded-infinity"),
 }
-"""Without an entry the exact formula is evaluated."""
+"""The goals of objectives by key; of others the exact formula is evaluated."""
 
 
 def _matrix(rows: Matrix, ring: Parameters) -> Entries:
@@ -473,7 +475,7 @@ class _OnInterval(_Bounded):
 
 
 class AStable:
-    """|R(iy)| ≤ 1 on the imaginary axis, λ ≠ 0 for one colour, or all if None."""
+    """|R(iy)| ≤ 1 on the imaginary axis; λ ≠ 0 for one colour, from 0, or for all if None."""
 
     def __init__(self, family: Family, colour: int | None, order: int) -> None:
         tableau = family.tableau

@@ -63,7 +63,7 @@ class Residuals:
 
     @cached_property
     def floats(self) -> tuple[Array, Array]:
-        """For each tree γ(u)/ρ(u), and the value of b·𝒜[u] times this for the exact solution."""
+        """γ(u)/ρ(u) of each tree, and the value of b·𝒜[u] times this for the exact solution."""
         import numpy as np
 
         table, kinds = self.table, self.table.admissible.kinds
@@ -78,7 +78,7 @@ class Residuals:
 
     @cached_property
     def at_one(self) -> Callable[[Array], tuple[Array, Array]]:
-        """Like ``at`` for one point in floats, without the last axis, and faster."""
+        """Evaluates one point in floats: as ``at`` without the last axis, but faster."""
         from garkcli.design.search.one_point import Recorded
 
         return Recorded(self).at

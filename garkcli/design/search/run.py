@@ -167,7 +167,7 @@ class Descent(Frozen):
 
 
 class Best(Frozen):
-    """A task: the method of an optimum in floats; None or False as for ``SolutionTask``."""
+    """A task: the method of an optimum in floats; None or False as in ``SolutionTask``."""
 
     start: int
     optimum: Optimum

@@ -86,7 +86,9 @@ class Signs:
 
 
 Proof: TypeAlias = Literal["exact", "exists", "numerical"]
-"""A proof is of the exact order, or of existence only; or residuals are small."""
+"""The proof of a find: of its exact order, of the existence of such a method, or small residuals
+only.
+"""
 BITS = 1024
 MANY_BITS = 4 * BITS
 """Precision of an optimum whose numbers are not recognised at the lower one."""
@@ -197,7 +199,7 @@ class Search:
 
     @cached_property
     def program(self) -> Optimisation:
-        """The minimisation; UsageProblem without SciPy, or if it is not applicable."""
+        """The minimisation; UsageProblem without SciPy, or if the objective does not apply."""
         assert self.objective is not None
         return Optimisation(self.family, self.conditions, self.objective)
 
@@ -285,7 +287,9 @@ class Search:
         return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def embedded_order(self, find: Find) -> int | None:
-        """The embedded order, by the certificate if numbers are exact; None if not wanted."""
+        """The order of the embedded weights, by the certificate for exact numbers; None if not
+        wanted.
+        """
         wanted, embedded = self.family.embedded_order, self.family.further.embedded
         if wanted is None or embedded is None or self.whose != "method" or find.found is None:
             return wanted if self.whose == "method" else None

@@ -162,7 +162,7 @@ def _moved(
     before: int,
     is_allowed: Callable[[Array], bool],
 ) -> tuple[fmpq, Array] | None:
-    """The first of some values that an allowed solution attains, and that solution, or None."""
+    """Returns the first value that an allowed solution attains, with that solution; or None."""
     import numpy as np
 
     if not values:
