@@ -200,7 +200,7 @@ def _failure(method: GarkMethod, part: _OrderPart, value: Any, tolerance: Any) -
 
 
 def _read(value: Any) -> int | AtLeast:
-    """Reads a wanted order, or raises MethodError."""
+    """Reads a wanted order; raises MethodError."""
     if isinstance(value, str):
         match = _AT_LEAST.fullmatch(value)
         if match is not None:

@@ -79,7 +79,11 @@ def problem_for(
     omega: fmpq | None = None,
     split: str | None = None,
 ) -> Problem | Oscillator:
-    """Raises UsageProblem for unknown problems or options, MethodFileError for faults."""
+    """Returns the problem for an argument; a name has as many terms as the method has fields.
+
+    ``split`` are the shares of the oscillator, ω is 1 by default. Raises UsageProblem for unknown
+    problems or options, MethodFileError for faults.
+    """
     if isinstance(given, (Problem, Oscillator)):
         return given
     demand_name(given)
@@ -104,12 +108,12 @@ def _to_step(
 
 
 def split_for(problem: Problem, tableau: Tableau) -> Problem:
-    """Raises UsageProblem if the problem has no natural split."""
+    """Returns the problem in as many terms as the method; UsageProblem without a split."""
     return split_into(problem, terms_of(with_joined_terms(tableau)))
 
 
 def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Problem:
-    """Raises UsageProblem for exact step maps."""
+    """Returns the problem; UsageProblem for the oscillator, whose step maps are exact."""
     found = problem_for(given, tableau, seed)
     if isinstance(found, Problem):
         return found
@@ -118,7 +122,7 @@ def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Pro
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
-    """Raises UsageProblem for a problem that is not Hamiltonian."""
+    """Returns the problem; raises UsageProblem unless it is Hamiltonian."""
     found = _to_step(OSCILLATOR, tableau, seed) if given == OSCILLATOR else None
     found = found or to_step(given, tableau, seed)
     if isinstance(found, Hamiltonian):

@@ -29,11 +29,11 @@ WITH_VELOCITIES = "damped-pendulum"
 def stepped(
     tableau: Tableau, tolerance: fmpq | None, problem: AnyProblem | None
 ) -> tuple[Tableau, AnyProblem | None, int | None]:
-    """Returns the tableau that takes the steps, the problem, and the order unless it is that of the
-    tableau. A Nyström method solves q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as
-    one whose two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) +
-    f₂(y). Raises UsageProblem unless the problem is q″ = g(q, q′), without q′ if the method is for
-    that.
+    """Returns the tableau that takes the steps, the problem, and the order if it differs.
+
+    A Nyström method solves q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as one whose
+    two vector fields drive all unknowns; a nonlinearly partitioned one solves f₁(y) + f₂(y). Raises
+    UsageProblem unless the problem is q″ = g(q, q′), without q′ if the method is for q″ = g(q).
     """
     if is_nprk(tableau):
         made = additive(tableau)

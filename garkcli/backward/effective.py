@@ -35,7 +35,7 @@ MAX_SOLVED = 1_000_000
 
 
 class EffectiveOrder(Frozen):
-    """A lower bound, or if proved the largest order with any change of coordinates."""
+    """The effective order if ``is_proved``, or a lower bound of it."""
 
     order: int
     is_proved: bool

@@ -44,7 +44,9 @@ _LOST = 4  # digits that steps and formulas lose, besides those of their number
 
 
 class Meter(Mutable):
-    """Measures all truncations; ``formulas`` are H and coefficients of ``powers`` of h, 0 first."""
+    """Measures the energy error with each truncation of the modified Hamiltonian. ``formulas`` are
+    H and the coefficients of ``powers`` of h, 0 first.
+    """
 
     bound: Binding
     formulas: Sequence[Any]
@@ -153,7 +155,9 @@ class ModifiedEnergy(Frozen):
 
     @property
     def verdict(self) -> Verdict:
-        """Undecided if slopes have not settled, or errors are too small, as for constant H_m."""
+        """Compares both orders; undecided if slopes have not settled, or errors are too small, as
+        for constant H_m.
+        """
         if self.observed_order is None or not self.has_settled:
             return "undecided"
         excess = self.observed_order - self.exact_order

@@ -33,7 +33,7 @@ FormulaVector: TypeAlias = tuple[Formula, ...]
 
 
 class Differentials:
-    """F(u) and H(u); the terms of the colours are indices into ``energies``, the H^{l}."""
+    """The elementary differentials F(u) and H(u); ``energies`` are the H^{l} by term."""
 
     def __init__(self, tableau: Tableau, problem: Hamiltonian, energies: Sequence[Formula]) -> None:
         self.tableau = tableau

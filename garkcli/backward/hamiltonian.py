@@ -93,7 +93,9 @@ def hamiltonian_structure(tableau: Tableau) -> Structure | None:
 
 
 class HamiltonianTerm(Frozen):
-    """One term of h^(ρ−1); ``coefficient`` is b(u) of the representative of the free tree."""
+    """One term c · H(u) of h^(ρ−1); ``coefficient`` is b(u) of the representative u of the free
+    tree.
+    """
 
     tree: FreeTree
     coefficient: Number

@@ -65,14 +65,7 @@ class ModifiedEquation(Frozen):
 
 
 def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
-    """Raises UsageProblem for too many trees, MethodError if the tableau is no GARK method.
-
-    >>> from garkcli import loads
-    >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau
-    >>> equation = modified_equation(midpoint, 3)
-    >>> [(str(u), str(b)) for u, b in equation.terms(3)]
-    [('[[],[]]', '-1/12'), ('[[[]]]', '1/12')]
-    """
+    """Raises UsageProblem for too many trees, and MethodError if the tableau is no GARK method."""
     tableau.demand_fields("the modified equation")
     forest = Forest.seen_by(tableau, order)
     weights = elementary_weights(tableau, forest)

@@ -30,7 +30,7 @@ _WITH_ROOT = {"─": "┬", "┴": "┼", "╰": "├"}
 
 
 class Vertex(NamedTuple):
-    """``x`` is in leaf widths from the left, ``y`` the distance from the root."""
+    """A placed vertex: ``x`` in leaf widths from the left, ``y`` the distance from the root."""
 
     x: float
     y: int
@@ -69,17 +69,8 @@ def layout(tree: Tree) -> list[Vertex]:
 
 
 def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
-    r"""Lines from top to bottom: a chain on one line, others upright if ``width`` allows, or lying.
-
-    >>> from garkcli.ntrees.tree import Tree
-    >>> print("\n".join(draw_text(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))))
-    ●2
-    │
-    ●1 ●2
-    ╰┬─╯
-     ●1
-    >>> draw_text(Tree(0, [Tree(0, [Tree(0)])]), colours=False)
-    ['●─●─●']
+    """Lines from top to bottom: a chain is one line, another tree upright if ``width`` allows, or
+    lying.
     """
     for lines in (_chain(tree, colours), _upright(tree, colours)[0]):
         if lines and text_width(lines) <= width:
@@ -146,7 +137,7 @@ def _fork(dots: Sequence[int], root: int) -> str:
 
 
 def _lying(tree: Tree, colours: bool) -> list[str]:
-    """The root is at the top left, one vertex per line: as wide as the tree is deep."""
+    """The tree with its root at the top left, one vertex per line: as wide as it is deep."""
     lines = [_label(tree, colours)]
     branches = written_order(tree)
     for k, u in enumerate(branches):
@@ -165,12 +156,7 @@ def paint(colour: int) -> tuple[str, str]:
 
 
 def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
-    r"""A ``tikzpicture`` in units of ``scale`` cm, or half of that if dots have no colours.
-
-    >>> from garkcli.ntrees.tree import Tree
-    >>> print(tikz(Tree(0)).splitlines()[0])
-    \begin{tikzpicture}[x=0.6cm,y=0.6cm,baseline=(v0.base)]
-    """
+    """A ``tikzpicture`` in units of ``scale`` cm, or half of that for dots without colours."""
     vertices = layout(tree)
     scale = scale if colours else scale / 2
     unit = f"{scale:g}cm"
@@ -228,8 +214,10 @@ def draw_svg(tree: Tree) -> str:
 def draw_svg_sheet(
     trees: Sequence[Tree], captions: Lines | None = None, columns: int = 0, title: str = ""
 ) -> str:
-    """An SVG document with the trees in rows of ``columns``, by default six, or three if there are
-    few, each above its caption, σ and γ. Dots are plain if colour 1 is the only one.
+    """An SVG document with the trees in rows of ``columns``, by default six, or three for few.
+
+    Each is above its caption, σ and γ; dots are plain if colour 1 is the only one. ``title`` is for
+    screen readers. Raises ValueError unless each tree has a caption, if there are any.
     """
     from html import escape  # brings a table of entities along
 

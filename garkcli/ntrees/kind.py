@@ -16,8 +16,14 @@ _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
 
 
 class VertexKind(Frozen):
-    """The kind of the vertices of a colour; ``weight`` counts integrations of the exact solution.
-    Without ``is_exact`` the exact solution has no such vertices; ``is_field`` is not for arguments.
+    """The kind of the vertices of a colour.
+
+    Attributes:
+        arity: the possible numbers of branches.
+        weight: the orders that a vertex counts: so often the exact solution is integrated at it.
+        is_exact: whether the exact solution has such vertices; if not, weights with one should be
+            0.
+        is_field: whether the colour is a vector field, not an argument of one.
     """
 
     arity: Arity = ANY
@@ -29,7 +35,7 @@ class VertexKind(Frozen):
         return min(branches, SEVERAL) in self.arity
 
     def integrated(self, order: int) -> int:
-        """ρ (ρ − 1) ⋯ with ``weight`` factors: that of a root in the density of a tree of order ρ.
+        """ρ (ρ − 1) ⋯ with ``weight`` factors: the factor of the root in γ(u) for ρ(u) = ``order``.
 
         >>> VertexKind().integrated(4), VertexKind(weight=2).integrated(4)
         (4, 12)

@@ -151,25 +151,13 @@ def written_order(tree: Tree) -> list[Tree]:
 
 
 def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
-    """Bracket notation, the inverse of ``parse_tree``; names of colours replace their numbers.
-
-    >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))
-    '[[[]_2]_1,[]_2]_1'
-    >>> format_tree(Tree(0, [Tree(0), Tree(0)]), colours=False)
-    '[[],[]]'
-    >>> format_tree(Tree(0, [Tree(1)]), colours=["f", "g"])
-    '[[]_g]_f'
-    """
+    """The bracket text, which ``parse_tree`` reads; names of colours replace their numbers."""
     inside = ",".join([format_tree(u, colours) for u in written_order(tree)])
     return f"[{inside}]_{_name(tree, colours)}" if colours else f"[{inside}]"
 
 
 def shortest(tree: Tree) -> str:
-    """Without colours if all are the first.
-
-    >>> shortest(Tree(0, [Tree(0)])), shortest(Tree(0, [Tree(1)]))
-    ('[[]]', '[[]_2]_1')
-    """
+    """The bracket text, without colours if all are the first."""
     return format_tree(tree, colours=bool(tree.colours - {0}))
 
 

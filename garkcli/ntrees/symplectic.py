@@ -138,11 +138,7 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
 
 
 def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
-    """The free trees u∘u of one order, whose conditions follow from lower ones; none for a pair.
-
-    >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
-    [<Tree [[]]>]
-    """
+    """The free trees u∘u of one order, whose conditions follow from lower ones; a pair has none."""
     _check(order)
     if structure.is_directed or order % 2:
         return

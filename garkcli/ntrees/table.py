@@ -96,7 +96,9 @@ class Columns(Frozen):
 
 
 class Segment(Frozen):
-    """Trees of one order and root colour with last branches of one too, at ``ids`` in a row."""
+    """Trees of one order and root colour whose last branches have one order and root colour too.
+    They have consecutive ``ids``; ``stems`` and ``branches`` are the ids of their parents.
+    """
 
     order: int
     root: int
@@ -241,7 +243,7 @@ class Texts:
 
 
 def _inserted(stem: Inside, text: str, order: int) -> Inside:
-    """Inserts a branch, in two cases: a last branch is never smaller than the others."""
+    """Inserts a last branch, which is never smaller than the others: so there are two cases."""
     inside, end, largest = stem
     length = len(text)
     if not inside:
@@ -289,7 +291,9 @@ class TreeTable(Frozen):
     def upto(
         cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
-        """The table; TableTooLarge beyond ``MAX_TREES``: :func:`iter_blocks` goes one order on."""
+        """The table; TableTooLarge beyond ``MAX_TREES`` trees: :func:`iter_blocks` streams one
+        order more.
+        """
         return cls.of(Admissible.of(colours, edges, linear), order)
 
     @classmethod

@@ -21,7 +21,9 @@ StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
 
 
 class BuiltIn(Frozen):
-    """A built-in problem; ``formula`` and ``sees`` are for people, ``stiff`` makes it stiff."""
+    """A built-in problem; ``formula`` and ``sees`` (its trees) are for people. ``make`` takes the
+    terms and a seed, ``stiff`` the terms and a stiffness.
+    """
 
     name: str
     summary: str

@@ -16,7 +16,7 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import symbols
 
 DEGREE = 8
-"""For all trees of order 8."""
+"""The degree of the terms, enough for all trees of order 8."""
 VARIABLES = ("x", "y")
 UNKNOWNS = ("x", "y", "z")
 _FORMS = 3  # powers of linear forms in each term

@@ -16,7 +16,7 @@ from garkcli.problems.deferred import Deferred
 from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
 
 FLOAT_DIGITS = 15
-"""With more digits than floats have, numbers are the midpoints of balls."""
+"""Most digits of floats; with more, numbers are the midpoints of balls."""
 
 
 class Hamiltonian(Frozen):

@@ -70,7 +70,7 @@ def texts_of(problem: Problem) -> Any:
 
 
 def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:
-    """Returns the conserved quantities as a function, in balls beyond ``FLOAT_DIGITS``."""
+    """Returns the conserved quantities, any energy first; in balls beyond ``FLOAT_DIGITS``."""
     return function(conserved(problem), unknowns(problem), digits > FLOAT_DIGITS)
 
 

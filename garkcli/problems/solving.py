@@ -118,7 +118,7 @@ def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
 
 
 def _without_root(f: Expr, u: Expr) -> Expr:
-    """P² − S Q² for f = P + Q √S; f without a root of u, else None."""
+    """Returns P² − S Q² for f = P + Q √S; f if no root has u in it, None if f has no such form."""
     import sympy
 
     roots = []

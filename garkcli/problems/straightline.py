@@ -38,7 +38,9 @@ BALLS: Mapping[str, Any] = {
 
 
 class StraightLineCode(Frozen):
-    """Texts with ``{a0}``, … arguments, ``{t0}`` temporaries, ``{k0}`` constants, None for π."""
+    """Texts of temporaries, each made of those before, and of results. They have ``{a0}``, … for
+    arguments, ``{t0}``, … for temporaries, ``{k0}``, … for ``constants``, where None is π.
+    """
 
     arguments: int
     temporaries: tuple[str, ...]

@@ -12,7 +12,9 @@ from garkcli.properties.verdict import KINDS, Kind
 
 
 class Definition(Frozen):
-    """A claim's definition in whole sentences; ``meaning`` says for which methods, "" for all."""
+    """The definition of a claim in whole sentences. ``meaning`` says for which methods it is
+    defined; empty for all.
+    """
 
     key: str
     text: str

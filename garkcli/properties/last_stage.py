@@ -71,7 +71,9 @@ def old_value(tableau: Tableau) -> list[Vector]:
 def missed_entries(
     tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> list[tuple[int, int]]:
-    """The entries (colour, stage) of a stage that differ from ``wanted`` beyond rounding."""
+    """The entries (colour, stage) of a stage that differ from ``wanted``, rounded ones by more than
+    twice their rounding; missing blocks count as zeros.
+    """
     missed = []
     for m, row in enumerate(wanted):
         block = tableau.blocks.get((k, m))

@@ -86,7 +86,9 @@ def sizes(tableau: Tableau) -> list[int]:
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Whether all stages have weights and different row sums, as those of a family if A𝟙 = c."""
+    """Whether all stages have weights and different row sums: all are used, and no two are equal.
+    The stages of a family have different row sums if A𝟙 = c. True holds for all of the rounding.
+    """
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
         for k in range(len(tableau.spaces))

@@ -38,7 +38,12 @@ MAY_HOLD = "the method that the file is taken to mean has it not, another within
 
 
 class Subject(Frozen):
-    """A method with its known results; smaller numbers than ``tolerance`` count as zero."""
+    """A method with known results; its ``order`` may be a lower bound.
+
+    Smaller numbers than ``tolerance`` count as zero. Of a rounded method it is the one that is
+    meant, and ``printed`` the printed one, with the largest error of a coefficient as tolerance;
+    ``rounding`` is that of the file.
+    """
 
     tableau: Tableau
     order: int
@@ -182,8 +187,12 @@ class Subject(Frozen):
 
 
 class Property(Frozen):
-    """A property that a method file may claim; ``is_cheap`` if every ``gark check`` decides it, and
-    with ``noted`` says that value in words.
+    """A property that a method file may claim.
+
+    Attributes:
+        meaning: the methods for which it is defined; empty for all.
+        is_cheap: whether every ``gark check`` decides it; others only if claimed or requested.
+        noted: the value that every ``gark check`` says in words, and these.
     """
 
     key: str

@@ -31,15 +31,15 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 MOST_TRIALS = 2000
-"""Then the search is given up."""
+"""Images of stages that are tried before the search is given up."""
 
 _Images: TypeAlias = dict[Vertex, list[int]]
 """For each stage its possible images, stages of its space."""
 
 
 class Symmetry(Frozen):
-    """None if there are too many renumberings, or rounding leaves it open; ``images`` by stage
-    spaces, None for x → 1 − x in a stage algebra, empty if it does not hold.
+    """Whether a method is its own adjoint; None if rounding or too many renumberings leave it open.
+    ``images`` has the image of each stage by spaces, None for x → 1 − x in a stage algebra.
     """
 
     holds: bool | None

@@ -24,8 +24,10 @@ KINDS: dict[Kind, str] = {
 """The notation of claims of each kind."""
 Asks: TypeAlias = Literal["zeros", "equations", "signs"]
 """The question that decides a property: which coefficients are zero, which equations they meet, or
-which signs numbers have. Rounded coefficients meet equations within their tolerance; the other
-properties hold for all methods there, or are undecided.
+which signs numbers have.
+
+Rounded coefficients meet equations within their tolerance; other properties hold for all methods
+there, or are undecided.
 """
 _DIGITS = 12
 _LONG = 60
@@ -37,7 +39,6 @@ class Size(Frozen):
     root: RealRoot | None
 
     def __float__(self) -> float:
-        """For display only."""
         return inf if self.root is None else float(self.root)
 
     def __repr__(self) -> str:

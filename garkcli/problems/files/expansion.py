@@ -14,7 +14,9 @@ MAX_TERMS = 3_000
 
 
 def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
-    """Returns the first velocity, not linear, whose equation p = ∂L/∂v is too long, or None."""
+    """Returns the first velocity whose equation p = ∂L/∂v is too long to solve, or None. Linear
+    equations are never too long: elimination solves them.
+    """
     for v in velocities:
         slope = lagrangian.diff(v)
         is_linear = slope.diff(v).free_symbols.isdisjoint(velocities)

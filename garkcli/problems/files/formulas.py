@@ -38,7 +38,11 @@ class FormulaReader(Mutable):
     def parsed(
         self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
-        """Returns None after a fault; ``names`` maps those not allowed to a cure, others to ""."""
+        """Returns the expression, or None after a fault.
+
+        ``names`` maps allowed names to "" and others to a cure; None allows all names. Parameters
+        are always allowed; ``noun`` is the kind of name that is expected.
+        """
         if is_null(node):
             message = f"{where}: nothing is here"
             self.source.fault(node, message, "write a formula", code="empty")

@@ -48,7 +48,7 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
 
 
 def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
-    """``obstacle`` within a tolerance: empty if there is none, None if undecided."""
+    """Returns the ``obstacle`` within a tolerance; empty without one, None if undecided."""
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         return None
     negative = _negative_weight(tableau, tolerance)
