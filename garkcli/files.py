@@ -27,7 +27,7 @@ class NotAFile(OSError):
 
 
 def own_stream(path: str) -> int | None:
-    """The descriptor of this process that a path means, or None.
+    """Returns the descriptor of this process that a path means, or None.
 
     >>> own_stream("/dev/fd/63"), own_stream("/dev/stdin"), own_stream("m.yaml")
     (63, 0, None)
@@ -45,9 +45,10 @@ def is_stream(path: str) -> bool:
 
 
 def read_bytes(path: str, most: int) -> bytes:
-    """At most ``most`` bytes and one more. Other devices and pipes are not opened, as they may
-    never end or begin: NotAFile. OSError if it cannot be read, ValueError if no file has such a
-    name.
+    """Returns at most ``most`` bytes and one more.
+
+    Raises NotAFile for other devices and pipes, which may never end or begin; OSError if it cannot
+    be read, ValueError if no file has such a name.
     """
     note_input(path)
     if path == STDIN:
@@ -60,7 +61,7 @@ def read_bytes(path: str, most: int) -> bytes:
 
 
 def begin_of(path: str, most: int) -> bytes:
-    """As ``read_bytes``, without noting an input."""
+    """Returns the first bytes as ``read_bytes`` does, without noting an input."""
     is_named = own_stream(path) is not None
     if not is_named and not stat.S_ISREG(os.stat(path).st_mode):
         raise NotAFile

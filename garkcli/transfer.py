@@ -103,7 +103,7 @@ def _refuse_large(l: Method, m: Method) -> None:
 
 
 def conjugate_rule(rule: Rule) -> Rule:
-    """The rule for Â^{l,m}, the conjugate of the A^{m,l} of ``rule``, or ZeroWeight."""
+    """Returns the rule for Â^{l,m}, the conjugate of A^{m,l} by ``rule``; raises ZeroWeight."""
 
     def conjugated(l: Method, m: Method) -> Matrix:
         return conjugate_block(rule(m, l), l.space, l.b, m.space, m.b)
@@ -173,7 +173,7 @@ def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -
 def symplectic_blocks(
     rule: Rule, methods: Sequence[Method], base: int, other: int
 ) -> dict[Edge, Matrix]:
-    """A^{other,base} by ``rule``, and its symplectic conjugate A^{base,other}; or ZeroWeight."""
+    """Returns A^{other,base} by ``rule``, and its conjugate A^{base,other}; raises ZeroWeight."""
     l, m = methods[other], methods[base]
     block = rule(l, m)
     return {(other, base): block, (base, other): conjugate_block(block, m.space, m.b, l.space, l.b)}

@@ -90,7 +90,7 @@ class Audited(Frozen, eq=False):
 def audited(
     paths: Iterable[str], jobs: int = 1, told: Callable[[str], None] = no_one
 ) -> Iterator[Audited]:
-    """``told`` receives why arrays are left out; UsageProblem without source or grammar."""
+    """Yields tables; ``told`` gets why arrays are left out. Raises UsageProblem."""
     sources = list(paths)
     demand_grammars(sources)
     work = partial(_tables, orders=declared_orders(sources), others=sources)
@@ -115,7 +115,9 @@ def _late(table: FoundTable, seconds: str) -> Audited:
 
 
 def audit(table: FoundTable) -> Audited | None:
-    """None if it is no method; if another reading is a method, no finding is an error."""
+    """Returns the table with its findings; None if it is no method. If another reading of it is a
+    method, no finding is an error.
+    """
     verdict = _audit(table)
     order = 0 if verdict is None or verdict.order is None else verdict.order.order
     is_low = order < 2 and not table.order

@@ -19,7 +19,7 @@ _OF_TABLE = {"order", "nonautonomous-order", "stage-order"}
 
 
 def imported(table: FoundTable, name: str, is_as_found: bool = False) -> TableSubject:
-    """MethodFileError if the numbers give no method."""
+    """Returns the method of a table; MethodFileError if its numbers give none."""
     subject = with_orders(table, read(table, name))
     subject = replace(subject, findings=findings_of(subject))
     tolerances = [fmpq_of(table.tolerance)] if table.tolerance else []

@@ -31,7 +31,9 @@ _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
 class TableResult(Frozen, eq=False):
-    """``stem`` names its file, and is unique; ``trouble`` says why there is no method."""
+    """A table with its method; ``trouble`` says why there is none. ``stem`` names its file
+    uniquely.
+    """
 
     table: FoundTable
     stem: str = ""

@@ -18,7 +18,7 @@ _DANGEROUS = ("*/", "/*", "*)", "(*", "??", "]]", "%}", "%{", "=#", "#=")
 
 
 class Comment(Frozen):
-    """``begin`` and ``end`` are lines before and after all, or empty."""
+    """The signs of comments: ``mark`` before each line, lines ``begin`` and ``end`` around all."""
 
     mark: str
     begin: str = ""

@@ -90,7 +90,7 @@ def _declared_in(text: str, declared: re.Pattern[str]) -> Iterator[tuple[str, st
 
 
 def _with_values(line: str, constants: Mapping[str, str], fold: Callable[[str], str]) -> str:
-    """Unless the line imports the constants."""
+    """Puts values in place of constants, except in a line that imports them."""
     if _TAKING.match(line):
         return line
 

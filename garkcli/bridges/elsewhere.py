@@ -22,7 +22,7 @@ _OF_ALGORITHM = re.compile(
 _CLASS = re.compile(r"^class\s+(?P<name>\w+).*(?P<body>(?:\n(?:[ \t].*)?)*)", re.MULTILINE)
 _USED = re.compile(r"^\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
 _ORDER = re.compile(r"^order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
-"""Only in the class body: inside functions the lines have a margin."""
+"""An order in the class body, where lines have no margin."""
 _MADE_FOR = re.compile(
     r"(?P<name>\w+?)(?:E?S?DIRK)?(?:IMEX)?(?:Rodas)?(?:Constant)?(?:Cache|Tableau)(?:Actual)?"
 )

@@ -30,7 +30,7 @@ Arrays: TypeAlias = dict[str, Any]
 
 
 def exported_table(text: str, source: str, format: str) -> FoundTable | None:
-    """None for documents that gark did not write, and for kinds with their own readers."""
+    """Returns the table; None if gark did not write the text, or its kind has its own reader."""
     if SCHEMA not in text:
         return None
     try:
@@ -140,7 +140,7 @@ def _tolerance(document: Mapping[str, Any]) -> Arrays:
 
 
 def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> TableSubject:
-    """MethodFileError if the document has no method."""
+    """Returns the method with its orders; MethodFileError if the document has none."""
     from garkcli.bridges.rosenbrock import RowSubject, row_findings  # few sources have them
 
     method = loads(written(table, name, None, {}), place_of(table))

@@ -37,9 +37,9 @@ SLOPE = 1000
 ROUGHLY = fmpq(1, 10**6)
 """Relative error of a new number of a Rosenbrock method."""
 SURE_ORDER = 3
-"""From this order on a new value of an entry is certain: lower ones have few conditions."""
+"""Least order at which a new value of an entry is certain: lower ones have few conditions."""
 LEAST_ORDER = 2
-"""From this order on a restored order is evidence for a number."""
+"""Least order whose restoration is evidence for a number."""
 _NAMED = re.compile(r"(\w+)[\"']?(?:\[[^\]=]*\])*\s*[:=](?![:=])")
 
 

@@ -21,8 +21,10 @@ _MINUS = re.compile(r"-(?=\s*(?:\w+\(\s*)?$)")
 
 
 class Wanted(Frozen):
-    """``new`` may be off by ``allowed``; unless ``is_sure`` a sign or a digit must be wrong;
-    ``is_estimate`` is None for numbers of neither error estimates nor embedded weights.
+    """A value that a number should have, off by at most ``allowed``.
+
+    Unless ``is_sure`` a sign or a digit must be wrong; ``is_estimate`` is None for numbers of
+    neither error estimates nor embedded weights.
     """
 
     old: fmpq

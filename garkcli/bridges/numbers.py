@@ -15,7 +15,7 @@ from garkcli.tableau.pointwise import Cell
 FLOAT_DIGITS = 17
 """Digits for a binary64 number, written with the fewest that restore it."""
 EXACT_IN_FLOATS = 2**53
-"""Up to here integers are binary64 numbers, and the quotient of two is rounded once."""
+"""Largest integer up to which all are binary64 numbers, so that a quotient is rounded once."""
 MOST_ZEROS = 5
 """Decimals with more zeros after the point are written with an exponent."""
 
@@ -43,7 +43,7 @@ class Style(Frozen):
     point: bool = True
 
     def text(self, x: Cell, digits: int | None = None) -> str:
-        """With ``digits`` fractions become decimals."""
+        """Writes a number; with ``digits`` fractions become decimals."""
         if digits is not None:
             return self._decimal(x, digits, is_short=False)
         if isinstance(x, Algebraic) and self.irrational is not None:

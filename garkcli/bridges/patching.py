@@ -23,7 +23,9 @@ def patches(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[tuple[Me
 
 
 def patch_of(source: str, before: str, after: str) -> str:
-    """Empty if nothing changes, the path is not below the current folder, or signs are unsafe."""
+    """Returns a patch; empty if nothing changes, the path is not below the current folder, or signs
+    are unsafe.
+    """
     name = _name_of(source)
     if not name or before == after:
         return ""

@@ -18,7 +18,9 @@ MAX_NUMBERS = 400
 
 
 class Recognised(Frozen):
-    """With ``refused`` proposals the order falls; ``left`` decimals have none."""
+    """A method with exact forms of its decimals: with ``refused`` ones its order falls. The
+    decimals ``left`` have no exact form.
+    """
 
     method: TableSubject
     taken: tuple[Proposal, ...]

@@ -76,7 +76,9 @@ class Bridge(Frozen):
     linear: Callable[[Payload], Values] = lambda payload: {"linear": printed_stages(payload)}
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
-        """By endings such as ``_test.c``; CannotExport, also if ``file`` must have another name."""
+        """Returns the test files by endings such as ``_test.c``; CannotExport, also if ``file``
+        needs another name.
+        """
         if self.words is None:
             return {}
         if payload.kind == "row":

@@ -32,7 +32,7 @@ from garkcli.tableau.tableau import Tableau
 _LITTLE = 1e-9
 """Smaller residuals are rounding."""
 MANY = 60
-"""With more rounded numbers each condition is judged on its own."""
+"""Most rounded numbers whose conditions are judged together, as those of one method."""
 MOST = -4
 TINY = 1e-300
 
@@ -234,7 +234,7 @@ def _why(found: Judged) -> str:
 
 
 def imported_row(table: FoundTable, name: str, is_as_found: bool) -> RowSubject:
-    """MethodFileError if the numbers give no method."""
+    """Returns the method of a table; MethodFileError if its numbers give none."""
     subject = with_row_orders(table, name)
     subject = replace(subject, findings=tuple(row_findings(subject)))
     claims = {"order": subject.order.claim}

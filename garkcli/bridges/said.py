@@ -77,7 +77,9 @@ def order_said_of(lines: Sequence[str], line: int) -> int | None:
 
 
 def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
-    """On the line of a table and above, then in and above the function or class around."""
+    """Yields the comments at and above the line of a table, then in and above the function or
+    class.
+    """
     at = line - 1
     if not 0 <= at < len(lines):
         return

@@ -63,7 +63,9 @@ def _below(folder: str) -> Iterator[str]:
 
 
 def source_text(path: str) -> tuple[str, str]:
-    """Bytes other than UTF-8 are replaced; UsageProblem if the source is unreadable or too long."""
+    """Returns a source and its name; bytes other than UTF-8 are replaced. Raises UsageProblem if it
+    is unreadable or too long.
+    """
     name = STDIN_NAME if path == STDIN else path
     try:
         data = read_bytes(path, MAX_CHARACTERS)

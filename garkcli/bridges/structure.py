@@ -18,7 +18,7 @@ Rows: TypeAlias = tuple[Row, ...]
 
 
 def vanishes(x: Cell) -> bool:
-    """False for any enclosure."""
+    """Whether x is known to be 0, which no enclosure is."""
     return not isinstance(x, arb) and not x
 
 
@@ -148,7 +148,7 @@ def _merged(payload: Payload) -> list[_Stage]:
 
 
 def _sorted(stages: Sequence[_Stage]) -> list[int]:
-    """No stage depends on a later one, unless on each other; else in the given order."""
+    """Orders stages so that none depends on a later one, unless on each other; else as given."""
     at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
     needs = {
         k: [

@@ -126,14 +126,14 @@ class TableSubject(Frozen, eq=False):
 
 
 def read(table: FoundTable, name: str = "") -> MethodFile:
-    """Without tolerance; MethodFileError if the numbers give no method."""
+    """Reads a table as a method without tolerance; MethodFileError if its numbers give none."""
     return loads(written(table, name, None, {}), place_of(table))
 
 
 def orders_of(
     method: MethodFile, table: FoundTable, limit: int | None = None
 ) -> tuple[Judged, Judged | None]:
-    """Within their digits."""
+    """Returns the orders of a method and its embedded weights within their digits."""
     admitted = fmpq_of(table.tolerance) if table.tolerance else None
     digits, spans = digits_of(method, table), StageSpans(method.tableau)
     order = judged(digits, method.tableau, table.order, limit, admitted, spans)
@@ -152,7 +152,9 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
 
 
 def _short_units(table: FoundTable) -> Mapping[Number, fmpq]:
-    """One unit of the last place of several decimals of four or five places, if none is longer."""
+    """Returns one unit of the last place of decimals of four or five places, if several and no
+    longer ones.
+    """
     values = [x for text in numbers_of(table) for x in [parsed(text)] if x]
     places = [_places(x) for x in values]
     short = range(SEVERAL_PLACES, FEW_PLACES.stop)

@@ -67,8 +67,8 @@ Edit: TypeAlias = tuple[int, int, str]
 
 
 def with_values(text: str, root: MappingNode, name: str, values: Mapping[str, str]) -> str | None:
-    """Other keys stay, new ones follow the last one; None if there is no place for a new mapping,
-    because the file is in braces or has an empty one.
+    """Returns the text with values below a key; other keys stay, new ones follow the last one. None
+    if there is no place for a new mapping: the file is in braces or has an empty one.
     """
     there = mapping_under(root, name)
     if there is None or not there.value:
@@ -105,7 +105,7 @@ def _replacements(text: str, there: MappingNode, values: Mapping[str, str]) -> I
 
 
 def _additions(text: str, there: MappingNode, values: Mapping[str, str]) -> Iterator[Edit]:
-    """In braces, or on lines below the last key."""
+    """Yields the new keys, in braces or on lines below the last key."""
     known = {key.value for key, _ in there.value}
     new = [f"{key}: {x}" for key, x in values.items() if key not in known]
     first, _ = there.value[0]

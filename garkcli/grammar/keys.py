@@ -16,7 +16,7 @@ from garkcli.grammar.source import Cures, Entries, Home, Source
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
-"""From the reader of the file, a node and its name in messages to a value; None after a fault."""
+"""Makes a value of the reader of the file, a node and its name in messages; None after a fault."""
 FILE = "the file"
 NOTHING: Mapping[str, Any] = {}
 
@@ -162,9 +162,10 @@ class KeyValues(Frozen):
 
 
 class KeyRelation(Frozen):
-    """One of ``needs`` is required, all of ``bars`` are excluded, for these ``values``, None for
-    all. The message has ``{way}`` for the alternative in use, by which cures may differ, with
-    ``""`` for others.
+    """With the key one of ``needs`` is required and all of ``bars`` are excluded.
+
+    It is about ``values`` of the key, None for all. The message has ``{way}`` for the alternative
+    in use, by which cures may differ, with ``""`` for others.
     """
 
     key: str

@@ -59,7 +59,7 @@ def key_of(root: MappingNode, value: Node) -> Node:
 
 
 def extent(text: str, first: Node, last: Node) -> Extent:
-    """Without blanks at the end."""
+    """The places of the first and last character, without blanks at the end."""
     start, end = first.start_mark.index, last.end_mark.index
     return start, start + len(text[start:end].rstrip())
 

@@ -86,7 +86,7 @@ def _stem(name: str) -> str:
 
 
 def decoded(name: str, data: bytes) -> str:
-    """MethodFileError if the text is too long or not UTF-8."""
+    """Returns a text; MethodFileError if it is too long or not UTF-8."""
     if len(data) > MAX_BYTES:
         message = f"a file of more than {MAX_BYTES} bytes"
         raise MethodFileError(name, [Remark(message, "split it", 1, 1, code="file-too-large")])

@@ -170,7 +170,7 @@ class Source:
         return errors.MethodFileError(self.name, faults, self.text)
 
     def error_with(self, note: Callable[[], None]) -> errors.MethodFileError:
-        """With the faults that ``note`` reports temporarily."""
+        """Returns the error with faults that ``note`` reports, which it then forgets."""
         before = len(self._found)
         note()
         error = self.error()

@@ -59,7 +59,7 @@ def holds_several(text: str) -> bool:
 
 
 def bracketed(text: str) -> str:
-    """In YAML, with rows separated by semicolons or line ends.
+    """Writes rows, separated by semicolons or line ends, in YAML.
 
     >>> bracketed("0 0; 1/2 0"), bracketed("1/6, 2/3, 1/6")
     ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')

@@ -248,7 +248,7 @@ class PrkText(Content):
 
 
 class Made(NamedTuple):
-    """``further`` returns weights of the form; None if ``finish`` changes the usual ones."""
+    """A tableau; ``further`` returns weights of the form, ``finish`` changes the usual ones."""
 
     tableau: Tableau
     further: Callable[[], Further] | None = None

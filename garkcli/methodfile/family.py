@@ -265,7 +265,7 @@ def _blocks(description: d.Description, text: str) -> Iterator[tuple[Extent, str
 
 
 def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
-    """``head`` becomes a comment; ``claim``, such as ``order: 4``, is added if there is none."""
+    """Returns the file with values, ``head`` as a comment and a claim if there is none."""
     text = family.text
     given = {**family.settings, **values}
     blocks = dict(family.blocks)

@@ -29,7 +29,7 @@ ROOT = "_root"
 
 
 class FamilyValues(Values):
-    """Each radical is an unknown with its relation; ``change`` comes before evaluation."""
+    """Values in which each radical is an unknown with a relation; ``change`` comes first."""
 
     def __init__(
         self, numbers: Numbers, change: Callable[[Expression], Expression] | None = None

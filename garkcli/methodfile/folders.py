@@ -16,7 +16,7 @@ def no_one(told: object) -> None:
 
 
 def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
-    """With folders that cannot be read; links to folders are not followed."""
+    """Returns method files, and folders that cannot be read; links are not followed."""
     paths: list[str] = []
 
     def keep(error: OSError) -> None:

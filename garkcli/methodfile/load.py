@@ -174,11 +174,7 @@ def _maker_by_digits(text: str, source: str, settings: Any, radii: Sequence[fmpq
 
 
 def works_in(text: str, source: str) -> tuple[Work, ...]:
-    r"""MethodFileError if neither a reference nor the parts of a method can be read.
-
-    >>> [x[0][:8] for x in works_in("methods: [gauss-2, gauss-3]\ntransfer: collocation", "")]
-    ['E. Haire', 'A. Zanna']
-    """
+    """Returns the publications; MethodFileError if neither reference nor parts can be read."""
     own = reference_of(text, source)
     return (own,) if own[0] else works_of(described(text, source, NO_SETTINGS)[1])
 

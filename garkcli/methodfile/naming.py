@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 FAMILY = "the families"
 PREFIX = "catalogue:"
-"""It begins a name that is never a file; alone, or with a folder, it means all methods."""
+"""Begins a name that is never a file; alone, or with a folder, it means all methods."""
 _OF_FILES = (".yaml", ".yml", ".json")
 """Endings that names do not have."""
 METHOD_FILES = (".gark.yaml", ".yaml", ".yml", ".json")
@@ -39,7 +39,7 @@ _MOST_SHOWN = 6
 
 
 def read_argument(argument: str, path: str = "") -> tuple[str, str]:
-    """The text and the name; MethodFileError for no method, or several."""
+    """Returns the text and the name; MethodFileError if they mean no method, or several."""
     method = find_named(argument, path)
     if method is None:
         return read_text(path or argument, METHOD_FILE)
@@ -47,7 +47,9 @@ def read_argument(argument: str, path: str = "") -> tuple[str, str]:
 
 
 def find_named(argument: str, path: str = "") -> shelving.Shelved | None:
-    """A method of the catalogue; None for a file; MethodFileError for both, several or none."""
+    """Returns a method of the catalogue, None for a file; MethodFileError for both, several or
+    none.
+    """
     if not can_be_name(argument):
         return None
     is_file = os.path.lexists(path or argument)

@@ -35,7 +35,7 @@ class NumberTolerances:
         self._fewest = fewest_digits(x.expression for x in entries) if tolerance.is_of_digits else 0
 
     def kind_of(self, entry: Coefficient) -> str:
-        """Empty for A, b and c."""
+        """The kind of weights of an entry; empty for A, b and c."""
         return self._kinds.get(id(entry), "")
 
     def key_of(self, entry: Coefficient) -> str:

@@ -80,7 +80,7 @@ _FREE = mapping(
 
 
 def _read(at: Any, node: yaml_nodes.Node, _: str) -> None:
-    """Each may use those before it; an unused one does not enlarge the domain of coefficients."""
+    """Reads parameters; each may use those before it, and unused ones do not enlarge the domain."""
     numbers: Numbers = at.numbers
     source = numbers.source
     keys = yaml_nodes.key_nodes(node)

@@ -28,7 +28,7 @@ RARE = 15
 as a decimal with this times n² units.
 """
 SHORTENED = 4
-"""In lowest terms, the denominator of a decimal has at most so many digits less."""
+"""Most digits by which lowest terms shorten the denominator of a decimal."""
 MANY_DIGITS = 14
 """Decimals with more digits are rounded, however long the others are."""
 LONG_DENOMINATOR = 10**5
@@ -212,8 +212,10 @@ def fewest_digits(texts: Iterable[Expression]) -> int:
 
 
 def unit_of(expression: Expression, fewest: int) -> fmpq:
-    """One unit of the last digit of a decimal; for a root of a polynomial the largest of its
-    decimals; for a long fraction as an approximant; 0 if exact.
+    """Returns one unit of the last digit of a decimal, 0 for an exact number.
+
+    A root of a polynomial has the largest unit of its decimals, a long fraction that of an
+    approximant.
 
     >>> from garkcli.exact.expression import parse
     >>> unit_of(parse("0.25"), 9), unit_of(parse("0.25"), 2)

@@ -114,7 +114,7 @@ class Rounded:
         self.is_given = tuple(key in given for key in kept)
 
     def refuse_keys(self, source: Source) -> None:
-        """MethodFileError for keys of ``tolerance`` that apply to no number."""
+        """Raises MethodFileError for keys of ``tolerance`` that apply to no number."""
         for node, message, cure, code in self._tolerances.refusals(self.keys):
             source.fault(node, message, cure, code=code)
         source.close()

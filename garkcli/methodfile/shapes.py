@@ -120,7 +120,7 @@ def _esdirk(layout: UnknownLayout) -> UnknownLayout:
 
 
 def _symplectic_dirk(layout: UnknownLayout) -> UnknownLayout:
-    """As in J. M. Sanz-Serna, L. Abia, *Order conditions for canonical RK schemes*, 1991."""
+    """Source: J. M. Sanz-Serna, L. Abia, *Order conditions for canonical RK schemes*, 1991."""
     weights = layout.b[0]
 
     def entry(i: int, j: int, _: str) -> str:

@@ -76,7 +76,7 @@ def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) ->
 
 
 class Shelf(ABC):
-    """``label`` names it in messages."""
+    """A folder of methods; ``label`` names it in messages."""
 
     def __init__(self, label: str) -> None:
         self.label = label
@@ -211,7 +211,7 @@ def _points(_: tuple[str, ...]) -> list[EntryPoint]:
 
 
 def others() -> list[Shelf]:
-    """By entry points; MethodFileError if one cannot be imported."""
+    """Returns the shelves of entry points; MethodFileError if one cannot be imported."""
     from importlib.resources import files
 
     shelves: list[Shelf] = []

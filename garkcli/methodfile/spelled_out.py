@@ -287,7 +287,7 @@ def tableau(at: NumbersReader, node: Node, linear: Node | None) -> d.TableauText
 
 
 def tableau_of(at: NumbersReader, entries: Entries, linear: Node | None) -> d.TableauText | None:
-    """One colour or several, distinguished by the nesting of A."""
+    """Reads a method of one colour or several, distinguished by the nesting of A."""
     A, b = entries["A"], entries["b"]
     depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
     # [[null]] may be a row of blocks as well; [[]] is the short form of [[0]]

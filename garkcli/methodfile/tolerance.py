@@ -19,7 +19,7 @@ from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.printed import coarsest_unit
 
 DIGITS = "digits"
-"""Each decimal is within one unit of its last digit."""
+"""The word for decimals that are within one unit of their last digit."""
 OTHERS = "others"
 """The key for all numbers without a key of their own."""
 Off: TypeAlias = "fmpq | str"
@@ -29,7 +29,7 @@ _FORM = "write for instance {others: 1e-20, embedded: 1e-12}"
 
 
 class Tolerance(FrozenBut):
-    """By the keys of the file; ``places`` are their nodes."""
+    """The roundings by the keys of the file; ``places`` are their nodes."""
 
     besides = frozenset({"places"})
 

@@ -37,7 +37,9 @@ def write_tableau_file(
     parameters: Sequence[str] = (),
     further: Further = NOTHING,
 ) -> str:
-    """Exact, on point stages; ``note`` is a comment, ``parameters`` has ``tau: free`` and so on."""
+    """Returns a method file with exact numbers on point stages. ``note`` is a comment,
+    ``parameters`` has ``tau: free`` and so on.
+    """
     tableau.demand_fields("a method file")
     with with_letters(None if parameters else tableau, NAMES) as letters:
         spelled_out = _spelled_out(tableau, text, further)

@@ -23,7 +23,7 @@ _BETWEEN = re.compile(rf"({_LINE.pattern})|\\\\(?:\[[^\[\]]*\])?|\\tabularnewlin
 _COLUMNS = re.compile(r"[^{]*\{((?:[^{}]|\{(?:[^{}]|\{[^{}]*\})*\})*)\}")
 _COMMENT = re.compile(r"(?<!\\)%[^\n]*")
 _GENERAL = "q' = f(q, p)"
-"""In a comment: both parts depend on both."""
+"""A comment with this says that both parts depend on both."""
 MAX_ARRAY = 400_000
 
 
@@ -108,7 +108,7 @@ def _numbers(cells: list[str], count: int) -> list[str]:
 
 
 def _pair(of_q: _Grid, of_p: _Grid, is_general: bool) -> printed.Values:
-    """Empty if the arrays Q and P do not fit."""
+    """Returns the values of a partitioned method; empty if the arrays Q and P do not fit."""
     if len(of_q[1]) == len(of_p[0]) == 2 and len(of_p[1]) == 1:
         return _semi_separable(of_q, of_p)
     if len(of_q[1]) != 1 or len(of_p[1]) != 1:

@@ -15,7 +15,7 @@ _IGNORED = re.compile(
 _ROOT_OF = re.compile(r"\\operatorname\{root\}\(([-+0-9x^{}/]{1,4000}),x\\approx(-?[0-9.]{1,60})\)")
 _LETTER = r"\\(?:gamma|xi|eta|zeta)(?![A-Za-z])"
 _DEFINED = re.compile(rf"= 0, \\quad ({_LETTER}) \\approx (-?[0-9.]{{1,60}})")
-"""After a polynomial in a letter: it is zero, and a decimal near the letter."""
+"""The words after a polynomial in a letter: it is zero, and a decimal near the letter."""
 MAX_POLYNOMIAL = 400
 _ONE = r"(?:\{([^{}]*)\}|([0-9]))"
 _COMMANDS = (

@@ -22,7 +22,7 @@ from garkcli.tableau.tableau import Colour
 DIGITS = 40
 _EXACT = replace(EXACT, digits=DIGITS)
 _PRINTED = replace(_EXACT, is_fraction_first=False)
-"""For rounded coefficients: decimals stay decimals."""
+"""The style for rounded coefficients: decimals stay decimals."""
 
 
 def _json(payload: Payload) -> str:

@@ -135,7 +135,7 @@ class _Plan(Frozen):
     tolerance: fmpq | None
 
     def made(self, base: Tableau, numbers: Numbers) -> Tableau:
-        """MethodError if the order of the method is unknown, or high enough already."""
+        """Raises MethodError if the order of the method is unknown, or high enough already."""
         order, is_symmetric = self.base, self.is_symmetric
         if base.has_parameters and (order is None or is_symmetric is None):
             message = "the order of a method with free parameters is not determined"

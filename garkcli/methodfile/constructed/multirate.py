@@ -64,7 +64,7 @@ _FORM_OF_COUPLING = "write slowest-first, collocation, {gamma: [[…]]}, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
 MAX_STEPS = 400
 MAX_POWERS = 12
-"""One matrix for each power of τ."""
+"""Most powers of τ, with one matrix each."""
 SLOWEST_FIRST = "slowest-first"
 EXACT = "exact"
 RESTARTS = {
