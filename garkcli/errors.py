@@ -243,7 +243,7 @@ class Remark(Frozen):
 
 
 MANY_WORDS = 50
-"""Beyond so many words a misspelt one is compared only with those of its first letter."""
+"""Most words with all of which a misspelt one is compared; else with those of its first letter."""
 MOST_WORDS = 8 * MANY_WORDS
 """Most words of the same first letter; the catalogue has hundreds."""
 WORDS_SHOWN = 20

@@ -9,6 +9,6 @@ def leave(number: int, _frame: object) -> None:
 
 
 def leave_at_once() -> None:
-    """Until the command runs an interrupt is silent; Windows has an exit code of its own for it."""
+    """Silences interrupts until the command runs; Windows has an exit code of its own for it."""
     if _signal.getsignal(_signal.SIGINT) is _signal.default_int_handler:
         _signal.signal(_signal.SIGINT, _signal.SIG_DFL if hasattr(_signal, "SIGHUP") else leave)

@@ -39,7 +39,7 @@ _CURE = "make one with gark check --format json -o FILE"
 
 
 def read_baseline(path: str) -> Earlier:
-    """Reads the files of a complete JSON report by path, or raises UsageProblem."""
+    """Reads the files of a complete JSON report by path; raises UsageProblem."""
     try:
         report = json.loads(_text(path))
     except (ValueError, RecursionError):

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from garkcli.order.suspects import SuspectedNumber
 
 WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
-"""These claims do not depend on nodes, which without ``c`` follow the entries."""
+"""Claims that do not depend on nodes, which without ``c`` follow the entries."""
 UNASKED = {"order", "embedded-order"}
 """The orders for which a cause is sought without a claim."""
 FINE = fmpq(1, 10**30)

@@ -129,7 +129,7 @@ def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fm
 def carried(
     fixed: Mapping[str, object], ranges: Mapping[str, Range], left: Sequence[str]
 ) -> dict[str, Range]:
-    """Returns the ranges left, cut by those of ``fixed`` numbers or polynomials, or MethodError."""
+    """Returns the ranges left, cut by ``fixed`` numbers or polynomials; raises MethodError."""
     left_ranges = {name: ranges[name] for name in left}
     for name, value in fixed.items():
         least, greatest = ranges[name]
@@ -347,7 +347,7 @@ class EveryFamily(Frozen):
 
     @cached_property
     def bounds(self) -> list[Polynomial]:
-        """For one parameter: polynomials that have to be nonnegative, from algebraic ends."""
+        """Polynomials of a single parameter that have to be nonnegative, from algebraic ends."""
         return [in_one(p, 0) for p in self.family.not_negative]
 
     @cached_property

@@ -57,7 +57,7 @@ class ExistenceProof(Shown, Frozen):
 
 @doing("proof")
 def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> ExistenceProof:
-    """Proves the order of a method within the rounding, and none higher, or raises MethodError."""
+    """Proves the order of a method within the rounding, and none higher; raises MethodError."""
     rounded = meant(method.tableau, method.tolerance, method.further)
     if isinstance(rounded, Tableau):
         message = "the coefficients are exact: there is nothing within a rounding to prove"

@@ -23,7 +23,7 @@ from garkcli.order.tolerance import small, unnatural, within
 from garkcli.tableau.tableau import Tableau
 
 COARSEST = -1
-"""Only tolerances below ten to this power are proposed."""
+"""Only tolerances smaller than ten to this power are proposed."""
 
 
 class RoundingHint(Frozen):

@@ -41,7 +41,7 @@ DIGITS = 12
 
 
 class TrueClaims(Frozen):
-    """True claims in YAML by key; ``left`` do not apply or are undecided."""
+    """True claims in YAML by key; those ``left`` do not apply or are undecided."""
 
     file: str
     claims: Mapping[str, str]

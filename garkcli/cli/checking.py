@@ -131,8 +131,8 @@ def _outcomes(project: Project, given: Check, output: Output) -> list[Outcome]:
 
 
 def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) -> Iterator[Outcome]:
-    """In order, with ``jobs`` processes, 0 for one per processor. A file that ends its worker has
-    an outcome that says so.
+    """Yields outcomes in order, by ``jobs`` processes, 0 for one per processor. A file that ends
+    its worker has an outcome that says so.
     """
     jobs = min(jobs or os.cpu_count() or 1, len(paths))
     if any(map(is_stream, paths)):

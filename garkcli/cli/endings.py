@@ -61,7 +61,7 @@ DRAWING = {"convergence": "converge", "energy": "energy"}
 
 
 def ending_of(path: str) -> str:
-    """In lower case; empty if unknown."""
+    """Returns the ending in lower case; empty if unknown."""
     ending = splitext(path)[1].lower()
     return ending if ending in ENDINGS else ""
 

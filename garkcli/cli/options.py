@@ -319,7 +319,7 @@ class WithSettings(Options):
     settings: Mapping[str, str] = SET
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """MethodFileError if there is no method, HasFreeParameters if one has no value."""
+        """Reads FILE; MethodFileError for faults, HasFreeParameters if a parameter has no value."""
         from garkcli.methodfile.load import load
 
         found: GarkMethod = load(file, self.settings)
@@ -344,7 +344,7 @@ class Derivable(WithSettings):
         return "conjugate" if self.conjugate else "pair" if self.pair else None
 
     def method(self, file: str, is_any_kind: bool = False) -> GarkMethod:
-        """Also ZeroWeight if a conjugate would divide by zero."""
+        """Reads FILE, or makes its conjugate or pair; ZeroWeight if that divides by zero."""
         found = super().method(file, is_any_kind)
         return found.conjugate if self.conjugate else found.pair if self.pair else found
 

@@ -80,7 +80,9 @@ class Output:
     def files_meant(
         self, files: Sequence[str], settings: Mapping[str, str] | None = None
     ) -> list[str]:
-        """Inputs are never overwritten; UsageProblem for one as report, or several with --set."""
+        """Returns the files, which are never overwritten. Raises UsageProblem if one is the output
+        too, or for several with --set.
+        """
         from garkcli.methodfile.naming import find_files
 
         found = list(find_files(files, self.note))
@@ -131,7 +133,9 @@ class Output:
         self.write(report.render(wholes, self.format, self.look, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:
-        """``is_document``: LaTeX has its preamble, or names it; None for neither."""
+        """Writes a report; LaTeX has its preamble if ``is_document``, else names it, neither if
+        None.
+        """
         pieces = report.pieces(whole, self.format, self.look, self.verbosity, width=self.width)
         if self.format == "latex" and is_document is not None:
             from garkcli.page.latex import fragment

@@ -31,8 +31,8 @@ class Project(Frozen):
 
 
 def find_project() -> Project:
-    """From the current folder up to the root of the repository; UsageProblem if a file cannot be
-    read, MethodFileError with all faults.
+    """Looks for settings from the current folder up to the root of the repository. Raises
+    UsageProblem if a file cannot be read, MethodFileError with all faults.
     """
     for folder in _folders():
         for name in (OWN, SHARED):
@@ -61,7 +61,7 @@ def _folders() -> Iterator[str]:
 
 
 def _text(path: str, name: str) -> str | None:
-    """None without settings for gark; UsageProblem if the file cannot be read, or is too large."""
+    """Returns a file, None if it has no settings for gark; UsageProblem if it cannot be read."""
     try:
         data = read_bytes(path, MOST_BYTES)
         if name == SHARED and re.search(_TOOL, data, re.MULTILINE) is None:

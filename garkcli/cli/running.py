@@ -268,7 +268,7 @@ def _one(path: str, given: Converge, output: Output) -> int:
 
 
 def _several(paths: Sequence[str], given: Converge, output: Output) -> int:
-    """MethodFileError for faults of the problem; other failures do not stop the tests."""
+    """Tests all methods although some fail; MethodFileError for faults of the problem."""
     from garkcli.methodfile.naming import called
     from garkcli.plots.convergence import errors_scene
     from garkcli.report.comparison import REPORT, ConvergedMethod, ConvergedMethods

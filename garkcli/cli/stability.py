@@ -112,7 +112,7 @@ def stability(given: StabilityOptions, output: Output) -> None:
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:
-    """From 1; UsageProblem if the method has no such colour."""
+    """Returns a colour counted from 1; UsageProblem if the method has no such colour."""
     names = [x.name for x in tableau.colours]
     if colour not in names:
         message = f"--fast: no colour {colour!r}"

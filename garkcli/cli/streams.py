@@ -67,7 +67,7 @@ def _fill_places() -> None:
 
 
 def put(text: str, format: str = "text", coloured: bool = False) -> None:
-    """To standard output; NoStandardOutput or ReaderGone."""
+    """Writes to standard output; raises NoStandardOutput or ReaderGone."""
     if not text:
         return
     if sys.stdout is None:
@@ -83,7 +83,7 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
 
 
 def put_help(text: str) -> None:
-    """In colours on a terminal that has them."""
+    """Writes help to standard output, in colours on a terminal that has them."""
     is_coloured = is_drawn_on(sys.stdout) and wants_colour(sys.stdout)
     if is_coloured:
         from garkcli.tell.terminal import coloured_help
@@ -117,7 +117,7 @@ def flush() -> None:
 
 
 def say(text: str, coloured: bool = False, is_folded: bool = True) -> None:
-    """To standard error, ignoring failures; on a terminal lines are folded."""
+    """Writes to standard error, ignoring failures; on a terminal lines are folded."""
     text = safe(text, "text", coloured)
     with aside():
         try:
@@ -175,7 +175,7 @@ def drop(stream: io.TextIOBase | object) -> None:
 
 
 def safe(text: str, format: str = "text", coloured: bool = False) -> str:
-    """Without commands to a terminal or to the runner of a job."""
+    """Returns the text without commands to a terminal or to the runner of a job."""
     from garkcli.page.safety import without_commands, written_out
 
     text = written_out(text, format, coloured)
@@ -188,7 +188,7 @@ def safe_pieces(pieces: Iterable[str], format: str, coloured: bool) -> Iterable[
 
 
 def _for(encoding: str | None, text: str, format: str, width: int | None = None) -> str:
-    """For the encoding of a stream; formats with escapes lose nothing."""
+    """Returns the text for the encoding of a stream; formats with escapes lose nothing."""
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):
         return text

@@ -351,7 +351,7 @@ def convert(given: Convert, output: Output) -> None:
 
 
 def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
-    """With details the comparison with the method in the file, as a comment."""
+    """Returns, with details, the comparison with the method in the file as a comment."""
     if output.verbosity <= 0 or not first.tableau.has_fields_alone:
         return ""
     from garkcli.comparison.comparison import compare

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from garkcli.report.trees import Query, SymplecticSubject, TreeRow
 
 MANY = 1_000_000
-"""For more lines the command asks first."""
+"""Most lines for which the command does not ask."""
 MAX_PICTURES = 2000
 BLOCK_SIZE = 1 << 14
 

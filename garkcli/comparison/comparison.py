@@ -32,8 +32,8 @@ from garkcli.upward import Shown
 Relation: TypeAlias = Literal[
     "identical", "same", "within-rounding", "same-step", "different", "undecided"
 ]
-"""By entries; as methods; up to the rounding that the files admit; as steps, one having further
-weights; different; not known.
+"""Equal entries, one method, equal up to the rounding that the files admit, equal steps with
+further weights of one, different, or not known.
 """
 
 
@@ -42,7 +42,7 @@ WITH_TIME = "order with time"
 
 
 class OrderPair(Frozen):
-    """An order of both methods; None if a method has none of the kind."""
+    """An order of both methods; None for one that has no such order."""
 
     name: str
     one: AnyOrder | None

@@ -132,7 +132,9 @@ class Likeness(Frozen):
         return all(self.cells(x, y) is not False for x, y in zip(one, other, strict=True))
 
     def blocks(self, one: Block, other: Block) -> bool:
-        """Returns False if two blocks are known to differ; None only equals None."""
+        """Returns False if two blocks are known to differ; a missing block equals only a missing
+        one.
+        """
         if one is None or other is None:
             return one is other
         return all(self.rows(x, y) for x, y in zip(one, other, strict=True))

@@ -101,7 +101,7 @@ class _SamenessSearch:
 
 
 MOST_COLOURS = 5
-"""With more colours, only the given order is tried."""
+"""Most colours of which other orders than the given one are tried."""
 
 
 class Sameness(Frozen):
@@ -131,7 +131,7 @@ class Sameness(Frozen):
 
 
 class SamenessResult(Frozen):
-    """The result of a search; None if unknown because of ``obstacle``."""
+    """The result of a search; ``obstacle`` says why it is unknown."""
 
     sameness: Sameness | None
     obstacle: str = ""

@@ -77,7 +77,7 @@ SMALLER = "take fewer steps, or methods of fewer stages"
 
 
 def small_steps(fast: Method, steps: int) -> Method:
-    """``steps`` equal steps as one method; MethodError for too many stages."""
+    """Returns equal steps as one method; MethodError for too many stages."""
     refuse_large(steps * fast.stages, SMALLER)
     one = Substep(gark([fast], {}), fmpq(1, steps))
     return _alone(composed([one] * steps))

@@ -184,16 +184,8 @@ def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
 
 
 def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) -> Nystrom:
-    """``A`` is None if g depends on q only; ShapeMismatch for other shapes than (s, s) and length
-    s.
-
-    >>> from flint import fmpq
-    >>> from garkcli.order.certificate import find_order
-    >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
-    >>> A = ((zero, zero), (half, zero))
-    >>> verlet = nystrom(A, None, (zero, one), (half, zero), (half, half))
-    >>> find_order(verlet.tableau)
-    <Order 2>
+    """Returns a Nyström method; ``A`` is None if g depends on q only. Raises ShapeMismatch unless
+    shapes are (s, s) and lengths s.
     """
     s = len(b)
     sizes = (("Abar", Abar, s), ("A", A or Abar, s), ("c", (c,), 1), ("bbar", (bbar,), 1))

@@ -60,7 +60,7 @@ def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
 
 
 def _whole(row: Numbers, stages: int, first: int) -> Numbers:
-    """``first`` is added if it is left out; MethodError for other lengths."""
+    """Adds ``first`` to a row that lacks it; MethodError for other lengths."""
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
         message = f"a row of {len(row)} for {counted(stages, 'stage')}"

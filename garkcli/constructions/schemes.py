@@ -20,8 +20,8 @@ MAX_ORDER = 12
 
 
 class Scheme(Frozen):
-    """``parts`` makes the substeps from the order of the method and the requested one, both 0 for
-    schemes of one order; ``order`` is for people.
+    """A composition of one method, of an ``order`` for people. ``parts`` makes the substeps from
+    the order of the method and the requested one, both 0 for schemes of one order.
     """
 
     name: str
@@ -225,7 +225,9 @@ FlowText: TypeAlias = tuple[int, str]
 
 
 class Splitting(Frozen):
-    """``flows`` are for a number of parts, any if ``terms`` is 0; ``order`` is with exact flows."""
+    """A splitting by name; ``order`` is with exact flows. ``flows`` are for a number of parts, any
+    if ``terms`` is 0.
+    """
 
     name: str
     order: str

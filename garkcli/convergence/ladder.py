@@ -36,7 +36,7 @@ Solver: TypeAlias = "LinearSolver | SteppedSolver"
 """
 MAX_ROWS = 10
 MAX_COARSE = 20_000
-"""With more steps than this the default ladder accepts a large error."""
+"""Most steps with which the default ladder refuses a large error."""
 LARGEST = 1 / 32
 """Largest error of the default ladder, as a part of the solution."""
 STIFF = 30

@@ -20,7 +20,7 @@ from garkcli.problems.problem import Problem, unknowns
 from garkcli.stepping.integrator import Integrator, StepFailed, Stepper, bind
 
 MAX_TRIED = 10_000
-"""With more steps than this a failed step is the fault of the problem."""
+"""Most steps that are tried: with more a failed step is the fault of the problem."""
 MAX_STEPS = 1_000_000
 _PIECES = 200  # of a run, after each of which it is said how far it is
 _STAGES = 60  # beyond, a step costs more than fewer of them save

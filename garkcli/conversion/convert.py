@@ -166,7 +166,7 @@ def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name:
 
 
 def _written(found: RecoveredMethod, name: str) -> str:
-    """With as many exact numbers as keep all orders."""
+    """Writes a recovered method with as many exact numbers as keep all orders."""
     proposals = {**found.proposals}
     while True:
         text = writer.write_tableau_file(

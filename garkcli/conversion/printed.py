@@ -20,7 +20,7 @@ from garkcli.tableau.tableau import Tableau
 Printed: TypeAlias = "tuple[str, Mapping[str, Any]]"
 """The key of the form with its keys: words, rows and matrices."""
 InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
-"""From a tableau and the rounding of its numbers, None for exact ones."""
+"""Makes the form from a tableau and the rounding of its numbers, None for exact ones."""
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:

@@ -33,7 +33,7 @@ DIGITS = 50
 DIGITS_OF_A_ROOT = 20
 """Digits that distinguish a root of a polynomial from the others."""
 FEWEST_TO_RECOGNISE = 40
-"""With fewer digits no exact number is proposed."""
+"""Fewest digits with which an exact number is proposed."""
 
 
 class RecoveredMethod(Frozen, eq=False):

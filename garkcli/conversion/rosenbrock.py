@@ -30,9 +30,9 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 PRINTED = "printed"
-"""With α, γ and b."""
+"""The form with α, γ and b."""
 TRANSFORMED = "transformed"
-"""With A, C, γ_ii and m."""
+"""The form with A, C, γ_ii and m."""
 FORMS = ("spelled-out", PRINTED, TRANSFORMED)
 _Parts: TypeAlias = "dict[str, tuple[Vector, ...]]"
 """The rows of each key; a vector has one row."""

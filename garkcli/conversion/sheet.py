@@ -67,7 +67,7 @@ class CannotConvert(MethodError):
 
 
 class Sheet(Frozen):
-    """On point stages, with further weights and all numbers from one field."""
+    """A method on point stages with its further weights; all numbers are from one field."""
 
     tableau: Tableau
     further: Further = NOTHING
@@ -111,7 +111,9 @@ def _mapped(sheet: Sheet, field: OneField) -> Sheet:
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
-    """``homes`` are new spaces of colours; CannotConvert if stages of one see different colours."""
+    """Moves stages to other spaces; ``homes`` are the new spaces of colours. Raises CannotConvert
+    if stages of one space see different colours.
+    """
     homes = [*homes] * (1 + len(sheet.further.rows))
 
     def change(tableau: Tableau) -> Tableau:
@@ -153,7 +155,7 @@ def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:
 def _block(
     tableau: Tableau, m: int, rows: Sequence[Place], columns: Sequence[Place]
 ) -> Matrix | None:
-    """None if the new stages do not see the colour."""
+    """Returns the entries at places; None if the new stages do not see the colour."""
     space = tableau.colours[m].space
     seeing = {place[0] for place in rows if place is not None}
     blind = [k for k in seeing if (k, m) not in tableau.blocks]

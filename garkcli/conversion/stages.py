@@ -105,7 +105,7 @@ def in_order(sheet: Sheet) -> Sheet:
 
 
 def in_solving_order(sheet: Sheet) -> Sheet:
-    """Each stage after those that it needs, otherwise in its own order."""
+    """Returns the stages so that each is after those that it needs, otherwise in their order."""
     own: Classes = {stage: number for number, stage in enumerate(_stages(sheet.tableau))}
     return _arranged(sheet, own)
 
@@ -127,7 +127,7 @@ def _arranged(sheet: Sheet, places: Classes) -> Sheet:
 
 
 def _needs(tableau: Tableau) -> dict[Stage, list[Stage]]:
-    """For each stage those that it sees with a nonzero entry."""
+    """Returns for each stage the stages that it sees with a nonzero entry."""
     needs: dict[Stage, list[Stage]] = {stage: [] for stage in _stages(tableau)}
     for (k, m), block in tableau.blocks.items():
         other = tableau.colours[m].space

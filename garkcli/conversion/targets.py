@@ -78,7 +78,7 @@ def as_ark(method: GarkMethod) -> sheets.Sheet:
 
 
 def shared(sheet: sheets.Sheet) -> sheets.Sheet | None:
-    """With one stage space, if stage i of every colour is the same; else None."""
+    """Returns the method with one stage space, if stage i of all colours is the same; or None."""
     tableau = sheet.tableau
     first, *others = range(len(tableau.spaces))
     colours = range(tableau.size)

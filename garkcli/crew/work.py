@@ -30,7 +30,7 @@ class Limit(Frozen, Generic[Item, Outcome]):
 
 
 class Workers(Protocol[Given, Made]):
-    """One process, several, or a cluster; ``size`` items are done at a time."""
+    """Workers in this process, in several, or on a cluster; ``size`` items are done at a time."""
 
     @property
     def size(self) -> int: ...

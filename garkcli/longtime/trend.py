@@ -62,7 +62,8 @@ Finding: TypeAlias = Literal["none", "undecided", "drift"]
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
-"""In 480 runs of symplectic methods on two planets no drift is so many times its uncertainty."""
+"""Multiple of its uncertainty that no drift exceeds in 480 runs of symplectic methods on planets.
+"""
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have

@@ -53,7 +53,7 @@ class Norms(Frozen):
 
 
 class ErrorConstants(Frozen):
-    """``order`` is one more than the method's; ``coupling`` is over trees of several colours."""
+    """The norms one order above the method's; ``coupling`` is over trees of several colours."""
 
     order: int
     is_exact: bool

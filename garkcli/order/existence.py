@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 SHARE = fmpq(1, 10**6)
 """The part of its radius by which each number moves in the proof."""
 FEW = 50
-"""Up to so many conditions a proof is tried with fewer numbers too: some hold exactly."""
+"""Most conditions with which a proof is tried with fewer numbers too: some hold exactly."""
 NOTHING = 1e-250
 """Bound on remainders that are zero apart from the rounding of floats."""
 MOST_TREES = 2_000

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from garkcli.order.recovering import Recovery
 
 FEWEST_ROWS = 5
-"""With fewer independent rows many numbers are suspects by chance."""
+"""Fewest independent rows; with fewer many numbers are suspects by chance."""
 FAR = 0.5
 """Least shift of a suspect: rounding to a last place moves a number by half a unit of it."""
 NEXT_TO_NOTHING = 0.1

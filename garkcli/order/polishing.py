@@ -69,7 +69,9 @@ def _unknown() -> MethodError:
 
 
 class _Polishing:
-    """``search`` has enough bits for the slopes; ``bits`` is the precision of the shifts."""
+    """The iteration to the nearest method; ``bits`` is the precision of its shifts. ``search`` has
+    enough bits for the slopes.
+    """
 
     def __init__(self, search: Recovery, system: System, bits: int) -> None:
         self.search = search

@@ -8,12 +8,11 @@ from garkcli.frozen import Frozen, replace
 from garkcli.tableau.tableau import Tableau
 
 GAIN = 2
-"""Without a claim, an entry is named if it restores so many orders.
-
-Many published methods are one entry away from the next order, none of the catalogue from two.
+"""Orders that an entry has to restore to be named without a claim. Many published methods are one
+entry away from the next order, none of the catalogue from two.
 """
 HIGHEST_LOW = 4
-"""Without a claim no entry is sought above this order, which a wrong one hardly leaves."""
+"""Largest order at which an entry is sought without a claim: a wrong one hardly leaves more."""
 
 
 class RepairedEntry(Frozen):

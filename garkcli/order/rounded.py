@@ -191,9 +191,9 @@ def _around(
 
 
 FEW_TREES = 50_000
-"""Up to so many trees the residuals of an order are bounded one by one; beyond, by spans."""
+"""Most trees whose residuals are bounded one by one; those of more by spans."""
 FEW_WITNESSES = 2_000
-"""Up to so many trees the witness is the one with the largest residual."""
+"""Most trees among which the witness is the one with the largest residual."""
 
 
 class RoundedOrder(Shown, FrozenBut):

@@ -18,7 +18,7 @@ _SIGNS = {
     "LEFT SINGLE QUOTATION MARK": "`", "LEFT DOUBLE QUOTATION MARK": "``",
     "RIGHT DOUBLE QUOTATION MARK": "''", "MULTIPLICATION SIGN": r"$\times$", "NO-BREAK SPACE": "~",
 }  # fmt: skip
-"""By character, or by its Unicode name if it is not ASCII."""
+"""LaTeX of characters, of others than ASCII by Unicode name."""
 _ACCENTS = {
     "COMBINING GRAVE ACCENT": "`", "COMBINING ACUTE ACCENT": "'",
     "COMBINING CIRCUMFLEX ACCENT": "^", "COMBINING TILDE": "~", "COMBINING DIAERESIS": '"',
@@ -26,7 +26,7 @@ _ACCENTS = {
     "COMBINING CARON": "v ", "COMBINING CEDILLA": "c ", "COMBINING OGONEK": "k ",
     "COMBINING RING ABOVE": "r ", "COMBINING DOUBLE ACUTE ACCENT": "H ",
 }  # fmt: skip
-"""By Unicode names."""
+"""LaTeX of accents by Unicode name."""
 _DOTLESS = {"i": r"\i", "j": r"\j"}
 _BASE = {
     "LATIN SMALL LETTER SHARP S": "ss",

@@ -15,7 +15,7 @@ from garkcli.errors import UsageProblem
 from garkcli.files import is_input, note_input, own_stream
 
 _MOST_LINKS = 40
-"""As on Linux."""
+"""Most links in a path, as on Linux."""
 
 
 def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> bool:

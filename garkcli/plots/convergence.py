@@ -15,11 +15,11 @@ from garkcli.plots import scene
 from garkcli.problems.righthandside import RightHandSide
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
-"""From curve to line, in heights of the figure."""
+"""Gaps from curve to line, in heights of the figure."""
 _CLEAR = 0.035
 """The distance from all curves that suffices, in heights of the figure."""
 _LABEL = ((0.02, 0.02), (0.06, 0.03), (0.11, 0.035))
-"""From a label to the middle of its line, in widths and heights of the figure."""
+"""Distances from a label to the middle of its line, in widths and heights of the figure."""
 _SAMPLES = 8
 _Points: TypeAlias = Sequence[scene.Point]
 

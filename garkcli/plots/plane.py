@@ -15,7 +15,7 @@ _Edge: TypeAlias = tuple[int, int, bool]
 """Row and column of the start of an edge, and whether it is vertical."""
 _FAR = 1.0
 _NODES = 300
-"""On a side of a grid; even, so that none is on the imaginary axis."""
+"""Nodes on a side of a grid; even, so that none is on the imaginary axis."""
 _FLAT = 3.0
 """The bound at which levels are cut, such as logarithms near zeros and poles."""
 _THINNED = 0.06  # cells

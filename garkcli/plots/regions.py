@@ -140,7 +140,7 @@ PRINTED = "Of the digits as printed, not of all methods within the tolerance."
 _STAR = "Order star, filled: |R(z)| > |exp z|."
 _HEIGHT = 300
 _SQUARES = 120
-"""On a side of a region; even, as its halves mirror each other."""
+"""Squares on a side of a region; even, as its halves mirror each other."""
 _ABOVE_ONE = 1.001
 """If |R(z_E, 0)| is larger, nothing has to be decided: z_I = 0 is not damped."""
 _MOST_ZOOMS = 6

@@ -18,7 +18,7 @@ _DIGITS = (1, 2, 5)
 """Digits of marks between powers of ten."""
 _FEW_DECADES = 0.5
 _FLOATS = 290
-"""In decades."""
+"""The range of floats in decades."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 

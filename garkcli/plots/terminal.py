@@ -17,14 +17,14 @@ _LINE = 16
 """Units of a picture per line."""
 _DOTS = "•○×+"
 _FILLED = "█▒░:"
-"""By style; the first regions are on top."""
+"""Signs by style; the first regions are on top."""
 _PALE = ":"
 _STEEP, _STRAIGHT = "│", "·"
 """A line across several rows of a column, and a line between two points."""
 SEVERAL = "*"
 """Points with several letters."""
 _Cells: TypeAlias = dict[tuple[int, int], str]
-"""By row and column, from the upper left."""
+"""Signs by row and column, from the upper left."""
 
 
 def drawn(panel: Panel, spelt: Callable[[str], str] = str, columns: int = COLUMNS) -> list[str]:

@@ -46,7 +46,9 @@ def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
 
 
 def references(methods: Iterable[AnyMethod]) -> list[citation.Cited]:
-    """Each once, or else those of the parts; ``gark`` is this program and its paper."""
+    """Returns each publication once, or else those of the parts; ``gark`` is this program and its
+    paper.
+    """
     cited: list[citation.Cited] = []
     for method in methods:
         if method == GARK:

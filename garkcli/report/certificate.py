@@ -144,7 +144,7 @@ VERTICES: Section[VertexKind] = Section(
 
 
 def _own_kind(colour: Colour) -> VertexKind | None:
-    """None if the key ``linear`` determines the kind."""
+    """Returns the kind; None if the key ``linear`` determines it."""
     return None if colour.kind in FIELDS else colour.kind
 
 

@@ -164,7 +164,7 @@ def _pair_in_brief(a: Analysis) -> facts.Answer[AnyOrder]:
 
 
 def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> facts.Row[Analysis]:
-    """On problems with time; usual if the nodes are not the row sums."""
+    """Returns the row of an order on problems with time; usual if nodes are not row sums."""
 
     def answer(a: Analysis) -> facts.Answer[AnyOrder]:
         level = USUAL if a.inconsistent else DETAIL

@@ -44,7 +44,7 @@ _NOT_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def junit(outcomes: Sequence[Outcome]) -> str:
-    """One suite a file, one case a claim, skipped if it is undecided."""
+    """Returns JUnit XML: a suite for each file, a case for each claim, skipped if undecided."""
     root = ET.Element("testsuites", name="gark check")
     for outcome in outcomes:
         _add_suite(root, outcome)
@@ -89,7 +89,7 @@ def _add_suite(root: ET.Element, outcome: Outcome) -> None:
 
 
 def _clean(text: str) -> str:
-    """Without characters that XML cannot write; signs that turn text by name."""
+    """Returns a text without characters that XML cannot write; signs that turn text are named."""
     return "\n".join(map(printable, _NOT_XML.sub("\N{REPLACEMENT CHARACTER}", text).split("\n")))
 
 

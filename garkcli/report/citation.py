@@ -134,7 +134,7 @@ def _entry(names: str, kind: str, key: str, lines: Sequence[str]) -> str:
 
 
 def _entry_type(reference: Reference) -> str:
-    """As the file says, or by the fields that it has."""
+    """Returns the type that the file says, or that suits its fields."""
     if reference.type == "thesis":
         is_master = "master" in reference.note.lower()
         return "mastersthesis" if is_master else "phdthesis"

@@ -34,7 +34,7 @@ MOST_DECIMALS = 20
 
 
 class ConditionRow(Frozen):
-    """``is_shape``: all colourings of a tree; ``members`` are trees of equivalent conditions."""
+    """A condition; if ``is_shape`` of all colourings of a tree, with ``members`` of its class."""
 
     tree: Tree
     is_shape: bool
@@ -55,7 +55,7 @@ class ConditionRow(Frozen):
 
 
 class Valued(Frozen):
-    """``only_failing``: conditions that hold are counted but not shown."""
+    """Conditions with values; those that hold are counted but not shown if ``only_failing``."""
 
     method: AnyTableau
     only_failing: bool = False
@@ -132,7 +132,9 @@ class ConditionTable(Mutable):
 
 
 def legend_of(tableau: Tableau) -> str:
-    """Also meanings of colours of other methods than GARK methods; empty if names are numbers."""
+    """Returns the names of colours, with meanings for other methods than GARK methods. Empty if
+    names are numbers.
+    """
     about = numbered([colour.name for colour in tableau.colours]), *_about_colours(tableau)
     told = "; ".join(filter(None, about))
     return f"colours: {told}" if told else ""
@@ -172,7 +174,7 @@ def is_parametric(number: object) -> bool:
 
 
 def _number(condition: Condition, key: str, d: Plain) -> str:
-    """In decimals if one number is long or they are requested."""
+    """Returns a number, in decimals if it or the residual beside it is long, or on request."""
     x = getattr(condition, key)
     if d.places is not None:
         return kinds.NUMERAL(x).words(d)

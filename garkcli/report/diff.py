@@ -183,7 +183,7 @@ def tolerances(x: ComparedPair) -> str | None:
 
 
 def _orders_words(x: ComparedPair, d: Plain) -> str:
-    """Each order of both methods, once if both have the same."""
+    """Writes each order of both methods, once if both have the same."""
     texts = []
     for pair in x.found.orders:
         if not pair.exists or (pair.name == WITH_TIME and not pair.is_different):

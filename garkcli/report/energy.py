@@ -135,7 +135,7 @@ def _undecided(history: histories.InvariantHistory, run: histories.LongRun) -> t
 
 
 def _direction(history: histories.InvariantHistory) -> str:
-    """By the slope or, without one, by the end."""
+    """Returns the direction of the slope or, without one, of the end."""
     drift = history.drift or 0.0
     went = drift if history.shape == "line" else history.errors[-1]
     return "rises" if went > 0 else "falls"

@@ -299,7 +299,7 @@ def _function_rows(found: EveryStability, d: Plain) -> list[tuple[str, str]]:
 
 
 def _stability_rows(x: EveryStability, d: Plain) -> list[tuple[str, str]]:
-    """Each kind of stability with its values, or the way to decide it."""
+    """Returns each kind of stability with its values, or the way to decide it."""
     rows = []
     for key, fact in x.facts.items():
         text = fact_reason(fact, d.parameter, told_value)

@@ -85,7 +85,7 @@ BY_KIND = {
     "family": "with free parameters",
 }
 KEYS_OF_KINDS = {"rosenbrock": "row", "nystrom": "rkn", "derivatives": "mdrk", "multirate": "mri"}
-"""If these differ from the kind."""
+"""Keys that differ from the kind."""
 _KIND = choice(*BY_KIND, None)
 METHOD: facts.Rows[Entry] = [
     _field("name", TEXT, USUAL, has_null=False),

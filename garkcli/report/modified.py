@@ -27,7 +27,7 @@ _FORMLESS = Reason("no Hamiltonian problem has its form")
 
 
 class ModifiedReport(Frozen):
-    """``with_equation``: rooted trees are shown although there is a Hamiltonian."""
+    """With ``with_equation`` rooted trees are shown although there is a Hamiltonian."""
 
     file: str
     name: str
@@ -51,7 +51,7 @@ class ModifiedTerm(NamedTuple):
 
 
 def _size(factor: Number, d: Plain) -> str:
-    """In decimals; tables of documents have no room for it."""
+    """Returns the decimals of a factor; none in documents, whose tables have no room for them."""
     return "" if d.breadth == "page" else to_decimal(factor, 4)
 
 
@@ -72,7 +72,7 @@ TERM: facts.Section[ModifiedTerm] = facts.Section(
 
 
 def _equation(report: ModifiedReport) -> facts.Answer[list[ModifiedTerm]]:
-    """Without those up to the order of a rounded method: they are zero within the tolerance."""
+    """Returns the terms; of a rounded method without those that are zero within the tolerance."""
     found = report.found
     zero = range(2, found.order.order + 1) if found.tolerance is not None else ()
     terms = [

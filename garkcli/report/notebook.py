@@ -31,7 +31,7 @@ MAX_COLUMNS = 24
 
 
 def method_latex(method: GarkMethod) -> str | None:
-    """None if the tableau is too large to be examined."""
+    """Returns LaTeX; None if the tableau is too large to be examined."""
     if _is_large(method):
         return None
     with with_letters(method.tableau) as letters:

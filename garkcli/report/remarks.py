@@ -49,7 +49,7 @@ FAILURE: Section[FailedRun] = Section(
 
 
 def remark_rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
-    """With levels and codes, cures below; hints of a usual report have neither code nor cure."""
+    """Returns rows with levels and codes, cures below; usual hints have neither code nor cure."""
     found: list[tuple[str, str]] = []
     for x in remarks:
         level = d.bad(x.level) if x.level == "error" else d.note(x.level)

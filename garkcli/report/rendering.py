@@ -108,7 +108,7 @@ def _told_by(file: str) -> tuple[Report[Any], Callable[[Any, str], Any]]:
 
 
 def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
-    """MethodError if there is no writer."""
+    """Returns the writer of a value; raises MethodError without one."""
     if kind := _kind(value, WRITERS):
         return kind, *WRITERS[kind]
     if kind := _kind(value, TOLD_BY):

@@ -570,7 +570,7 @@ class ImexParts(NamedTuple):
 
 
 def imex_parts(x: StabilityReport) -> ImexParts | None:
-    """None for other methods."""
+    """Returns the parts of an implicit-explicit method; None for other methods."""
     explicit = explicit_colour(x.found.tableau) if x.found.linear else None
     if explicit is None:
         return None
@@ -608,7 +608,7 @@ def _end_of(found: Extent | Ray) -> RealRoot | fmpq | None:
 
 
 def _interval(axis: str, found: Extent | Ray | None, d: Plain, power: int = 1) -> str:
-    """With ``power`` 2 the square of the end is given."""
+    """Writes an interval, with the square of its end for ``power`` 2."""
     if found is None or found == OPEN:
         return d.prose(f"{axis} interval not decided")
     end = _end_of(found)
@@ -761,7 +761,7 @@ LINEARS: dict[str, facts.Rows[StabilityReport]] = {
     "parts": [*head("linear"), *_by_parts([*SEVERAL, EMBEDDED])],
     "rounded parts": [*head("linear"), *_by_parts([*ALIKE, ALONE, EMBEDDED])],
 }
-"""By the colours on the linear test equation: ``R`` has a z for each colour, or one."""
+"""Sections by the colours on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 COLUMNS_OF_PARTS = ("file", "implicit_part", "explicit_part", "coupled")
 FORMS = {

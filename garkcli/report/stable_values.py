@@ -35,7 +35,7 @@ class StableReport(NamedTuple):
 
 
 def number(root: RealRoot, d: Plain) -> str:
-    """In radicals with decimals, or as the root of a polynomial."""
+    """Writes a root in radicals with decimals, or as the root of a polynomial."""
     return replace(d, is_brief=False).root(root)
 
 

@@ -125,7 +125,7 @@ def section(report: SweepReport | None = None) -> Section[SweepReport]:
 
 
 def flat(plan: Plan) -> Section[Judged]:
-    """Without nesting, for CSV and Parquet."""
+    """Returns the columns without nesting, for CSV and Parquet."""
 
     def setting(name: str) -> Row[Judged]:
         def get(row: Judged) -> str | None:

@@ -68,7 +68,7 @@ def of_method(
     with_transformation: bool = False,
     coupling: Coupling | None = None,
 ) -> ShownTableau:
-    """MethodError if the transformation is requested, and there is none."""
+    """Raises MethodError if the transformation is requested, and there is none."""
     entries = method.entries
     if digits is not None:
         entries = pointwise.entries(method.tableau, digits).beside(method.further)
@@ -183,7 +183,7 @@ OF_POSITIONS = OF_NYSTROM[0], "b, with 0 in place of A: g depends on q alone"
 
 
 def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:
-    """With titles: α and γ, Ā and A, or the slow method."""
+    """Returns the parts with titles: α and γ, Ā and A, or the slow method."""
     if is_derivatives(tableau):
         return [*_of_derivatives(tableau, whole)]
     if tableau.exact_to is not None:

@@ -26,7 +26,7 @@ from garkcli.tell.report import Report
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 DRAWN_ORDER = 4
-"""Up to this order a terminal shows the drawn trees too, with -v all."""
+"""Largest order whose drawn trees a terminal shows, with -v all."""
 DETAIL, DATA = Level.DETAIL, Level.DATA
 T = TypeVar("T")
 
@@ -49,7 +49,7 @@ class Query(Frozen):
 
 
 class TreeRow(NamedTuple):
-    """``root`` counts from 0; symmetry σ and density γ."""
+    """A tree; ``root`` counts from 0, and its σ and γ."""
 
     tree: str
     root: int

@@ -28,7 +28,7 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MOST_LINES = 400
-"""Enough for 26 stages of three colours, or 11 of four."""
+"""Most lines: enough for 26 stages of three colours, or 11 of four."""
 OFFSETS = (1, 3, 7, 13, 29)
 """Offsets of the lattices of directions that are tried for common factors."""
 

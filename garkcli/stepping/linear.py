@@ -176,7 +176,7 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
 
 
 def _over_rationals(rows: Matrix, field: NumberField | None) -> fmpq_mat:
-    """Each number replaced by its multiplication matrix over ℚ."""
+    """Replaces each number by its multiplication matrix over ℚ."""
     if field is None:
         return fmpq_mat([[x for x in row if isinstance(x, fmpq)] for row in rows])
     d = field.degree
@@ -193,7 +193,7 @@ def _over_rationals(rows: Matrix, field: NumberField | None) -> fmpq_mat:
 
 
 def _columns(rows: Matrix, field: NumberField | None) -> fmpq_mat:
-    """Each number replaced by its column of coordinates over ℚ."""
+    """Replaces each number by its column of coordinates over ℚ."""
     d = field.degree if field else 1
     flat = []
     for entries in rows:

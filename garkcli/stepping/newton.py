@@ -20,7 +20,9 @@ from garkcli.stepping.jacobian import JacobianWriter, Slope, identity_minus
 from garkcli.stepping.stagewriter import StageWriter, names
 
 MAX_ITERATIONS = 50
-"""In floats; each further digit allows one more, as a Jacobian in floats gains one or more."""
+"""Most iterations in floats; each further digit allows one more. A Jacobian in floats gains one
+digit or more at a time.
+"""
 _WRITTEN = 24
 _DIRECT = 2
 """Most unknowns that floats solve by formulas, with a new Jacobian in every iteration."""

@@ -66,8 +66,9 @@ def _asked(point: Point) -> FileSearch:
 
 
 Row: TypeAlias = "dict[str, Value | dict[str, str]]"
-"""Has ``key``, ``spec``, ``kept``, ``method``, ``parameters`` and the columns; ``failure`` if there
-is no such method. Rows of searches also have ``seed``, and with a result ``proof`` and ``values``.
+"""A mapping with ``key``, ``spec``, ``kept``, ``method``, ``parameters`` and the columns; with
+``failure`` if there is no such method. Rows of searches also have ``seed``, and with a result
+``proof`` and ``values``.
 """
 
 

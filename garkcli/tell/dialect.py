@@ -61,7 +61,7 @@ def are_numbers(cells: Iterable[str]) -> bool:
 
 
 class Status(Frozen):
-    """``within`` is the rounding for which a value holds; None for exactly."""
+    """The certainty of a value, which holds ``within`` a rounding, or exactly if None."""
 
     within: fmpq | None = None
     at_least: bool = False
@@ -154,7 +154,7 @@ class Plain(Mutable):
         )
 
     def known(self, text: str, status: Status) -> str:
-        """With its rounding, or as a lower bound."""
+        """Adds its rounding to a text, or that it is a lower bound."""
         if status.at_least:
             text = f"at least {text}"
         return text if status.within is None else f"{text} within {decimal(status.within)}"
@@ -256,7 +256,7 @@ class Plain(Mutable):
         return self.place(Place(letter, tuple(names)))
 
     def tree(self, tree: Tree | str) -> str:
-        """In brackets; a single colour is not named."""
+        """A tree in brackets; a single colour is not named."""
         if not isinstance(tree, str):
             tree = format_tree(tree, self.names or self.has_colours(tree))
         return self.code(tree)
@@ -275,7 +275,7 @@ class Plain(Mutable):
         return ""
 
     def failure(self, witness: Witness, is_rounded: bool = False, order: int | None = None) -> str:
-        """The tree whose condition fails, and by how much; ``as above`` the second time."""
+        """The tree whose condition fails, and by how much; "as above" the second time."""
         order = order or witness.tree.order
         condition = (format_tree(witness.tree, self.names or True), to_text(witness.residual))
         if condition in self.told:
@@ -328,7 +328,7 @@ class Plain(Mutable):
         return ", ".join(texts[:FEW]) + more
 
     def spelt(self, text: str) -> str:
-        """In the signs of the output: widths are those of what is written."""
+        """A text in the signs of the output, so that widths are those of what is written."""
         return text if text.isascii() else plain_text(text, self.look.encoding)
 
     def headline(self, text: str) -> list[str]:

@@ -53,7 +53,7 @@ class Labels(Display[V_in]):
 
 
 class Below(Display[V_in]):
-    """In lines of its own, below the other facts."""
+    """A display in lines of its own, below the other facts."""
 
 
 class TextPicture(Below[V_in]):
@@ -69,7 +69,7 @@ class Plot(Below[V_in]):
 
 
 class OnePart(Display[T]):
-    """Usually some facts in a line, or ``words``; with -v each alone."""
+    """One line of facts, or ``words``; with -v each fact alone."""
 
     section: Section[T]
     words: Wording[T] | None = None
@@ -80,7 +80,7 @@ class OnePart(Display[T]):
 
 
 class ManyParts(Display[Sequence[T]]):
-    """``words`` is the line of all parts; ``most`` rows are usual, 0 for all; None for a line."""
+    """A line ``words`` for all parts; ``most`` rows are usual, 0 for all, None for a line."""
 
     section: Section[T]
     words: Wording[Sequence[T]] | None = None
@@ -127,7 +127,7 @@ class Described(Protocol[V_in]):
 
 
 class FieldBeside(Frozen, Generic[V]):
-    """In its name ``*`` is the key of the row up to the last ``order``."""
+    """A field beside another; ``*`` in its name is the key of the row up to the last ``order``."""
 
     name: str
     schema: Schema
@@ -136,9 +136,11 @@ class FieldBeside(Frozen, Generic[V]):
 
 
 class Json(Frozen, Generic[V_in]):
-    """Attributes:
-    data: makes the JSON; without it the value is JSON already.
-    csv: a cell, or cells by their columns, if they are not made of the JSON.
+    """A value as JSON.
+
+    Attributes:
+        data: makes the JSON; without it the value is JSON already.
+        csv: a cell, or cells by their columns, if they are not made of the JSON.
     """
 
     schema: Schema
@@ -161,7 +163,7 @@ class Several(Frozen, Generic[T]):
 
 
 class Kind(Frozen, Generic[V_in]):
-    """The value for programs, or None, and for people, or None."""
+    """A kind of values, with its form for programs and its form for people, each or None."""
 
     what: Described[V_in] | None
     shown: Display[V_in] | None = None

@@ -45,7 +45,7 @@ def record(**fields: Schema) -> Schema:
 
 
 def constant(value: object) -> facts.Kind[object]:
-    """For programs, the same in every report."""
+    """Returns a kind for programs whose value is the same in every report."""
     return facts.Kind(facts.Json({"const": value}))
 
 
@@ -101,7 +101,7 @@ TREE: facts.Kind[Tree] = facts.Kind(
 def truth(
     value: bool | None, why: Reason | str = "", open_because: Reason | str = ""
 ) -> facts.Answer[bool]:
-    """With the reason against it, or why it is undecided."""
+    """Returns an answer with the reason against it, or why it is undecided."""
     if value is None:
         return facts.Answer(None, Status(open=as_reason(open_because or "it is open")))
     return facts.Answer(value, reason=NO_REASON if value else as_reason(why))
@@ -270,7 +270,7 @@ def term(variable: str, power: int) -> facts.Kind[Number]:
 
 
 def polynomial(variable: str) -> facts.Kind[Polynomial]:
-    """With whole coefficients; in decimals if these are long."""
+    """Returns a kind of polynomials with whole coefficients, in decimals if these are long."""
 
     def words(p: Polynomial, d: Plain) -> str:
         (whole,) = integral([p])

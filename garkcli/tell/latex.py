@@ -67,7 +67,7 @@ def _sign(found: re.Match[str]) -> str:
 
 
 def expression_latex(text: str) -> str | None:
-    """None if method files do not write the text, or it is too large."""
+    """Returns the LaTeX; None if method files do not write the text, or it is too large."""
     from garkcli.exact.expression import parse
     from garkcli.exact.rewriting import format_expression
 

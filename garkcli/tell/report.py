@@ -137,7 +137,7 @@ class Report(Frozen, Generic[Whole]):
         verbosity: int = 0,
         **signs: Unpack[DialectSigns],
     ) -> Iterator[str]:
-        """In pieces while it is found, as ``ndjson`` too; verbosity −1 leaves out the stream."""
+        """Yields the report in pieces as they are found; verbosity −1 leaves out the stream."""
         form = self.form(whole)
         streams = [row for row in form.rows if isinstance(row.kind.shown, Stream)]
         if not streams and format == "ndjson":
@@ -213,7 +213,7 @@ class Report(Frozen, Generic[Whole]):
         return "".join(signs.page(many(self.form, wholes, lambda x: self.dialect(x, format))))
 
     def html(self, whole: Whole) -> str:
-        """For notebooks, with pictures."""
+        """Returns HTML for notebooks, with pictures."""
         form, d = self.form(whole), self.dialect(whole, "html", is_brief=True)
         pictures = Section([row for row in form.rows if isinstance(row.kind.shown, Plot)])
         with self._lettered(whole) as d.letters:

@@ -40,7 +40,7 @@ STEP_X = 22
 STEP_Y = 24
 RADIUS = 8
 MARGIN = 2
-"""In pixels."""
+"""Margin in pixels."""
 
 
 def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
@@ -96,7 +96,7 @@ _POINTS = 600
 MOST_STAGES = 40
 """Most stages of a method that is run for a picture."""
 MOST_ROUNDED_STAGES = 20
-"""With rounded coefficients, whose order takes longer."""
+"""Most stages with rounded coefficients, whose order takes longer."""
 MOST_STAGES_OF_PAIR = 14
 """Most stages of an implicit-explicit pair that is drawn."""
 

@@ -32,7 +32,7 @@ MOST_CONDITIONS = 500
 USUAL_CONDITIONS = 40
 """Most conditions of one method on a page without details."""
 MOST_STAGES = 12
-"""For irrational or rounded coefficients: with 16, stability intervals take up to ten seconds."""
+"""Most stages with irrational or rounded coefficients: with 16, intervals take ten seconds."""
 
 
 class Reported(Frozen):

@@ -35,7 +35,7 @@ _WIDE, _VAST = 6, 12
 
 
 _TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "The symplectic pair"}
-"""By derivation."""
+"""Titles by derivation."""
 
 
 def content(method: Reported) -> Content | None:
