@@ -117,7 +117,7 @@ def _answering(kind, question):
 upward.hand_down(_answering)
 
 
-def _told() -> str:
+def _names_by_topic() -> str:
     lines = []
     for topic, homes in NAMES.items():
         line = f"{topic}:"
@@ -130,7 +130,7 @@ def _told() -> str:
     return "\n".join(lines)
 
 
-__doc__ = (__doc__ or "").replace("{names}", _told())
+__doc__ = (__doc__ or "").replace("{names}", _names_by_topic())
 
 
 def __getattr__(name):

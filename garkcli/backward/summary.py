@@ -92,7 +92,7 @@ def backward_analysis(
     if structure is None:
         return BackwardAnalysis(equation, order, None, False, None, None, effective)
     proved = is_symplectic(tableau)
-    found = hamiltonians.symplectic_order(equation, structure)
+    symplectic = hamiltonians.symplectic_order(equation, structure)
     terms = None
     if proved:
         terms = tuple(hamiltonians.modified_hamiltonian(equation, structure))
@@ -101,7 +101,7 @@ def backward_analysis(
         order,
         structure,
         proved,
-        _reached(found, max_order),
+        _reached(symplectic, max_order),
         _reached(hamiltonians.energy_order(equation, structure), max_order),
         effective,
         terms,

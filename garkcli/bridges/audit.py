@@ -327,7 +327,7 @@ def _is_explained(code: str, subject: TableSubject) -> bool:
 
 def _order(subject: TableSubject) -> Iterator[Remark]:
     declared = subject.table.order
-    finding = _held(subject.order, declared, "order", subject.tableau)
+    finding = _declared_remark(subject.order, declared, "order", subject.tableau)
     if finding is None or declared is None:
         return
     if finding.level != "error":
@@ -336,7 +336,9 @@ def _order(subject: TableSubject) -> Iterator[Remark]:
         yield replace(finding, help=_culprit(subject, declared))
 
 
-def _held(found: Judged | None, declared: int | None, what: str, tableau: Tableau) -> Remark | None:
+def _declared_remark(
+    found: Judged | None, declared: int | None, what: str, tableau: Tableau
+) -> Remark | None:
     """The remark on a declared order; None if it is true or undecided."""
     if found is None or declared is None or found.is_limited or found.order == declared:
         return None
@@ -430,7 +432,7 @@ def _embedded(subject: TableSubject) -> Iterator[Remark]:
         yield Remark(message, entry, code="embedded-weights", claims=claims)
     elif not is_known:
         tableau = with_weights(subject.tableau, embedded)
-        finding = _held(found, declared, "embedded order", tableau)
+        finding = _declared_remark(found, declared, "embedded order", tableau)
         yield from [] if finding is None else [finding]
 
 

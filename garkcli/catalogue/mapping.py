@@ -44,12 +44,12 @@ class Catalogue(ModuleType):
         """
         from garkcli.methodfile.load import loads
 
-        found = _found(name)
+        found = _method_called(name)
         return loads(found.read(), found.name)
 
     def __contains__(self, name: object) -> bool:
         try:
-            return _found(name) is not None
+            return _method_called(name) is not None
         except NoSuchMethod:
             return False
 
@@ -132,7 +132,7 @@ def method_names() -> list[str]:
     return [method.name for _, method in visible(every_shelf())]
 
 
-def _found(name: object) -> Shelved:
+def _method_called(name: object) -> Shelved:
     from garkcli.methodfile.naming import FAMILY, PREFIX, find_named
 
     if not isinstance(name, str):

@@ -135,10 +135,10 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
 
 def verify_property(claim: ClaimText, subject: AnySubject) -> Claim:
     verdict = subject.verdict(claim.key)
-    return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.reason)
+    return claim_of(claim, _value_text(verdict), _holds(claim, verdict, subject), verdict.reason)
 
 
-def _found(verdict: Verdict) -> str:
+def _value_text(verdict: Verdict) -> str:
     if verdict.value is None:
         return "not decided" if verdict.is_undecided else "no meaning"
     if verdict.is_at_least:

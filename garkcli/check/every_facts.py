@@ -106,9 +106,9 @@ def find(
     budget.left -= 1
     try:
         if is_of_stages:
-            value, told = _asked_in_points(family, ask)
+            value, told = _answer_in_points(family, ask)
         else:
-            value, told = _asked(ask, family.tableau, family.ring)
+            value, told = _answer_over(ask, family.tableau, family.ring)
     except TypeError:
         # numbers have signs, rational functions have none; stage algebras have no entries
         return by_samples(family, ask)
@@ -147,21 +147,21 @@ def find(
     return FamilyFact(value, open=tuple(open_), elsewhere=tuple(elsewhere))
 
 
-def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
+def _answer_over(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
     with ring.telling_apart() as told:
         value = answer(ask, tableau)
     return value, list(told.values())
 
 
-def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
+def _answer_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
     """Returns the answer on point stages; TypeError without simple nodes or one parameter."""
     tableau = family.in_points
     if tableau is family.tableau:
-        return _asked(ask, tableau, family.ring)
+        return _answer_over(ask, tableau, family.ring)
     if tableau is None or not family.has_one:
         raise TypeError
     ring = ring_of(tableau)
-    value, told = _asked(ask, tableau, ring)
+    value, told = _answer_over(ask, tableau, ring)
     return value, [family.norm(p, ring) for p in told]
 
 

@@ -48,7 +48,7 @@ _MOST = 3
 
 
 def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
-    return _told(witness, Code(format_tree(witness.tree, colours)))
+    return _failure(witness, Code(format_tree(witness.tree, colours)))
 
 
 DENSE_ORDERS = {
@@ -64,7 +64,7 @@ PREDICTOR_ORDERS = ("predictor-order", "predictor-order-equal-steps")
 def dense_witness_text(dense: DenseWitness, colours: bool | Sequence[str]) -> Reason:
     tree = Code(format_tree(dense.witness.tree, colours))
     power = Formula(f"θ^{dense.power}", rf"\theta^{{{dense.power}}}")
-    return _told(dense.witness, Reason("{}, at {}", tree, power))
+    return _failure(dense.witness, Reason("{}, at {}", tree, power))
 
 
 def predictor_witness_text(orders: PredictorOrders, *, equal_steps: bool) -> Reason:
@@ -74,10 +74,10 @@ def predictor_witness_text(orders: PredictorOrders, *, equal_steps: bool) -> Rea
     stage, where = missed
     tree = Code(format_tree(where.witness.tree, colours=False))
     ratio = "" if equal_steps else f", r = {where.ratio}"
-    return _told(where.witness, Reason(f"{{}} of stage {stage + 1}{ratio}", tree))
+    return _failure(where.witness, Reason(f"{{}} of stage {stage + 1}{ratio}", tree))
 
 
-def _told(witness: Witness, condition: Code | Reason) -> Reason:
+def _failure(witness: Witness, condition: Code | Reason) -> Reason:
     value, residual = to_text(witness.value), to_text(witness.residual)
     is_long = len(value) + len(residual) > _LONG
     return Reason(

@@ -43,7 +43,7 @@ def pair_reason(analysis: Analysis) -> PairReason | None:
     if analysis.tableau.is_partitioned:
         method = derived(method, "pair")
     criterion = pair_criterion(method, analysis.limit)
-    parts = [_held(criterion.order, tableau.size > 1)]
+    parts = [_conditions_met(criterion.order, tableau.size > 1)]
     if criterion.missing:
         names = [colour.name for colour in tableau.colours]
         missing = _missing(criterion.missing, names, sum(1 for _ in tableau.edges()))
@@ -83,7 +83,7 @@ def _is_sharp(analysis: Analysis) -> tuple[bool, str]:
     return True, ""
 
 
-def _held(order: int, has_blocks: bool) -> str:
+def _conditions_met(order: int, has_blocks: bool) -> str:
     k = (order - 1) // 2
     parts = [f"B({order})"] if order else ["nothing"]
     if k > 0:

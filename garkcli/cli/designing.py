@@ -243,7 +243,7 @@ def design(given: DesignOptions, output: Output) -> int:
     _refuse_rounded(family, given)
     if given.search is None:
         refuse_levels(family)
-    asked = _asked(family, given)
+    asked = _required_stability(family, given)
     if asked is not None and (given.order_of(family) is None or is_of_springs):
         _check_stability(given)
         _refuse_unsettled(family)
@@ -264,11 +264,11 @@ def design(given: DesignOptions, output: Output) -> int:
     chosen: list[Choice] = []
     if given.choose:
         with _half(given):
-            chosen = _walk(_found(family, given), given.choose)
+            chosen = _walk(_design(family, given), given.choose)
         settings = {**given.settings, **given.choose}
         family = load_family(given.file, settings, moment, is_free)
         family = _as_stable(family, asked)
-    return _told(family, chosen, given, output)
+    return _run(family, chosen, given, output)
 
 
 def _refuse_rounded(family: FamilyFile, given: DesignOptions) -> None:
@@ -329,7 +329,7 @@ def _wishes(given: DesignOptions) -> str:
     return "" if given.stability is None else f" --{given.stability}{colour}"
 
 
-def _asked(family: FamilyFile, given: DesignOptions) -> RequiredStability | None:
+def _required_stability(family: FamilyFile, given: DesignOptions) -> RequiredStability | None:
     from garkcli.tableau.family import RequiredStability
 
     if given.stability is None:
@@ -382,12 +382,12 @@ def _as_stable(family: FamilyFile, asked: RequiredStability | None) -> FamilyFil
     return replace(family, stable=(*family.stable, asked))
 
 
-def _told(family: FamilyFile, chosen: list[Choice], given: DesignOptions, output: Output) -> int:
+def _run(family: FamilyFile, chosen: list[Choice], given: DesignOptions, output: Output) -> int:
     from garkcli.methodfile.naming import called
     from garkcli.report.design import REPORT, DesignReport
 
     with _half(given) if given.minimise is not None else until(given.moment):
-        found = _found(family, given)
+        found = _design(family, given)
     sets = _sets(found, given)
     stable = [None] if sets is None else [x.has_values for x in sets]
     answers = [found.reaches(given.order_of(family) or 1), *stable]
@@ -405,7 +405,7 @@ def _told(family: FamilyFile, chosen: list[Choice], given: DesignOptions, output
     return EXIT_CODES[None if found.last.kind == "undecided" else is_reached]
 
 
-def _found(family: FamilyFile, given: DesignOptions) -> Design:
+def _design(family: FamilyFile, given: DesignOptions) -> Design:
     from garkcli.design.design import find_parameters
 
     return find_parameters(family, given.order_of(family), given.whose)

@@ -298,7 +298,7 @@ def report(given: Page, output: Output) -> int:
             message = f"{output.path} exists already, and is not a page"
             raise UsageProblem(message, f"-o {output.path} writes over it", code="cannot-write")
     asked = given.order, given.pictures is not False, given.settings
-    found = (reported(_meant(path, given), *asked) for path in paths)
+    found = (reported(_file_or_derived(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
     output.write(render(methods, output.verbosity > 0))
     if given.open and output.path is not None:
@@ -336,7 +336,7 @@ def _page_name(paths: list[str], which: str | None) -> str:
     return f"{name}-{which}.html" if which else f"{name}.html"
 
 
-def _meant(path: str, given: Page) -> str | GarkMethod:
+def _file_or_derived(path: str, given: Page) -> str | GarkMethod:
     """A file, or the conjugate or the pair of its method; UsageProblem for free parameters."""
     if given.which is None:
         return path

@@ -232,11 +232,11 @@ def file(holds: str = "", metavar: str = "FILE") -> Kind[str]:
     """A file that the command writes, in one format if ``holds`` says so."""
     settings: dict[str, Any] = {"metavar": metavar, "type": arguments.PATH}
     if holds:
-        settings["callback"] = partial(_held, holds)
+        settings["callback"] = partial(_fitting_path, holds)
     return Kind(settings, holds=holds)
 
 
-def _held(
+def _fitting_path(
     format: str, _: click.Context, parameter: click.Parameter, path: str | None
 ) -> str | None:
     """Checks that the ending of a file fits its content."""

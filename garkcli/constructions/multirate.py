@@ -80,10 +80,10 @@ def small_steps(fast: Method, steps: int) -> Method:
     """Returns equal steps as one method; MethodError for too many stages."""
     refuse_large(steps * fast.stages, SMALLER)
     one = Substep(gark([fast], {}), fmpq(1, steps))
-    return _alone(composed([one] * steps))
+    return _as_method(composed([one] * steps))
 
 
-def _alone(tableau: Tableau) -> Method:
+def _as_method(tableau: Tableau) -> Method:
     return Method("", tableau.spaces[0], tableau.blocks[0, 0], tableau.colours[0].b)
 
 
@@ -140,7 +140,7 @@ def by_blocks(slow: Method, fast: Method, blocks: Blocks) -> Tableau:
     refuse_large(slow.stages + steps * fast.stages, SMALLER)
     length = fmpq(1, steps)
     one = Substep(gark([fast], {}), length)
-    whole = _alone(in_turn([one] * steps))
+    whole = _as_method(in_turn([one] * steps))
     seen_by_fast: list[Vector] = []
     for block in blocks.fast_slow:
         seen_by_fast += block

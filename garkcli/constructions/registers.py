@@ -59,7 +59,7 @@ def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
     return [sum(x * y for (x, _), y in zip(terms, column, strict=True)) for column in columns]
 
 
-def _whole(row: Numbers, stages: int, first: int) -> Numbers:
+def _full_row(row: Numbers, stages: int, first: int) -> Numbers:
     """Adds ``first`` to a row that lacks it; MethodError for other lengths."""
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
@@ -76,7 +76,7 @@ def two_registers(A: Numbers, B: Numbers) -> Steps:
     >>> two_registers(A, B).b
     [1/6, 3/10, 8/15]
     """
-    A = _whole(A, len(B), 0)
+    A = _full_row(A, len(B), 0)
     made = _Registers(len(B))
     y, dy = made.y, made.nothing
     for a, b in zip(A, B, strict=True):
@@ -137,7 +137,7 @@ def three_registers(
     """
     stages = len(beta)
     known = ((gamma1, 0), (gamma2, 1), (gamma3, 0), (delta, 1))
-    rows = [_whole(row[:stages], stages, first) for row, first in known]
+    rows = [_full_row(row[:stages], stages, first) for row, first in known]
     made = _Registers(stages)
     y, other = made.y, made.nothing
     for g1, g2, g3, d, b in zip(*rows, beta, strict=True):
@@ -151,7 +151,7 @@ def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
     of its column. Each diagonal has an entry per row, from the second row on.
     """
     stages = len(b)
-    rows = [_whole(x, stages, 0) for x in diagonals]
+    rows = [_full_row(x, stages, 0) for x in diagonals]
     A = []
     for i in range(stages):
         row = [b[j] if j < i else 0 for j in range(stages)]
@@ -164,7 +164,7 @@ def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
 
 def ahead(b: Numbers, A: Numbers) -> Steps:
     """2C: y ← y + B_i h f, with f evaluated at y + A_i h f for the previous f."""
-    A = _whole(A, len(b), 0)
+    A = _full_row(A, len(b), 0)
     return van_der_houwen(b, [0, *(x + y for x, y in zip(A[1:], b, strict=False))])
 
 

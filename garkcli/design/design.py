@@ -180,9 +180,9 @@ class _Finding(Frozen):
                     with suppress(NotDecided):
                         step = self._at_once(step.order)
             if isinstance(step, NoValue) and self.criterion is not None and steps:
-                steps[-1] = self._looked_into(steps[-1], is_last=True)
+                steps[-1] = self._solved(steps[-1], is_last=True)
             is_last = self.criterion is None or wanted is None or k == wanted
-            steps.append(self._looked_into(step, is_last))
+            steps.append(self._solved(step, is_last))
             if not steps[-1].may_have_methods or step.order == wanted:
                 break
         return _with_lower(steps)
@@ -289,7 +289,7 @@ class _Finding(Frozen):
             return Undecided(order, ideal)
         return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
-    def _looked_into(self, step: Step, is_last: bool) -> Step:
+    def _solved(self, step: Step, is_last: bool) -> Step:
         """The step with its polynomials and solutions, and the real values if it is the last. It is
         undecided if the solutions take too long.
         """

@@ -165,13 +165,13 @@ def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
 
 def _simplest(low: fmpq, high: fmpq) -> fmpq:
     """The number of smallest denominator strictly between two, by continued fractions."""
-    whole = low.floor()
-    if whole + 1 < high:
-        return fmpq(whole + 1)
-    rest = high - whole
-    if low == whole:
-        return whole + fmpq(1) / ((1 / rest).floor() + 1)
-    return whole + 1 / _simplest(1 / rest, 1 / (low - whole))
+    integer = low.floor()
+    if integer + 1 < high:
+        return fmpq(integer + 1)
+    rest = high - integer
+    if low == integer:
+        return integer + fmpq(1) / ((1 / rest).floor() + 1)
+    return integer + 1 / _simplest(1 / rest, 1 / (low - integer))
 
 
 def where_not_negative(polynomials: Sequence[Polynomial]) -> tuple[Interval, ...]:

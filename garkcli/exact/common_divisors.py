@@ -99,7 +99,7 @@ def _fractions(values: Sequence[int], modulus: int) -> list[fmpq] | None:
     """Rational reconstruction of small fractions from residues; None if one fails."""
     bound = isqrt(modulus // 2)
     denominator = 1
-    found = []
+    fractions = []
     for value in values:
         # most often the denominator of those before is one of this one too
         before, rest = modulus, value * denominator % modulus
@@ -113,5 +113,5 @@ def _fractions(values: Sequence[int], modulus: int) -> list[fmpq] | None:
         denominator *= abs(factor)
         if denominator > bound:
             return None
-        found.append(fmpq(rest if factor > 0 else -rest, denominator))
-    return found
+        fractions.append(fmpq(rest if factor > 0 else -rest, denominator))
+    return fractions

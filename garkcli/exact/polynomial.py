@@ -291,8 +291,8 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
     if _are_coprime_modulo_a_prime(a, b, field):
         return Polynomial([1])
     over, under = ([poly_of(x) for x in p.coefficients] for p in (a, b))
-    found = (Polynomial(map(field.element, g)) for g in candidates(over, under, field))
-    return next(g for g in found if not a % g and not b % g)
+    divisors = (Polynomial(map(field.element, g)) for g in candidates(over, under, field))
+    return next(g for g in divisors if not a % g and not b % g)
 
 
 def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial, field: NumberField) -> bool:

@@ -273,8 +273,8 @@ def number_of(root: RealRoot, most_degree: int) -> Number | None:
         return root.exact
     if root.polynomial.degree() > most_degree:
         return None
-    meant = AlgebraicRoot(tuple(int(c) for c in root.polynomial.coeffs()), root.number)
-    return Domain([meant]).evaluate(meant)
+    expression = AlgebraicRoot(tuple(int(c) for c in root.polynomial.coeffs()), root.number)
+    return Domain([expression]).evaluate(expression)
 
 
 def square_root(x: RealRoot) -> RealRoot:

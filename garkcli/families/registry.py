@@ -162,19 +162,19 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
     given: dict[str, Given] = {}
     for key, value in options.items():
         if family is not None and key == family.size and stages is None:
-            stages = _whole(value, key)
+            stages = _integer(value, key)
         else:
-            given[key] = _given(known.get(key), value, key)
+            given[key] = _option_value(known.get(key), value, key)
     recipe = recipe_of(name, stages, given)
     domain = Domain(recipe.numbers)
     return recipe.make(tuple(map(domain.evaluate, recipe.numbers)))
 
 
-def _given(option: Option | None, value: object, key: str) -> Given:
+def _option_value(option: Option | None, value: object, key: str) -> Given:
     if option is None:
         return str(value)
     if option.smallest is not None:
-        number = _whole(value, key)
+        number = _integer(value, key)
         if number >= option.smallest:
             return number
         cure = f"give {option.smallest} or more"
@@ -191,7 +191,7 @@ def _given(option: Option | None, value: object, key: str) -> Given:
         raise UnknownFamily(f"{key}: {error.message}", error.help, code=error.code) from None
 
 
-def _whole(value: object, key: str) -> int:
+def _integer(value: object, key: str) -> int:
     if isinstance(value, int) and not isinstance(value, bool):
         return value
     message = f"{key}: a whole number is expected, not {str(value)[:MAX_NAME]}"

@@ -76,7 +76,7 @@ class Measure:
         return np.array([sum(map(abs, _values_of(own, at))) for own in self._summands])
 
     @cached_property
-    def _alone(self) -> list[Callable[..., list[Any]]]:
+    def _single_invariants(self) -> list[Callable[..., list[Any]]]:
         """Functions of single invariants, for states at which one of them has no value."""
         arguments = problems.unknowns(self._problem)
         return [
@@ -95,7 +95,7 @@ class Measure:
         try:
             return self._function(*y)
         except (ArithmeticError, ValueError):
-            return [sum(_values_of(alone, y)) for alone in self._alone]
+            return [sum(_values_of(alone, y)) for alone in self._single_invariants]
 
     def _precisely(self, compute: Callable[[], Any]) -> Any:
         if not self._bits:

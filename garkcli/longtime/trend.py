@@ -62,8 +62,7 @@ Finding: TypeAlias = Literal["none", "undecided", "drift"]
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
-"""Multiple of its uncertainty that no drift exceeds in 480 runs of symplectic methods on planets.
-"""
+"""Multiple of its uncertainty that no drift exceeds in 480 symplectic runs on two planets."""
 # (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
 _SHORTENING = 8.0
 # 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have

@@ -125,11 +125,11 @@ class BlockBuilder:
         return (
             transfer_rules.RULES[name]
             if name != "legendre"
-            else transfer_rules.legendre_rule(self._alone, degree)
+            else transfer_rules.legendre_rule(self._diagonal_methods, degree)
         )
 
     @cached_property
-    def _alone(self) -> list[AnyTableau]:
+    def _diagonal_methods(self) -> list[AnyTableau]:
         return self.values.once(
             ("alone", id(self.text)),
             lambda: [meant(self.values.alone(method), self.tolerance) for method in self.methods],

@@ -190,15 +190,15 @@ class Recovery(SearchedBox):
             self.place, self.shape = self.origin, {}
 
     def _start_at_recovered(self) -> bool:
-        found = recovered_of(self.box, self.origin.exact("method").known)
-        if found is None:
+        stored = recovered_of(self.box, self.origin.exact("method").known)
+        if stored is None:
             return False
         self.add_further()
-        place = BoxPlace(self, found.shifts)
-        sizes = [abs(x) for x in place.values(found.shape)]
+        place = BoxPlace(self, stored.shifts)
+        sizes = [abs(x) for x in place.values(stored.shape)]
         if not place.is_inside or not all(x < self.small for x in sizes):
             return False
-        self.place, self.shape, self.system = place, found.shape, found.system
+        self.place, self.shape, self.system = place, stored.shape, stored.system
         return True
 
     def recover_shape(self) -> None:
@@ -248,12 +248,12 @@ class Recovery(SearchedBox):
         # the nodes and weights of s stages are a quadrature formula of order 2s at most; further
         # conditions, explained by large radii alone, fail one order at a time, which is fast
         most = 2 * max((space.stages for space in self.origin.exact(name).spaces), default=limit)
-        at_once, alone = self.explained(name, min(limit, most))
-        if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:
+        reachable, unmet = self.explained(name, min(limit, most))
+        if reachable > 1 and self._try({name: reachable}) is None and reachable == limit:
             return limit, None, []
         for order in range(self._reached.get(name, 0) + 1, limit + 1):
-            if alone is not None and order > at_once:
-                failure: RecoveryFailure | None = RecoveryFailure(True, ((name, of_tree(alone)),))
+            if unmet is not None and order > reachable:
+                failure: RecoveryFailure | None = RecoveryFailure(True, ((name, of_tree(unmet)),))
             else:
                 failure = self._try({name: order})
             if failure is not None:
@@ -398,8 +398,8 @@ class Recovery(SearchedBox):
             first.setdefault((x, t) if isinstance(x, fmpq) else k, len(first))
             for k, (x, t) in enumerate(printed)
         ]
-        alone = list(range(len(tied)))
-        return [alone] if tied == alone else [tied, alone]
+        singles = list(range(len(tied)))
+        return [singles] if tied == singles else [tied, singles]
 
     def _iterate(self, system: System, place: BoxPlace, groups: Sequence[int]) -> BoxPlace | None:
         """Returns a method at which all rows vanish, or a method of the box where they do to second

@@ -290,9 +290,9 @@ def _most_telling(
     rounded: RoundedTableau, order: int, failure: RecoveryFailure, missed: Sequence[Tree]
 ) -> Tree:
     """A tree that no method of the box meets, or the heaviest in the proof that none meets all."""
-    alone = next((u for u in missed if not rounded.explains(u)), None)
-    if alone is not None:
-        return alone
+    unmet = next((u for u in missed if not rounded.explains(u)), None)
+    if unmet is not None:
+        return unmet
     return next((u for u in failure.trees if u.order == order), missed[0])
 
 

@@ -153,23 +153,23 @@ class FormDefects:
         unit = part(self.tableau.one(l), [0])
         columns = [block.column(i) for i in range(stages)]
         vector = self.tableau.one(l)
-        series, traces, found = [unit], [], [unit]
+        series, traces, coefficients = [unit], [], [unit]
         for k in range(1, stages + 1):
             series.append(self.tableau.b[l].dot(vector))
             vector = block.times(vector)
             diagonal = joined([part(column, [i]) for i, column in enumerate(columns)])
             traces.append(diagonal.dot(self.tableau.one(l)))
             columns = [block.times(column) for column in columns]
-            total = joined(found[::-1]).dot(joined(traces))
-            found.append(total.scaled(fmpq(-1, k)))
-        return joined(found), joined(series)
+            total = joined(coefficients[::-1]).dot(joined(traces))
+            coefficients.append(total.scaled(fmpq(-1, k)))
+        return joined(coefficients), joined(series)
 
     def _tree(self, x: Label) -> Forms:
         """γ(u) b_lᵀ 𝒜^[u] − k."""
         assert x.tree is not None
         tree = x.tree
-        found = self.tableau.b[x.l].dot(self._vector(tree))
-        return shifted(found.scaled(fmpq(tree.density)), fmpq(x.k))
+        weight = self.tableau.b[x.l].dot(self._vector(tree))
+        return shifted(weight.scaled(fmpq(tree.density)), fmpq(x.k))
 
     def _vector(self, tree: Tree) -> Forms:
         vector = None

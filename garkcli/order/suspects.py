@@ -257,8 +257,8 @@ def _repair(search: Recovery, k: int, change: Number) -> Repair | None:
             for j, (old, form) in enumerate(zip(own.b, made.b, strict=True)):
                 entries.append((Repair(l, None, None, j, old, old, is_embedded), form))
     with_it = [x for x in entries if isinstance(x[1], Affine) and k in x[1].slopes]
-    alone = [x for x in with_it if len(x[1].slopes) == 1] or (with_it if len(with_it) == 1 else [])
-    for repair, form in alone:
+    sole = [x for x in with_it if len(x[1].slopes) == 1] or (with_it if len(with_it) == 1 else [])
+    for repair, form in sole:
         slope = form.slopes[k] / to_float(search.box.radii[k])
         if abs(abs(slope) - 1) < NEARLY and isinstance(repair.old, fmpq):
             return replace(repair, new=repair.old + (change if slope > 0 else -change))

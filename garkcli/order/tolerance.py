@@ -42,11 +42,11 @@ def rounded_up(size: arb) -> fmpq:
     if upper == 0:
         return fmpq(0)
     decades = upper.log() / arb(10).log()
-    step = fmpq(10) ** (_whole(decades.mid().floor()) - 1)
-    return _whole((upper / arb(step)).abs_upper().ceil()) * step
+    step = fmpq(10) ** (_integer(decades.mid().floor()) - 1)
+    return _integer((upper / arb(step)).abs_upper().ceil()) * step
 
 
-def _whole(number: arb) -> int:
+def _integer(number: arb) -> int:
     whole = number.unique_fmpz()
     assert whole is not None
     return int(whole)

@@ -46,13 +46,13 @@ def weak_stage_order(method: AnyTableau | Defects, colours: Sequence[int], limit
 def _functionals(defects: Defects, colours: Sequence[int]) -> Iterator[tuple[int, Vector]]:
     """A basis of all b^{l} A^{l,m} ⋯ A^{n,p}, each with its last colour p."""
     edges = set(defects.tableau.edges())
-    found = {l: Echelon(defects) for l in colours}
+    spans = {l: Echelon(defects) for l in colours}
     waiting = deque((l, defects.weights(l)) for l in colours)
     while waiting:
         check_time()
         l, w = waiting.popleft()
         with defects.precision():
-            if not found[l].grows(w):
+            if not spans[l].grows(w):
                 continue
         yield l, w
         waiting.extend((m, defects.before(l, m, w)) for m in colours if (l, m) in edges)
@@ -70,8 +70,8 @@ class Echelon:
             factor = vector[pivot]
             if factor != 0:
                 vector = tuple(x - factor * y for x, y in zip(vector, row, strict=True))
-        found = next((j for j, x in enumerate(vector) if not self._vanish([x])), None)
-        if found is None:
+        pivot_of_rest = next((j for j, x in enumerate(vector) if not self._vanish([x])), None)
+        if pivot_of_rest is None:
             return False
-        self._rows.append((found, tuple(x / vector[found] for x in vector)))
+        self._rows.append((pivot_of_rest, tuple(x / vector[pivot_of_rest] for x in vector)))
         return True

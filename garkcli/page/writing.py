@@ -26,7 +26,7 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
     be a file that was read. Raises UsageProblem, with nothing changed, if it cannot be written or
     is an input.
     """
-    with _told(path), undone():
+    with _writing(path), undone():
         target = _without_links(path)
         stream = own_stream(str(target))
         before = None if stream is not None else _status(target)
@@ -53,7 +53,7 @@ def refuse_unwritable(path: str) -> None:
     if not path:
         message = "the name of the file to be written is empty"
         raise UsageProblem(message, "name a file", code="cannot-write")
-    with _told(path):
+    with _writing(path):
         target = _without_links(path)
         if own_stream(str(target)) is not None:
             return
@@ -71,7 +71,7 @@ def refuse_unwritable(path: str) -> None:
 
 
 @contextmanager
-def _told(path: str) -> Iterator[None]:
+def _writing(path: str) -> Iterator[None]:
     try:
         yield
     except BrokenPipeError:

@@ -157,14 +157,14 @@ def _root(left: dict[int, nmod_poly], p: int) -> tuple[int | None, int]:
 
 
 def _residues(numbers: Iterable[Number], p: int) -> list[int]:
-    found = []
+    residues = []
     for x in numbers:
         assert isinstance(x, fmpq)
         denominator = int(x.q) % p
         if not denominator:
             raise ZeroDivisionError
-        found.append(int(x.p) * pow(denominator, -1, p) % p)
-    return found
+        residues.append(int(x.p) * pow(denominator, -1, p) % p)
+    return residues
 
 
 def _at(rows: Sequence[Sequence[int]], r: int, p: int) -> list[int]:

@@ -156,17 +156,17 @@ class Shape(Frozen):
 
 def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
-    alone = [x for x, *others in graph.systems if not others and x in graph.successors[x]]
-    implicit = sum(map(len, together)) + len(alone) if graph.is_certain else None
+    implicit_alone = [x for x, *others in graph.systems if not others and x in graph.successors[x]]
+    implicit = sum(map(len, together)) + len(implicit_alone) if graph.is_certain else None
     kind: Kind | None = None
     if together:
         kind = "fully implicit"
     elif graph.is_certain:
-        kind = "diagonally implicit" if alone else "explicit"
+        kind = "diagonally implicit" if implicit_alone else "explicit"
     gamma = None
     if kind == "diagonally implicit":
-        gamma = _gamma(graph, alone, tolerance)
-    singly = "" if gamma is None else _singly(graph, alone)
+        gamma = _gamma(graph, implicit_alone, tolerance)
+    singly = "" if gamma is None else _singly(graph, implicit_alone)
     return Shape(kind, implicit, tuple(together), gamma, singly)
 
 
@@ -191,11 +191,11 @@ def _shown(number: Number, grain: fmpq) -> Number:
 
 def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Number | None:
     """The common diagonal entry of the implicit stages; None if they differ."""
-    found = [entry for vertex in alone for entry in graph.loops[vertex]]
-    first = found[0]
+    diagonal = [entry for vertex in alone for entry in graph.loops[vertex]]
+    first = diagonal[0]
     if first is None:
         return None
-    for entry in found:
+    for entry in diagonal:
         if entry is None or not within(entry - first, 2 * tolerance):
             return None
     return _shown(first, tolerance) if tolerance else first

@@ -147,7 +147,7 @@ def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
             yield Finding(remark, x.code, file, key)
 
 
-def _told(
+def _rendered(
     tables: Sequence[Audited],
     look: Look = PLAIN,
     verbosity: int = 0,
@@ -161,11 +161,11 @@ def _told(
 def _github(tables: Sequence[Audited], *_: object) -> str:
     """A workflow command for each finding, and the text for the log."""
     told = "".join(f"{x}\n" for x in [annotation(x) for x in _findings(tables)])
-    return told + commands_off(_told(tables, verbosity=-1))
+    return told + commands_off(_rendered(tables, verbosity=-1))
 
 
 FORMATS: Mapping[str, Callable[..., str]] = {
-    **{format: partial(_told, format=format) for format in TOLD},
+    **{format: partial(_rendered, format=format) for format in TOLD},
     "github": _github,
     "sarif": lambda tables, *_: log_of(list(_findings(tables)), "audit"),
 }

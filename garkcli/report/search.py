@@ -51,7 +51,7 @@ class SearchReport(NamedTuple):
         return list(zip(self.result.methods, self.files, strict=True))
 
 
-def _found(x: SearchReport, d: Plain) -> str:
+def _summary(x: SearchReport, d: Plain) -> str:
     search, result = x.search, x.result
     order = f"order {search.order}" + f" of the {search.whose}" * (search.whose != "method")
     found = f"{counted(len(result.methods), 'method')} of {order} found"
@@ -183,7 +183,7 @@ WHOLE: Section[SearchReport] = Section(
     Row("file", TEXT, lambda x: x.file, DATA),
     Row("name", TEXT, lambda x: x.search.family.name, DETAIL),
     Row("of", choice(*get_args(Whose)), lambda x: x.search.whose, DATA),
-    answer(_found),
+    answer(_summary),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
     Row("order", POSITION, lambda x: x.search.order, DATA),
     optional("objective", TEXT, lambda x: _key(x.result.objective), DATA),

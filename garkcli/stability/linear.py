@@ -65,13 +65,13 @@ def unreduced(system: StageSystem) -> StepFunction:
 
 def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number]]:
     """The coefficients of z, z², … in one column of M, a list for each row."""
-    found: list[list[Number]] = [[] for _ in system.B]
+    series: list[list[Number]] = [[] for _ in system.B]
     state = column
     for _ in range(terms):
         for i, value in enumerate(apply(system.B, state)):
-            found[i].append(value)
+            series[i].append(value)
         state = apply(system.W, state)
-    return found
+    return series
 
 
 def reduced(step: StepFunction) -> StepFunction:

@@ -106,12 +106,12 @@ def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Ma
         end = column + len(colour.b)
         K[size][column:end] = colour.b
         parts.append(_frozen(K))
-    whole = _square(size + 1)
+    total = _square(size + 1)
     for ratio, part in zip(ratios, parts, strict=True):
         for i, row in enumerate(part):
             for j, x in enumerate(row):
-                whole[i][j] = whole[i][j] + ratio * x
-    return _frozen(whole), parts
+                total[i][j] = total[i][j] + ratio * x
+    return _frozen(total), parts
 
 
 def _square(size: int) -> list[list[Number]]:
@@ -128,32 +128,32 @@ def conditions_at(tableau: Tableau) -> list[Polynomial]:
 
 
 def _conditions(
-    whole: Matrix, parts: Sequence[Matrix], with_zeros: bool = False
+    K: Matrix, parts: Sequence[Matrix], with_zeros: bool = False
 ) -> Iterator[Polynomial]:
     """Polynomials in r that must not be negative from 0 to the radius. (I + rK)⁻¹ = Σ (−r)^k K^k,
     and d · (I + rK)⁻¹ with d(r) = det(I + rK) is a polynomial of degree at most n: finitely many
     terms of the product of the series determine it.
     """
-    n = len(whole)
-    minus_whole = scale(-ONE, whole)
-    denominator = reciprocal_characteristic(minus_whole)
+    n = len(K)
+    minus_K = scale(-ONE, K)
+    denominator = reciprocal_characteristic(minus_K)
     yield denominator
     for part in parts:
         for column in transpose(part):
             if with_zeros or any(column):
-                yield from _entries(denominator, minus_whole, column, n)
-    yield from _entries(denominator, minus_whole, (ONE,) * n, n)
+                yield from _entries(denominator, minus_K, column, n)
+    yield from _entries(denominator, minus_K, (ONE,) * n, n)
 
 
 def _entries(
-    denominator: Polynomial, minus_whole: Matrix, vector: Sequence[Number], n: int
+    denominator: Polynomial, minus_K: Matrix, vector: Sequence[Number], n: int
 ) -> list[Polynomial]:
     series: list[list[Number]] = [[] for _ in range(n)]
     state = tuple(vector)
     for _ in range(n + 1):
         for i, x in enumerate(state):
             series[i].append(x)
-        state = apply(minus_whole, state)
+        state = apply(minus_K, state)
     products = (denominator * Polynomial(terms) for terms in series)
     return [Polynomial(product.coefficients[: n + 1]) for product in products]
 

@@ -64,7 +64,7 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
     """Returns the joint stability; ``ratios`` are further r_2/r_1 for the additive radius."""
     late: set[str] = set()
     size = tableau.size
-    alone = [linear_problems.stability_function(tableau, _unit(size, l)) for l in range(size)]
+    single = [linear_problems.stability_function(tableau, _unit(size, l)) for l in range(size)]
     directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
     directions.append([ONE] * size)
     directions += [[ONE, ratio] for ratio in ratios]
@@ -81,7 +81,7 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
         lines=lines_needed(tableau),
         radii=tuple(radii or ()),
         pair=pair,
-        explicit_alone=alone[0 if pair is None else pair.explicit],
+        explicit_alone=single[0 if pair is None else pair.explicit],
         real=real,
         imaginary=imaginary,
         late=frozenset(late),
@@ -337,8 +337,8 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     size = tableau.size
     if tableau.is_partitioned or len(list(tableau.edges())) < size**2:
         return []
-    alone = [(x.name, _unit(size, l)) for l, x in enumerate(tableau.colours)]
-    return [("all", [ONE] * size), *(alone if size > 1 else [])]
+    single = [(x.name, _unit(size, l)) for l, x in enumerate(tableau.colours)]
+    return [("all", [ONE] * size), *(single if size > 1 else [])]
 
 
 def linear_stability(

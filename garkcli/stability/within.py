@@ -100,24 +100,24 @@ def ssp_within(
     """Brackets the first failure of any condition of ``garkcli.stability.ssp``."""
     pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
-    whole = arb_mat(n, n)
+    K = arb_mat(n, n)
     vectors = [[arb(1)] * n]
     driven = [share for share in shares if share]
     for share, part in zip(driven, parts, strict=True):
         wide = arb_mat([rounded_balls(row, tolerance) for row in part])
-        whole += wide * to_ball(share, digits_here())
+        K += wide * to_ball(share, digits_here())
         columns = wide.transpose().tolist()
         vectors += [column for column in columns if not all(x.is_zero() for x in column)]
-    denominator = _reciprocal(pattern, -whole)
+    denominator = _reciprocal(pattern, -K)
     conditions = [[denominator[k] for k in range(len(denominator))]]
     for vector in vectors:
-        conditions += _numerators(denominator, whole, vector)
-    found = ball_polynomials.UNLIMITED
+        conditions += _numerators(denominator, K, vector)
+    least = ball_polynomials.UNLIMITED
     for condition in conditions:
-        found = ball_polynomials.least(
-            [found, ball_polynomials.first_failure(condition, found.high)]
+        least = ball_polynomials.least(
+            [least, ball_polynomials.first_failure(condition, least.high)]
         )
-    return found
+    return least
 
 
 def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> list[list[arb]]:

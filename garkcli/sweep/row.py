@@ -31,7 +31,7 @@ def first_find(point: Point) -> FoundMethod | None:
     assert point.seed is not None
     if template.is_drawn:
         return _drawn(point, Draw(point.seed))
-    for result in results(_asked(point).search, template.starts, point.seed, most=1):
+    for result in results(_file_search(point).search, template.starts, point.seed, most=1):
         if result.methods:
             return result.methods[0]
     return None
@@ -39,7 +39,7 @@ def first_find(point: Point) -> FoundMethod | None:
 
 def _drawn(point: Point, draw: Draw) -> FoundMethod:
     """Returns a method with random parameters whose pair has the order; MethodError without one."""
-    family = _asked(point).family
+    family = _file_search(point).family
     order = point.template.order
     design = find_parameters(family, order, "pair")
     step, criterion, drawn = design.last, design.criterion_of(design.last), None
@@ -57,10 +57,12 @@ def _drawn(point: Point, draw: Draw) -> FoundMethod:
 
 def method_found(point: Point, method: FoundMethod) -> Tableau:
     claim = f"{'pair-' * point.template.is_drawn}order: {method.order}"
-    return loads(with_values(_asked(point).family, method.values, "", claim), point.key).tableau
+    return loads(
+        with_values(_file_search(point).family, method.values, "", claim), point.key
+    ).tableau
 
 
-def _asked(point: Point) -> FileSearch:
+def _file_search(point: Point) -> FileSearch:
     template = point.template
     return FileSearch(template.text, template.name, tuple(point.settings.items()), template.order)
 

@@ -275,14 +275,14 @@ def _lagrange(nodes: Sequence[Number]) -> Iterator[matrix.Vector]:
     for c in nodes:
         w = [a - c * b for a, b in zip([ZERO, *w], [*w, ZERO], strict=True)]
     for c in nodes:
-        others: list[Number] = []
-        carried: Number = ZERO
+        quotients: list[Number] = []
+        quotient: Number = ZERO
         for coefficient in reversed(w[1:]):
-            carried = carried * c + coefficient
-            others.append(carried)
-        others.reverse()
-        factor = ONE / _value(others, c)
-        yield tuple(factor * coefficient for coefficient in others)
+            quotient = quotient * c + coefficient
+            quotients.append(quotient)
+        quotients.reverse()
+        factor = ONE / _value(quotients, c)
+        yield tuple(factor * coefficient for coefficient in quotients)
 
 
 def _powers(x: Number, count: int) -> matrix.Vector:

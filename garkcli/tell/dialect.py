@@ -371,7 +371,7 @@ class Plain(Mutable):
                     labelled = [x for x in zip(head[1:], cells, strict=True) if x[1]]
                     yield from self.rows(labelled, how.depth + 1)
                 return
-        find = self._stream if how.is_stream else self._whole
+        find = self._stream if how.is_stream else self._aligned
         for line in find(head, rows, how):
             yield "  " * how.depth + line
 
@@ -382,7 +382,7 @@ class Plain(Mutable):
         room = self.width - 2 * how.depth - 2 * (len(columns) - 1)
         return sum(widths) > room and any(width > WORDS for width in widths[1:-1])
 
-    def _whole(self, head: Cells, rows: Iterable[Cells], how: GridLayout) -> Iterator[str]:
+    def _aligned(self, head: Cells, rows: Iterable[Cells], how: GridLayout) -> Iterator[str]:
         columns = self._columns([head, *rows])
         widths = [max(map(_cell_width, column)) for column in columns]
         room = self.width - 2 * how.depth

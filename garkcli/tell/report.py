@@ -126,7 +126,7 @@ class Report(Frozen, Generic[Whole]):
             level = Level.HEADLINE
         if len(wholes) > 1 and verbosity == 0 and format in TABLES and self.columns(wholes[0]):
             return self.table(wholes, format)
-        texts = (self._told(x, format, look, level, **signs) for x in wholes)
+        texts = (self._rendered(x, format, look, level, **signs) for x in wholes)
         return ("" if level == Level.HEADLINE and format == "text" else "\n").join(texts)
 
     def pieces(
@@ -195,7 +195,7 @@ class Report(Frozen, Generic[Whole]):
         merged: DialectSigns = {**self.signs(whole), **signs}
         return dialect_of(format, look)(look=look, is_brief=is_brief, **merged)
 
-    def _told(
+    def _rendered(
         self, whole: Whole, format: str, look: Look, level: Level, **signs: Unpack[DialectSigns]
     ) -> str:
         d = self.dialect(whole, format, look, level < Level.DETAIL, **signs)

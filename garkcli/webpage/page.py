@@ -38,7 +38,7 @@ def heading(method: Reported) -> Content:
     outcome = method.outcome
     verdict = f"The file cannot be read as a method: {counted(len(outcome.faults), 'fault')}."
     if outcome.is_read:
-        verdict = f"{_found(outcome)} {claims_text(outcome)}"
+        verdict = f"{_order_and_properties(outcome)} {claims_text(outcome)}"
     return {
         "title": outcome.name,
         "file": outcome.file,
@@ -61,7 +61,7 @@ def _mark(outcome: Outcome) -> str:
     return "open" if outcome.is_open else MARKS[outcome.exit_code]
 
 
-def _found(outcome: Outcome) -> str:
+def _order_and_properties(outcome: Outcome) -> str:
     """Returns the order and the properties, as in ``gark check``."""
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, ("order", "symplectic", "stability"))

@@ -34,7 +34,7 @@ MATHEMATICA = Style(
     exponent="*^",
     point=False,
 )
-"""Its exact numbers let N give any number of digits."""
+"""Numbers are exact, so that N gives any number of digits."""
 
 
 class _Rationals(Radicals):

@@ -287,7 +287,7 @@ def _generalized(
 ) -> Callable[[TableauOf, Values], mri.Coupling]:
     stages = len(entries["beta"])
     parts = [
-        _whole(at, entries[key], entries.nodes[key], key, stages + 1)
+        _filled(at, entries[key], entries.nodes[key], key, stages + 1)
         for key in ("alpha", "beta", "gamma")
     ]
     return lambda _, values: mri.generalized(*map(values.matrix, parts))
@@ -413,7 +413,7 @@ def _polynomials(
     for key in ("omega", "gamma"):
         if key in entries:
             each = enumerate(zip(entries[key], entries.nodes[key].value, strict=True), start=1)
-            matrices[key] = [_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each]
+            matrices[key] = [_filled(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each]
     if restart:
         _check_restart(at, entries, matrices)
 
@@ -501,7 +501,7 @@ def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> R
     return tuple(row + (zero,) * (nodes - len(row)) for row in rows)
 
 
-def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
+def _filled(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
     """The matrix filled with zeros, without a first row of zeros for the start of the step."""
     if len(rows) == nodes and not any(map(_is_nonzero, rows[0])):
         rows = rows[1:]

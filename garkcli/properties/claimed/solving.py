@@ -18,11 +18,11 @@ def what_is_solved_for(subject: Subject) -> Reason:
     together = what_is_solved_together(subject)
     if together:
         return together
-    alone = list(subject.graph.loops)
-    if not alone:
+    implicit = list(subject.graph.loops)
+    if not implicit:
         return NO_REASON
-    verb = "depends on itself" if len(alone) == 1 else "depend on themselves"
-    return Reason(f"{{}} {verb}", stages_name(subject.tableau, alone))
+    verb = "depends on itself" if len(implicit) == 1 else "depend on themselves"
+    return Reason(f"{{}} {verb}", stages_name(subject.tableau, implicit))
 
 
 def what_is_solved_together(subject: Subject) -> Reason:
@@ -41,8 +41,8 @@ def what_is_not_singly(subject: Subject) -> Reason:
         return what_is_solved_together(subject) or Reason(f"it is {shape.kind}")
     if shape.gamma is not None:
         return NO_REASON
-    found = {x: None for entries in subject.graph.loops.values() for x in entries}
-    first, second, *_ = (number_words(x) for x in found if x is not None)
+    diagonal = {x: None for entries in subject.graph.loops.values() for x in entries}
+    first, second, *_ = (number_words(x) for x in diagonal if x is not None)
     return Reason("stages depend on themselves by {} and by {}", first, second)
 
 
