@@ -349,7 +349,7 @@ class Problems:
             check_steps(whole, given.t_end or usual_time(whole), given.steps)
 
     def prepare(self, methods: Sequence[GarkMethod], output: Output) -> None:
-        """One problem for all methods; UsageProblem without one for their structures."""
+        """Chooses one problem for all methods; UsageProblem if none suits their structures."""
         tableaux = [self._stepped(method) for method in methods]
         self._tableaux = tableaux
         if self._name is None and tableaux:
@@ -370,7 +370,7 @@ class Problems:
         return tableau
 
     def of(self, tableau: Tableau) -> Problem | Oscillator:
-        """For a prepared method; UsageProblem if the problem cannot be split."""
+        """Returns the problem for a prepared method; UsageProblem if it cannot be split."""
         from garkcli.api.problems import problem_for, split_for
         from garkcli.convergence.convergence import in_common
         from garkcli.problems.builtin import PROBLEMS
@@ -384,7 +384,7 @@ class Problems:
         return problem_for(self._name, tableau, None, given.stiffness, given.omega, given.split)
 
     def tested(self, method: GarkMethod) -> Convergence:
-        """GarkError if the problem does not fit, or a step fails."""
+        """Tests a method; GarkError if the problem does not fit, or a step fails."""
         from garkcli.api.runs import converge
 
         given = self._given

@@ -174,7 +174,9 @@ class _Runs:
         self.integrator = bind(method, problem).at(digits + spare)
 
     def end(self, steps: int) -> list[Any] | None:
-        """Returns None if a step fails and shorter ones may succeed, else UsageProblem."""
+        """Returns the final state, or None if a step fails and shorter ones may succeed. Raises
+        UsageProblem for too many steps, or if a step fails after ``MAX_TRIED``.
+        """
         if steps > MAX_STEPS:
             raise UsageProblem(
                 f"the solution at t = {self.t_end} is not found to "

@@ -55,6 +55,7 @@ def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
     check_time()
     if len(rows) == 1:
         return rows[0][0]
+    # Laplace expansion along the first row
     total = rows[0][0] * 0
     for j, a in enumerate(rows[0]):
         if a:

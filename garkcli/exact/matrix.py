@@ -116,6 +116,7 @@ def is_singular(a: Matrix) -> bool:
 
 
 def _eliminated(rows: list[list[Number]]) -> Matrix:
+    # A⁻¹ B from the rows of (A B), by Gauss-Jordan elimination
     n = len(rows)
     for k in range(n):
         chosen = next((i for i in range(k, n) if rows[i][k]), None)

@@ -152,7 +152,7 @@ class Polynomial:
         return Polynomial([self[k] for k in range(degree, -1, -1)])
 
     def substituted(self, inner: Polynomial) -> Polynomial:
-        result = Polynomial([])
+        result = Polynomial([])  # Horner's rule
         for a in reversed(self.coefficients):
             result = result * inner + a
         return result

@@ -256,7 +256,7 @@ class Builder(Generic[V]):
 
     @cached_property
     def further(self) -> Further:
-        """In a pair, V^{l} and F^{l} share stages, and so have the same further weights."""
+        """The further weights; in a pair V^{l} and F^{l} share stages, and so have the same."""
         description, own = self.text.description, self._own
         if own is not None and own.further is not None:
             return self._at(description.node, own.further)

@@ -209,7 +209,7 @@ class Numbers(Mutable):
             self.define(name, Expanded(Name(name)))
 
     def given(self, name: str, node: Node, where: str) -> None:
-        """By its value from outside the file."""
+        """Defines a parameter by its value from outside the file."""
         text = self.settings[name]
         value = NOTHING
         try:
@@ -228,7 +228,7 @@ class Numbers(Mutable):
         return entry
 
     def _expression(self, text: str) -> Expanded:
-        """One object for equal texts; ExpressionError for no number, LimitExceeded if long."""
+        """Returns one object for equal texts; ExpressionError, or LimitExceeded if long."""
         if text in self._read:
             return self._read[text]
         value = expanded(parse(text), self.parameters, self.used)

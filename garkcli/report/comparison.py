@@ -54,7 +54,7 @@ class ConvergedMethods(Frozen):
 
     @property
     def named(self) -> list[LetteredMethod]:
-        """With the file if two methods have the same name."""
+        """The methods, with their files if two have the same name."""
         names = Counter(x.name for x in self.entries)
         return [
             LetteredMethod(

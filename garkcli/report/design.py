@@ -76,7 +76,7 @@ class OrderDemand(NamedTuple):
 
     @property
     def solutions(self) -> list[ShownSolution]:
-        """Each real root of what was found, then the others as one."""
+        """The real roots of each solution, then its other roots as one."""
         found = []
         for x in self.step.found:
             found += [ShownSolution(self.design, x, k) for k in range(len(x.solution.real))]

@@ -30,7 +30,7 @@ class ImportedMethod(NamedTuple):
         return self.result.table.name or self.result.stem
 
     def order(self, get: Callable[[TableSubject], Judged | None]) -> Answer[int]:
-        """As far as the digits of the method determine it."""
+        """The order, as far as the digits of the method determine it."""
         method = self.result.method
         found = None if method is None else get(method)
         if method is None or found is None:
