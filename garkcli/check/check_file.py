@@ -67,7 +67,7 @@ def check_every(
         if further:
             name = family.parameters[0]
             message = f"{further[0].key} is claimed, and {name} is free"
-            cure = f"dense output and predictors are judged for values: --set {name}=1/2"
+            cure = f"gark judges dense output and predictors for single values: --set {name}=1/2"
             return _refused(file, message, cure, "free-parameters")
         facts = every_value(family, max(limit, highest_order(family.claims) + 1))
     except errors.MethodFileError as error:

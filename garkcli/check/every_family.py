@@ -140,7 +140,7 @@ def carried(
         high = None if greatest is None else greatest - rest
         if other is None:
             if (low is not None and low > 0) or (high is not None and high < 0):
-                message = f"{name} = {value} follows, which is outside of its range"
+                message = f"the file implies {name} = {value}, which is outside of its range"
                 cure = "change the range, or what fixes the value"
                 raise MethodError(message, cure, code="no-value-left")
             continue
@@ -204,7 +204,7 @@ def solved(
         p = waiting.pop(0)
         name = next((x for x in unknowns if is_linear(p, ring, x)), None)
         if name is None:
-            message = f"{p} = 0 is demanded of the parameters, which determines none of them"
+            message = f"the file demands {p} = 0, which determines none of its parameters"
             cure = "give values with --set, or ask gark design"
             raise MethodError(message, cure, code="no-value-left")
         x = ring.context.gen(ring.names.index(name))
@@ -246,7 +246,7 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
         before = {family.ring.names.index(x.name) for x in family.radicals}
         if not {*unknowns_of(radical.relation)} <= before:
             message = f"{radical.text} depends on a free parameter"
-            cure = "give values with --set: gark check, with a parameter for the root in its place"
+            cure = "give values with --set, or put a parameter in place of the root"
             raise MethodError(message, cure, code="no-value-left")
         degree = int(radical.relation.degrees()[index])
         # whether it has the degree of its relation over the field of those before it
@@ -254,8 +254,8 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
         field = Domain([parse(x.text) for x in known]).field
         due = prod(int(x.relation.degrees()[family.ring.names.index(x.name)]) for x in known)
         if field is None or field.degree != due:
-            message = f"{radical.text} is a number of the roots before it"
-            raise MethodError(message, "write it by these", code="no-value-left")
+            message = f"{radical.text} is an expression in the roots before it"
+            raise MethodError(message, "write it with these roots", code="no-value-left")
         place = ring.names.index(radical.name)
         leading = coefficient_of(radical.relation, degree, index).leading_coefficient()
         relation = radical.relation.project_to_context(ring.context) / leading
@@ -505,7 +505,7 @@ def _moved_bounds(
         if isinstance(value, Parametric):
             polynomials.append(value.numerator)
         elif cast("fmpq", value) < 0:
-            message = f"{name} = {values[name]} follows, which is outside of its range"
+            message = f"the file implies {name} = {values[name]}, which is outside of its range"
             raise MethodError(message, "change the range", code="no-value-left")
     if polynomials and len(left) > 1:
         name = left[unknowns_of(polynomials[0])[0]]

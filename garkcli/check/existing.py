@@ -60,7 +60,9 @@ def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> Exist
     """Proves the order of a method within the rounding, and none higher; raises MethodError."""
     rounded = meant(method.tableau, method.tolerance, method.further)
     if isinstance(rounded, Tableau):
-        message = "the coefficients are exact: there is nothing within a rounding to prove"
+        message = (
+            "the coefficients are exact, so there is no rounding within which to prove anything"
+        )
         raise MethodError(message, "prove_method proves their orders", code="not-rounded")
     order, search = find_order_within(rounded, limit), rounded.search
     existence = prove_existence(search, order.order) if order.order else None

@@ -195,12 +195,12 @@ def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
     own = next((kind for kind in KINDS if kind.has(tableau)), None)
     owner = next((kind for kind in KINDS if want.key in kind.own), None)
     if owner is not None and owner is not own:
-        message = f"design: {want.key} is meant of {owner.name} methods"
+        message = f"design: {want.key} is for {owner.name} methods"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
     if own is None or want.key in own.own:
         return want, tableau
     if want.key not in own.meant:
-        message = f"design: {want.key} is not meant of {own.name} methods"
+        message = f"design: {want.key} is not for {own.name} methods"
         raise MethodError(message, "leave it out", code="wanted-without-meaning")
     meaning = own.instead.get(want.key, want.meaning)
     return replace(want, meaning=meaning), own.meant[want.key](tableau)

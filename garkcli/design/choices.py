@@ -35,8 +35,8 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
     """
     reached = [x for x in design.steps if x.ideal is not None and x.may_have_methods]
     if not reached:
-        message = "--choose: no order is known that methods of the file have"
-        cure = "choose with --set, which makes the system smaller"
+        message = "--choose: gark knows no order that methods of the file have"
+        cure = "give values with --set instead: fewer unknowns make smaller systems"
         raise MethodError(message, cure, code="not-found")
     ideal = reached[-1].ideal
     assert ideal is not None
@@ -106,7 +106,9 @@ def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     field = algebraic[0].field
     candidates = [x for x in algebraic if _powers(x, field).rank() == field.degree]
     if not candidates or field.degree > MAX_DEGREE:
-        message = f"the values are numbers of degree {field.degree} without simple radicals"
+        message = (
+            f"the values are algebraic numbers of degree {field.degree} without simple radicals"
+        )
         cure = f"method files hold roots of polynomials up to degree {MAX_DEGREE}"
         raise MethodError(message, cure, code="number-too-large")
     generator = min(candidates, key=lambda x: len(str(value_at(x, root).polynomial)))

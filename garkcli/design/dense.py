@@ -34,7 +34,7 @@ def _dense(asked: Asked, key: str) -> DenseOutput:
     """The dense output; MethodError if there is none, or the want is about some colours only."""
     dense = asked.further.dense
     if dense is None or len(asked.colours) < asked.tableau.size:
-        message = f"design: {key} is meant of the dense output of the whole method"
+        message = f"design: {key} needs dense output, and is for all colours together"
         cure = 'write dense: {degree: 2, weights: [["?", "?"], ["?", "?"]]} beside b'
         raise MethodError(message, cure, code="wanted-without-meaning")
     return dense
@@ -89,7 +89,7 @@ def _known(tableau: Tableau) -> Tableau:
     if is_constant and all(colour.kind == PLAIN for colour in tableau.colours):
         return tableau
     message = "design: dense-continuity: 1 needs A and b without unknowns and roots, no linear part"
-    cure = "give them values, by --set; dense-order and dense-continuity: 0 take all"
+    cure = "give unknowns values with --set; dense-order and dense-continuity: 0 need none"
     raise MethodError(message, cure, code="wanted-without-meaning")
 
 

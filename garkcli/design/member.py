@@ -190,7 +190,7 @@ def refuse_levels(family: Family) -> None:
     """Raises MethodError for bounds on objectives, which only a search meets."""
     for key, bound in family.levels:
         name = key.removeprefix("-")
-        message = f"design: {name}: {bound} is met by a search alone"
+        message = f"design: {name}: {bound} needs a search"
         raise MethodError(message, "add --search N --minimise WHAT", code="wanted-without-meaning")
 
 

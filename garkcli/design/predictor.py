@@ -34,7 +34,7 @@ def _meaning(key: str, asked: Asked, every: Sequence[fmpq]) -> WantConditions:
     """The conditions of all trees at given ratios; MethodError without a predictor."""
     predictor, order = asked.further.predictor, cast("int", asked.value)
     if predictor is None:
-        message = f"design: {key} is meant of the predictor of a method"
+        message = f"design: {key} needs a predictor"
         cure = 'write predictor: {old: [["?", "?"], ["?", "?"]]} beside b'
         raise MethodError(message, cure, code="wanted-without-meaning")
     ring, one = asked.ring, asked.ring.constant(fmpq(1))

@@ -114,15 +114,15 @@ def _fewest(
 def too_many(family: Family) -> UsageProblem:
     *_, last = family.parameters
     return UsageProblem(
-        f"there are {len(family.parameters)} free parameters, and the set of two is found",
+        f"there are {len(family.parameters)} free parameters, and gark finds sets of at most two",
         f"give values to all but two, such as --set {last}=1/2",
         code="free-parameters",
     )
 
 
 def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
-    message = f"there are roots among the coefficients, beside {family.parameters[0]}"
-    cure = "write the method as a family by name, whose nodes are not needed"
+    message = f"there are roots among the coefficients, besides the free {family.parameters[0]}"
+    cure = "name the family of the method in place of A, b and c, so that no node is written"
     if wanted in OSCILLATING and whose == "pair":
         cure = "add --order P, which takes roots"
     return UsageProblem(message, cure, code="no-radicals")
@@ -330,5 +330,5 @@ class _InPlane:
 
 def _limits(parts: _Parts, t: RealRoot) -> list[Interval] | None:
     """The parts of a strip over one of its ends, as limits; None if one is unknown."""
-    found: list[Any] = [part.over(t) for part in parts]
-    return None if None in found else found
+    limits: list[Any] = [part.over(t) for part in parts]
+    return None if None in limits else limits

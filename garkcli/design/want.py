@@ -49,7 +49,9 @@ class Asked(Frozen):
         block = self.tableau.blocks.get((own.space, colour))
         space = self.tableau.spaces[own.space]
         if block is None or not isinstance(space, PointSpace):
-            message = f"design: {key} is for tableaus with a block of their own stages"
+            message = (
+                f"design: {key} needs the block of each colour with itself, given stage by stage"
+            )
             cure = f"name the colour: {key}: {{2: …}}, or spell the tableau out"
             raise MethodError(message, cure, code="wanted-without-meaning")
         return block, own.b

@@ -76,7 +76,7 @@ def as_embedded(asked: Asked, key: str) -> Tableau:
     """The method with b̂ as b; MethodError without b̂, or if only some colours are wanted."""
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:
-        message = f"design: {key} is meant of the embedded weights of the whole method"
+        message = f"design: {key} needs embedded weights, and is for all colours together"
         cure = 'write embedded: ["?", "?"] beside b, or embedded: true under unknown'
         raise MethodError(message, cure, code="wanted-without-meaning")
     return with_weights(asked.tableau, embedded)
@@ -161,7 +161,7 @@ def _stability_order(asked: Asked) -> WantConditions:
 
 def _level(key: str, asked: Asked) -> WantConditions:
     if len(asked.colours) < asked.tableau.size or not isinstance(asked.value, fmpq):
-        message = f"design: {key} is a rational number, and of the whole method"
+        message = f"design: {key} takes one rational number, for all colours together"
         raise MethodError(message, f"write {key}: 3/2", code="wanted-without-meaning")
     if key == "sector":
         rest_of_cosine(asked.value)
@@ -221,7 +221,7 @@ def _weak_stage_order(asked: Asked) -> WantConditions:
             products += 1
             if products > MOST_PRODUCTS:
                 raise MethodError(
-                    f"design: weak-stage-order has more than {MOST_PRODUCTS} products of blocks",
+                    f"design: weak-stage-order needs more than {MOST_PRODUCTS} products of blocks",
                     "name the colour that is stiff: weak-stage-order: {2: …}",
                     code="wanted-without-meaning",
                 )
@@ -264,7 +264,7 @@ def _largest_coefficient(asked: Asked) -> WantConditions:
 
 def _oscillating(kind: str, asked: Asked) -> WantConditions:
     if len(asked.colours) < asked.tableau.size:
-        message = f"design: {kind} is meant of the whole method"
+        message = f"design: {kind} is for all colours together"
         raise MethodError(message, f"write {kind}: true", code="wanted-without-meaning")
     return WantConditions(stable=(RequiredStability(kind),))
 

@@ -207,7 +207,7 @@ design: {consistent: true}
 @pytest.mark.parametrize(
     ("entry", "node", "message"),
     [
-        ("1/2", "t", "t = 1/2 follows, which is outside of its range"),
+        ("1/2", "t", "the file implies t = 1/2, which is outside of its range"),
         ("s*u", "t", "t has a range, and its value s*u follows from others"),
         ("a", "t", "the ranges leave no value of"),
     ],

@@ -201,11 +201,11 @@ design: {order: 3, fix: {alpha22: 1/4, beta33: 2/3}}
         ("unknown: {stages: 2, shape: [shu-osher, dirk]}", "dirk does not go with shu-osher"),
         (
             "unknown: {stages: 2, shape: mri}\ndesign: {stage-order: 1}",
-            "stage-order is not meant of multirate infinitesimal methods",
+            "stage-order is not for multirate infinitesimal methods",
         ),
         (
             "unknown: {stages: 2, shape: dirk}\ndesign: {slow-order: 1}",
-            "slow-order is meant of multirate infinitesimal methods",
+            "slow-order is for multirate infinitesimal methods",
         ),
         (
             "parameters: {t: free}\n"

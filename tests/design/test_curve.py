@@ -93,7 +93,7 @@ def test_what_a_curve_refuses() -> None:
         last(along(search, "g", 3, 0, workers))
     with pytest.raises(UsageProblem, match="no range with two ends"):
         last(along(search, "c2", 3, 0, workers))
-    with pytest.raises(UsageProblem, match="two objectives"):
+    with pytest.raises(UsageProblem, match="two single objectives"):
         last(front(search, "A + D", 3, 0, workers))
 
 

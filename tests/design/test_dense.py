@@ -211,11 +211,11 @@ def test_more_orders_than_powers() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (RK4 + "design: {dense-order: 3}", "dense output of the whole method"),
+        (RK4 + "design: {dense-order: 3}", "needs dense output"),
         (
             TWO.replace("DENSE", unknown(2, 2), 1).replace("DENSE", unknown(3, 2))
             + "design: {dense-order: {2: 1}}",
-            "of the whole method",
+            "for all colours together",
         ),
         (
             'A: [[], ["?"]]\nb: ["?", "?"]\n' + unknown(2, 2) + "\ndesign: {dense-continuity: 1}",

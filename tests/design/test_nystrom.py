@@ -180,15 +180,15 @@ def test_a_search_finds_order_5_and_the_least_error(tmp_path: Path) -> None:
         ("unknown: {stages: 1, shape: [nystrom, stiffly-accurate]}", "last node 1"),
         (
             "unknown: {stages: 2, shape: nystrom}\ndesign: {symplectic: true}",
-            "symplectic is not meant of Nyström methods",
+            "symplectic is not for Nyström methods",
         ),
         (
             "unknown: {stages: 2, shape: nystrom}\ndesign: {w-order: 2}",
-            "w-order is meant of Rosenbrock methods",
+            "w-order is for Rosenbrock methods",
         ),
         (
             "unknown: {stages: 2, shape: explicit}\ndesign: {position-order: 2}",
-            "position-order is meant of Nyström methods",
+            "position-order is for Nyström methods",
         ),
     ],
 )

@@ -97,5 +97,5 @@ def test_what_is_found_passes_check(tmp_path: Path) -> None:
 
 
 def test_a_predictor_that_is_not_there() -> None:
-    with pytest.raises(MethodFileError, match="meant of the predictor"):
+    with pytest.raises(MethodFileError, match="needs a predictor"):
         design('A: [["?"]]\nb: [1]\ndesign: {order: 1, predictor-order: 1}\n')

@@ -261,20 +261,20 @@ def test_stable_values() -> None:
 @pytest.mark.parametrize(
     ("wanted", "message"),
     [
-        ("symplectic: true", "symplectic is not meant of Rosenbrock methods"),
-        ("stage-order: 1", "stage-order is not meant of Rosenbrock methods"),
-        ("embedded-w-order: 1", "embedded-w-order is meant of the embedded weights"),
+        ("symplectic: true", "symplectic is not for Rosenbrock methods"),
+        ("stage-order: 1", "stage-order is not for Rosenbrock methods"),
+        ("embedded-w-order: 1", "embedded-w-order needs embedded weights"),
     ],
 )
 def test_wants_without_meaning(wanted: str, message: str) -> None:
-    """What is not meant of Rosenbrock methods is refused, with its place."""
+    """Demands that are not for Rosenbrock methods are refused, with its place."""
     with pytest.raises(GarkError, match=message):
         loads_family(f"{THREE}design: {{{wanted}}}")
 
 
 def test_refused() -> None:
     """Wants of Rosenbrock methods for others; pairs, SSP and coefficients of Rosenbrock methods."""
-    with pytest.raises(GarkError, match="w-order is meant of Rosenbrock methods"):
+    with pytest.raises(GarkError, match="w-order is for Rosenbrock methods"):
         loads_family("unknown: {stages: 2, shape: sdirk}\ndesign: {w-order: 2}")
     with pytest.raises(GarkError, match="dirk does not go with rosenbrock"):
         layout_of(2, ["rosenbrock", "dirk"])

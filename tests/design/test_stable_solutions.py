@@ -86,7 +86,7 @@ def test_order_and_stability_as_a_command(tmp_path: Path) -> None:
 def test_wishes_that_have_no_meaning() -> None:
     """P-stability of one colour is refused with its cure."""
     text = "unknown: {stages: 2, shape: imex}\ndesign: {p-stable: {2: true}}\n"
-    with pytest.raises(MethodFileError, match="meant of the whole method"):
+    with pytest.raises(MethodFileError, match="for all colours together"):
         loads_family(text)
 
 

@@ -41,8 +41,12 @@ def at_infinity(tableau: Tableau, key: str) -> tuple[Any, Any]:
     """
     colour = tableau.colours[0]
     if tableau.size > 1 or not isinstance(tableau.spaces[colour.space], PointSpace):
-        message = f"{key}: R(∞) is that of a method of one colour with stages of its own"
-        raise UsageProblem(message, "wanted: R-infinity: {2: 0}", code="wanted-without-meaning")
+        message = f"{key}: R(∞) is computed for methods of one colour, given stage by stage"
+        raise UsageProblem(
+            message,
+            "for a colour of several write R-infinity: {2: 0} under design",
+            code="wanted-without-meaning",
+        )
     A: Any = tableau.blocks[colour.space, 0]
     denominator = characteristic_coefficients(A)
     reduced = [[x - y for x, y in zip(row, colour.b, strict=True)] for row in A]
@@ -79,7 +83,7 @@ def _embedded_error(subject: ObjectiveSubject) -> fmpq:
 def _quotient(numerator: fmpq, denominator: fmpq) -> fmpq:
     if not denominator:
         message = "B, C and E divide by the error of the embedded weights, which is 0"
-        cure = "a lower embedded-order leaves an estimate"
+        cure = "want a lower embedded-order, so that the estimate is not 0"
         raise UsageProblem(message, cure, code="wanted-without-meaning")
     return numerator / denominator
 

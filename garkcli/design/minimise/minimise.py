@@ -34,8 +34,8 @@ def step_to_minimise(design: Design) -> Decided:
     for step in reversed(design.steps):
         if isinstance(step, Decided) and step.may_have_methods:
             return step
-    message = "--minimise: no order is known that methods of the file have"
-    cure = "values for some unknowns, by --set, make it decidable"
+    message = "--minimise: gark knows no order that methods of the file have"
+    cure = "give some unknowns values with --set: fewer are easier to decide"
     raise UsageProblem(message, cure, code="not-found")
 
 

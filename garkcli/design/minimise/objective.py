@@ -105,7 +105,7 @@ class ObjectiveSubject(Frozen):
     def embedded(self) -> tuple[Tableau, int]:
         """The methods with the embedded weights as b, and their order; raises UsageProblem."""
         if self.further.embedded is None or self.embedded_order is None:
-            message = "the objective is about embedded weights with an order: the file wants none"
+            message = "the objective needs embedded weights of some order, and the file wants none"
             cure = "write embedded: true under unknown, and embedded-order: 3 under design"
             raise UsageProblem(message, cure, code="wanted-without-meaning")
         return with_weights(self.tableau, self.further.embedded), self.embedded_order

@@ -78,7 +78,7 @@ def _coupling_error(subject: aims.ObjectiveSubject, ring: Parameters | None) -> 
 def _dense_error(subject: aims.ObjectiveSubject, ring: Parameters | None) -> Quotient:
     dense, order = subject.further.dense, subject.dense_order
     if dense is None or order is None:
-        message = "dense-error is that of dense output with an order: the file wants none"
+        message = "dense-error needs dense output of some order, and the file wants none"
         cure = "write dense beside b, and dense-order: 3 under design"
         raise UsageProblem(message, cure, code="wanted-without-meaning")
     return squared_dense_error(subject.tableau, dense, order + 1, ring)

@@ -41,7 +41,7 @@ def objective_of(text: str) -> Wanted:
         message = f"what to minimise: {error.message}"
         raise UsageProblem(message, CURE, code="option-value") from None
     if "" in form or not form:
-        message = "what to minimise: numbers alone are not made small"
+        message = "what to minimise: a number alone cannot become smaller"
         raise UsageProblem(message, CURE, code="option-value")
     return aims.WeightedSum(
         text, tuple(_term(name.replace("_", "-"), weight) for name, weight in form.items())
@@ -63,13 +63,15 @@ def _term(
         raise UsageProblem(message, did_you_mean(name, list(_KEYS)), code="unknown-word")
     objective = OBJECTIVES[_KEYS[name]]
     if isinstance(objective, aims.Either):
-        message = f"{name} means one of two intervals, and a sum needs one"
+        message = f"{name} is the name of two intervals, and a sum needs one of them"
         raise UsageProblem(
             message, "write real-interval or oscillator-interval", code="option-value"
         )
     if isinstance(objective, aims.LevelObjective) == (weight > 0):
-        size = "large, and has a minus sign" if weight > 0 else "small, and has no minus sign"
-        raise UsageProblem(f"{name} is made {size}", CURE, code="option-value")
+        message = f"a sum minimises {name}: write it without a minus sign"
+        if weight > 0:
+            message = f"a sum maximises {name}: write it with a minus sign"
+        raise UsageProblem(message, CURE, code="option-value")
     return weight, objective
 
 
@@ -122,7 +124,7 @@ def exactly(
     for weight, one in terms:
         if not isinstance(one, aims.Objective):
             name = one.key.removeprefix("-")
-            message = f"{name} is minimised by a search alone"
+            message = f"only a search minimises {name}"
             raise UsageProblem(message, f"add --search N{_instead(name)}", code="option-alone")
         formulas.append((weight, one.formula))
 

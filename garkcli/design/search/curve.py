@@ -104,7 +104,7 @@ def _single(text: str, search: Search) -> Single:
     """An objective that may be bounded; UsageProblem for a sum."""
     objective = objective_on(text, search.tableau)
     if isinstance(objective, WeightedSum):
-        message = f"--front is of two objectives, and {text} is a sum"
+        message = f"--front takes two single objectives, and {text} is a sum"
         raise UsageProblem(message, "--minimise takes sums", code="option-value")
     return objective
 

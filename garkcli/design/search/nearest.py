@@ -35,7 +35,7 @@ def nearest_member(family: Family, method: Tableau, further: Further) -> list[fl
             for x in (method, family.tableau)
         ]
         message = f"the start has {sizes[0]}, the methods of the file {sizes[1]}"
-        raise UsageProblem(message, "name a method with the same", code="option-value")
+        raise UsageProblem(message, "name a method with as many", code="option-value")
     pairs = list(_pairs(family.tableau, method))
     if family.further.embedded is not None and further.embedded is not None:
         own = with_weights(family.tableau, family.further.embedded)
