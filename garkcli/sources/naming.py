@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
 from garkcli.sources.values import Value, is_matrix, items_of, near
@@ -56,9 +56,21 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "fsal": ("fsal", "FSAL", "is_fsal"),
 }
 _ROLES = {word: role for role, words in _WORDS.items() for word in words}
-ROLES = {x[0].upper() + x[1:]: role for x, role in _ROLES.items() if len(x) > 1} | _ROLES
-"""The role of each name, also with a capital as in Go and C#; if several names have a role, the
-first one counts.
+
+
+def _spellings(word: str) -> Iterator[str]:
+    """A word as it is, with capitals for its underscores, with a capital, and in capitals."""
+    for spelling in (word, re.sub(r"_(\w)", lambda x: x[1].upper(), word)):
+        yield from (spelling, spelling[0].upper() + spelling[1:]) if len(word) > 1 else (word,)
+    if len(word) > SHORT:
+        yield word.upper()
+
+
+SHORT = 3
+"""Letters of words that are not names of the same arrays in capitals."""
+ROLES = {x: role for word, role in _ROLES.items() for x in _spellings(word)} | _ROLES
+"""The role of each name, also in the spellings of constants and of Go, C# and Java; if several
+names have a role, the first one counts.
 """
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEedw]|err|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _ESTIMATES = "|".join([*_WORDS["embedded"], *_WORDS["error"]])

@@ -63,6 +63,24 @@ def test_julia() -> None:
     assert (imported(first, "x").order.order, imported(second, "x").order.order) == (2, 1)
 
 
+@pytest.mark.parametrize(
+    ("A", "b", "low"),
+    [
+        ("aLower", "bSol", "bHat"),
+        ("AMAT", "B", "B_HAT"),
+        ("A", "B", "BHAT"),
+        ("Amat", "Weights", "BStar"),
+        ("A", "B_HIGH", "B_LOW"),
+        ("a", "b", "bTilde"),
+    ],
+)
+def test_words_in_the_spelling_of_a_language(A: str, b: str, low: str) -> None:
+    """Constants have capitals, fields of Java and C# have them for underscores."""
+    text = f"{A} = [[0, 0], [1, 0]]\n{b} = [1/2, 1/2]\n{low} = [1, 0]\n# Runge-Kutta"
+    (table,) = python.find(text, "x.py")
+    assert (table.b, table.embedded) == ((("1/2", "1/2"),), (("1", "0"),))
+
+
 HATS = """
 def ars_233():
     g = (3 + sqrt(3))/6
