@@ -220,6 +220,12 @@ SSP_3 = (
     (julia, f"struct Tableau\n  A\n  b\n  c\n  order\nend\nssp() = Tableau({RECORD})"),
     (
         julia,
+        "struct Tableau{T}\n  A::Matrix{T}\n  b::Vector{T}\n  c::Vector{T}\n  order\n"
+        "  function Tableau{T}(A, b, c, order) where {T}\n    new{T}(A, b, c, order)\n  end\nend\n"
+        f"ssp() = Tableau({RECORD})",
+    ),
+    (
+        julia,
         "T3(T) = (A = SMatrix{3, 3, T}(0, 1, 1//4, 0, 0, 1//4, 0, 0, 0), b = [1//6, 1//6, 2//3])",
     ),
     (

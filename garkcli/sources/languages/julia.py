@@ -100,10 +100,13 @@ class JuliaLowering(Lowering):
                 values = [x for x in made if self.is_a("assignment", x)]
                 values = [x for x in values if self.children(x)[0].type in _FIELDS]
                 name = self.first_name(inside[0])
-                if not makers:
-                    fields = [x for x in made if x.type in _FIELDS or x in values]
-                    self.declares(name, map(self.first_name, fields))
-                yield from self.block(makers)
+                fields = [self.first_name(x) for x in made if x.type in _FIELDS or x in values]
+                own = self.block(makers)
+                given = [[*x.parameters] for x in own if isinstance(x, ir.Scope)]
+                if not own or fields in given:
+                    # a constructor with other arguments may compute the fields
+                    self.declares(name, fields)
+                yield from own
                 if values:
                     yield ir.Scope("class", name, self.block(values), line)
             case "for_statement" if inside:
