@@ -182,11 +182,16 @@ class TableFinder(Harvester):
                     read.add(numbers)
         # a call that takes the arrays of another table
         by_content = {key: x for key, x in by_content.items() if doubtful.get(key) not in read}
-        lines_of_tables = [x.line for x in (*by_content.values(), *self._other.values())]
+        told = (*by_content.values(), *self._other.values())
+        lines_of_tables = [x.line for x in told if not x.is_unlike]
+        unlike = {x.line: x.trouble for x in told if x.is_unlike}
         lost = {place: why for place, why in self.lost.items() if place[1] not in self.followed}
         for scope in overlooked(body, text, self.source, lines_of_tables, used, lost):
-            trouble = self.lost.get((scope.kind, scope.line), UNRECOGNISED)
-            self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
+            own = (scope.line, *(x.line for x in scope.body))
+            trouble = next((unlike[x] for x in own if x in unlike), "")
+            kind = "" if trouble else other_kind(scope.name)
+            trouble = trouble or self.lost.get((scope.kind, scope.line), UNRECOGNISED)
+            self._unread(scope.title, scope.line, trouble, kind)
         # after a branch that assigns the nodes there is the table without them
         with_nodes = {(x.A, x.b, x.line) for x in by_content.values() if any(x.c)}
         kept = [x for x in by_content.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]

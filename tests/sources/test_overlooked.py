@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from garkcli.sources.found import Find
-from garkcli.sources.languages import c, fortran, julia, python
+from garkcli.sources.languages import c, fortran, julia, python, typescript
 
 STEP = """
 /* Runge-Kutta: y holds the start, and is added to */
@@ -137,3 +137,20 @@ def test_words_count_in_the_beginning_of_a_line() -> None:
     scope = "void g(void) { double a[] = {0.25, 0.3, 2.0/7}, c[] = {0.6, 0.8, 0.1}; }"
     assert c.find(f"/* Runge-Kutta */ {scope}", "x") != []
     assert c.find(f"/* Runge-Kutta */ {scope}".rjust(600), "x") == []
+
+
+NODES_FIRST = """
+function rk32(f, y, h) {
+  let a = [0, 1/2, 3/4, 1];
+  let b = [[], [1/2], [1/7, 3/4], [2/5, 1/3, 4/7]];
+  let c = [7/24, 1/4, 1/3, 1/8];
+}
+"""
+
+
+def test_arrays_with_other_roles_than_their_names_are_told() -> None:
+    """A matrix called b beside nodes called a is a table; wrong entries hide the roles."""
+    right = NODES_FIRST.replace("1/7", "0").replace("2/5", "2/9").replace("4/7", "4/9")
+    assert [x.trouble for x in typescript.find(right, "x")] == [""]
+    told = [x for x in typescript.find(NODES_FIRST, "x") if not x.is_unlike]
+    assert ["do not fit" in x.trouble for x in told] == [True]
