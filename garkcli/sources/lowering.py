@@ -196,6 +196,22 @@ class Lowering(ABC):
                 return ir.Index(of, args)
         return lowered
 
+    def conditional(self, node: Node) -> Iterator[ir.Statement]:
+        """The branches of ``#if``; without ``#else`` its only one, and of ``#if 0`` the other
+        one.
+        """
+        other = part(node, "alternative")
+        condition = part(node, "condition") or part(node, "name")
+        first = self.block(x for x in node.named_children if x not in (other, condition))
+        second = self.block([other])
+        is_off = self.text(condition) == "0"
+        made = [x for x in ir.statements((*first, *second)) if not isinstance(x, ir.Branch)]
+        if other is None or is_off or (first and second and all(map(_is_macro, made))):
+            # a macro in several branches: the last one is the plain one
+            yield from second if other or is_off else first
+        else:
+            yield ir.Branch((first, second), line_of(node), is_total=True)
+
     def loop(self, node: Node, name: str = "", over: ir.Expr | None = None) -> ir.Loop:
         """A loop with the body behind its head."""
         body = part(node, "body")
@@ -487,6 +503,10 @@ def _branched(statement: ir.Statement) -> ir.Statement:
                 arms = tuple((replace(statement, value=x),) for x in values)
                 return ir.Branch(arms, line, is_total=True)
     return statement
+
+
+def _is_macro(made: ir.Statement) -> bool:
+    return isinstance(made, ir.Assign) and isinstance(made.value, ir.Lambda | ir.Name | ir.Literal)
 
 
 def unmeant(node: Node) -> ir.Opaque:

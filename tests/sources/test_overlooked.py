@@ -154,3 +154,22 @@ def test_arrays_with_other_roles_than_their_names_are_told() -> None:
     assert [x.trouble for x in typescript.find(right, "x")] == [""]
     told = [x for x in typescript.find(NODES_FIRST, "x") if not x.is_unlike]
     assert ["do not fit" in x.trouble for x in told] == [True]
+
+
+BRANCHES = """
+module runge_kutta
+#if SCHEME == 1 || defined(KUTTA)
+  real, parameter :: a(3, 3) = reshape((/0., .5, -1., 0., 0., 2., 0., 0., 0./), (/3, 3/))
+  real, parameter :: b(3) = (/1./6, 2./3, 1./6/), c(3) = (/0., .5, 1./)
+#elif SCHEME == 2
+  real, parameter :: a(2, 2) = reshape((/0., 1., 0., 0./), (/2, 2/))
+  real, parameter :: b(2) = (/.5, .5/), c(2) = (/0., 1./)
+#endif
+end module
+"""
+
+
+def test_branches_of_the_preprocessor_are_tables_of_their_own() -> None:
+    """Fortran has them as C does."""
+    tables = fortran.find(BRANCHES, "x")
+    assert [(x.stages, x.trouble) for x in tables] == [(3, ""), (2, "")]

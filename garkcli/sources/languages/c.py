@@ -124,7 +124,7 @@ class CLowering(Lowering):
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
             case "preproc_ifdef" | "preproc_if" | "preproc_elif":
-                yield from self._conditional(node)
+                yield from self.conditional(node)
             case "preproc_def" | "preproc_function_def":
                 yield from self._definition(node)
             case "function_definition":
@@ -194,22 +194,6 @@ class CLowering(Lowering):
         if all(x.type != "function_definition" for x in body.named_children):
             inside = (x for each in self.children(body) for x, _ in _declarators(each))
             self.declares(record, (self._declared(x)[0] for x in inside))
-
-    def _conditional(self, node: Node) -> Iterator[ir.Statement]:
-        """The branches of ``#if``; without ``#else`` its only one, and of ``#if 0`` the other
-        one.
-        """
-        other = part(node, "alternative")
-        condition = part(node, "condition") or part(node, "name")
-        first = self.block(x for x in node.named_children if x not in (other, condition))
-        second = self.block([other])
-        is_off = self.text(condition) == "0"
-        made = [x for x in ir.statements((*first, *second)) if not isinstance(x, ir.Branch)]
-        if other is None or is_off or (first and second and all(map(_is_macro, made))):
-            # a macro in several branches: the last one is the plain one
-            yield from second if other or is_off else first
-        else:
-            yield ir.Branch((first, second), line_of(node), is_total=True)
 
     def _definition(self, node: Node) -> Iterator[ir.Statement]:
         name, text = self.text(part(node, "name")), self._plain(node)
@@ -663,10 +647,6 @@ def _depth(value: ir.Expr) -> int:
     if not isinstance(value, ir.Items):
         return 0
     return 1 + max(map(_depth, value.items), default=0)
-
-
-def _is_macro(made: ir.Statement) -> bool:
-    return isinstance(made, ir.Assign) and isinstance(made.value, ir.Lambda | ir.Name | ir.Literal)
 
 
 @lru_cache(maxsize=1)

@@ -50,7 +50,8 @@ class FortranLowering(Lowering):
 
     grammar = "tree_sitter_fortran"
     kinds = kinds(
-        block="translation_unit module submodule internal_procedures ERROR data_statement",
+        block="translation_unit module submodule internal_procedures ERROR data_statement"
+        " preproc_else",
         switch="select_case_statement",
         case="case_statement",
         label="case_value_range_list default",
@@ -80,6 +81,8 @@ class FortranLowering(Lowering):
                 body = self.block(inside[1:])
                 self._extents, self._lower = around
                 yield ir.Scope("function", self.name(name), body, line, parameters)
+            case "preproc_ifdef" | "preproc_if" | "preproc_elif":
+                yield from self.conditional(node)
             case "variable_declaration":
                 yield from self._declaration(node)
             case "derived_type_definition":
