@@ -48,10 +48,12 @@ def test_a_row_is_a_composition(
         "1/4, 1/2, 1/4",
         "0.25, 0.5, 0.25",
         "0.5, 0.5",
+        "(3 - sqrt(3))/6, (3 + sqrt(3))/6",
+        "0.788675134594812882, 0.211324865405187118",
     ],
 )
 def test_other_rows_are_none(row: str, tmp_path: Path) -> None:
-    """Digits that miss order 3, and sums alone."""
+    """Digits that miss order 3, sums alone, and nodes of Gauss."""
     path = tmp_path / "a.py"
     path.write_text(f"def first():\n    x = [{row}]\n    return go(x)\n")
     assert list(audit([str(path)])) == []
