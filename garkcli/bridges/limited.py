@@ -7,6 +7,7 @@ may take quadratic time. Their callbacks crash older versions of tree-sitter, an
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from itertools import chain
@@ -17,6 +18,7 @@ from garkcli.bridges.sources import source_text
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import Limit, WorkerLost, Workers, in_order
 from garkcli.doing import counting, doing
+from garkcli.errors import GarkError
 from garkcli.frozen import Frozen
 from garkcli.sources.found import FoundTable, unread
 
@@ -76,15 +78,26 @@ class _Work(Frozen, eq=False):
                     return self.read(text, item.name)
             return None if self.judge is None else self.judge(item)
         except Exception as error:
-            return error
+            # a fault in one source is a note there: the others are read
+            if isinstance(error, GarkError | MemoryError | OSError) or not isinstance(
+                item, SourceToRead
+            ):
+                return error
+            if "--debug" in sys.argv:
+                return error
+            what = f"{type(error).__name__}: {error}".splitlines()[0][:200]
+            return _unread(item, f"internal fault: {what}; please report it, with the file")
 
     def given_up(self, item: SourceToRead | FoundTable) -> Any:
         seconds = f"longer than {_limit(item):.0f} s"
         if isinstance(item, FoundTable):
             return None if self.late is None else self.late(item, seconds)
-        readers = readers_for(item.name)
-        format = readers[0].name if len(readers) == 1 else ""
-        return [unread(item.name, format, f"the parser took {seconds}")]
+        return _unread(item, f"the parser took {seconds}")
+
+
+def _unread(item: SourceToRead, why: str) -> list[FoundTable]:
+    readers = readers_for(item.name)
+    return [unread(item.name, readers[0].name if len(readers) == 1 else "", why)]
 
 
 def _crew(

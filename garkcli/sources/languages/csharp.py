@@ -124,7 +124,7 @@ class CSharpLowering(Lowering):
         """A property with its value, or the value that its ``get`` returns."""
         name, value = self.text(part(node, "name")), part(node, "value")
         if value is not None:
-            body = self.children(value)[0] if value.type == "arrow_expression_clause" else value
+            body = value.children[-1] if value.type == "arrow_expression_clause" else value
             yield ir.Assign(ir.Name(name), self.expr(body), line)
             return
         for each in self.children(part(node, "accessors")):
@@ -134,7 +134,8 @@ class CSharpLowering(Lowering):
 
     def _body(self, body: Node) -> ir.Body:
         if body.type == "arrow_expression_clause":
-            return (ir.Return(self.expr(self.children(body)[0]), line_of(body)),)
+            # ``this`` is a token without a name
+            return (ir.Return(self.expr(body.children[-1]), line_of(body)),)
         return self.block([body])
 
     def _parameters(self, node: Node) -> tuple[str, ...]:
