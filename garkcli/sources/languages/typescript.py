@@ -87,20 +87,47 @@ class TypeScriptLowering(Lowering):
                 yield self.loop(node, each, self.expr(part(node, "right")))
             case "internal_module":
                 yield from self.block([part(node, "body")])
+            case "call_expression" if bodies := list(self._run_at_once(node)):
+                yield from self.block(bodies)
+            case "parenthesized_expression" | "unary_expression":
+                yield from self.block(inside)
             case "object" | "call_expression" | "new_expression" | "identifier":
                 yield ir.Do(self.expr(node), line)
 
+    def _run_at_once(self, node: Node) -> Iterator[Node]:
+        """The bodies of functions without a name that a call runs, ``(function () { … }())``."""
+        callee = part(node, "function")
+        while callee is not None and callee.type == "parenthesized_expression":
+            callee = next(iter(self.children(callee)), None)
+        for each in (callee, *self.children(part(node, "arguments"))):
+            if each is not None and each.type in _FUNCTIONS:
+                if self.is_a("block", body := part(each, "body")):
+                    yield body
+
     def _named(self, name: Node, value: Node, line: int) -> Iterator[ir.Statement]:
-        """A value with its name; a function of several statements is one of that name."""
-        if value.type in _FUNCTIONS and self.is_a("block", part(value, "body")):
-            yield self._function(value, self.name(name))
-        else:
-            yield ir.Assign(self.target(name), self.expr(value), line)
+        """A value with its name; a function of several statements is one of that name, those in an
+        object have their own ones.
+        """
+        if value.type == "object":
+            for each in self.children(value):
+                held = each if each.type == "method_definition" else part(each, "value")
+                if held is not None and self.is_a("block", part(held, "body")):
+                    yield self._function(
+                        held, self.name(part(each, "name") or part(each, "key")).strip("'\"")
+                    )
+        made = value
+        while made.type in _FUNCTIONS and (body := part(made, "body")) is not None:
+            # f => (t, y) => { … }
+            if self.is_a("block", body):
+                yield self._function(made, self.name(name))
+                return
+            made = body
+        yield ir.Assign(self.target(name), self.expr(value), line)
 
     def assignment(
         self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
     ) -> Iterator[ir.Statement]:
-        if left is not None and right is not None and right.type in _FUNCTIONS:
+        if left is not None and right is not None and right.type in (*_FUNCTIONS, "object"):
             yield from self._named(left, right, line_of(node))
         else:
             yield from super().assignment(node, left, right, sign)
