@@ -154,6 +154,10 @@ class TableFinder(Harvester):
         read: set[object] = set()
         doubtful: dict[object, object] = {}
         for meant in self._meant:
+            is_part = meant.maker == A_STEP and meant.table.line in self.followed
+            if is_part and len(items_of(meant.roles["b"])) < 2:
+                # an Euler step inside another step
+                continue
             users = self._users.get((meant.maker, meant.table.line), {})
             for order in users.values():
                 if order is not None:

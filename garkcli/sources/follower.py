@@ -37,6 +37,7 @@ from garkcli.sources.step_words import (
     DOTS,
     ELEMENTARY,
     MATHEMATICS,
+    NO_SLOPES,
     OPERATIONS,
     SHAPES,
     SUMS,
@@ -616,7 +617,8 @@ class Follower(Evaluator):
         names = [x for x in function.parameters if x not in {"self", "this"}]
         if len(names) != len(args):
             return None
-        if any(map(is_of_slopes, args)) or _evaluates(function):
+        is_local = any(x is function for x in self._way)
+        if any(map(is_of_slopes, args)) or _evaluates(function, is_local):
             self.helpers.add(function.name)
         is_helper = function.name in self.helpers | self._functions_inlined
         if not is_helper or not self._functions_inlined:
@@ -881,11 +883,15 @@ def _steps_from(at: ir.Expr, counters: Sequence[str]) -> int | None:
     return None
 
 
-def _evaluates(function: ir.Scope) -> bool:
-    """Whether a function calls another one that is given to it, or that is a field."""
+def _evaluates(function: ir.Scope, is_local: bool) -> bool:
+    """Whether a function calls another one that is given to it, or that is a field; a local one
+    calls what is given to the function around it.
+    """
     for x in ir.parts_of(function.body):
         match x:
             case ir.Call(ir.Name(name)) if name in function.parameters:
+                return True
+            case ir.Call(callee=callee) if is_local and callee_name(callee) not in NO_SLOPES:
                 return True
             case ir.Call(ir.Field(name=name), (_, _, *_)) if name.lower() not in _NO_FIELDS:
                 return True

@@ -6,7 +6,7 @@ import pytest
 
 from garkcli.exact.display import to_text
 from garkcli.sources.found import Find
-from garkcli.sources.languages import csharp, typescript
+from garkcli.sources.languages import csharp, python, typescript
 
 STEP = """(f, y, t, h) {
   var k1 = f(t, y);
@@ -45,3 +45,44 @@ def test_a_step_is_found_in_its_place(place: str) -> None:
     assert table.name.rpartition(".")[2] == "ralston"
     assert not table.trouble
     assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
+
+
+LOCAL = """
+def ssp(y, t, h, f):
+    def half(s, x):
+        return x + h/2*f(s, x)
+    y1 = half(t, y)
+    y2 = half(t + h/2, y1)
+    return 1/3*y + 2/3*half(t + h, y2)
+"""
+
+
+def test_a_function_inside_a_step_is_a_part_of_it() -> None:
+    """It is no step of its own."""
+    (table,) = python.find(LOCAL, "x")
+    assert table.name == "ssp"
+    assert [tuple(map(to_text, x)) for x in table.b] == [("1/3",) * 3]
+
+
+PAIRS = """
+public static class S {
+  public static (double a, double b) Ralston(
+      Func<double, (double a, double b), (double a, double b)> f,
+      double t, double h, (double a, double b) y) {
+    var (a, b) = y;
+    var (k1a, k1b) = f(t, y);
+    (double k2a, double k2b) = f(t + 2*h/3, (a + 2*h/3 * k1a, b + 2*h/3 * k1b));
+    return (a + h/4 * (k1a + 3*k2a), b + h/4 * (k1b + 3*k2b));
+  }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "weights"),
+    [("", "", [("1/4", "3/4")]), ("3*k2b", "3*k2a", []), ("2*h/3 * k1b", "2*h/3 * k1a", [])],
+)
+def test_several_values_of_csharp(old: str, new: str, weights: list[tuple[str, str]]) -> None:
+    """Components that do not agree make no step."""
+    found = [x for x in csharp.find(PAIRS.replace(old, new), "x") if x.b]
+    assert [tuple(map(to_text, x)) for table in found for x in table.b] == weights

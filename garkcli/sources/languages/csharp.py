@@ -58,7 +58,7 @@ class CSharpLowering(Lowering):
         number="integer_literal real_literal",
         nothing="null_literal",
         text="string_literal verbatim_string_literal",
-        list="initializer_expression collection_expression tuple_expression",
+        list="initializer_expression collection_expression tuple_expression tuple_pattern",
         inside="parenthesized_expression argument expression_element collection_element"
         " checked_expression",
         unary="prefix_unary_expression",
@@ -111,9 +111,10 @@ class CSharpLowering(Lowering):
         is_real = self.text(part(node, "type")) in _REAL_TYPES
         for each in inside:
             if each.type == "variable_declarator" and (value := self._value(each)):
-                name = ir.Name(self.text(part(each, "name")))
+                # var x = …; var (x, y) = …
+                name = self.target(self.children(each)[0])
                 if value.type == "lambda_expression" and self._statements(value):
-                    yield self._function(value, name.name)
+                    yield self._function(value, self.text(part(each, "name")))
                 else:
                     yield ir.Assign(name, self.expr(value), line_of(each), is_real=is_real)
 
@@ -183,6 +184,8 @@ class CSharpLowering(Lowering):
                 return self._array(node, inside)
             case "implicit_array_creation_expression" | "arrow_expression_clause" if inside:
                 return self.expr(inside[-1])
+            case "declaration_expression":
+                return ir.Name(self.text(part(node, "name")))
             case "cast_expression":
                 value = self.expr(part(node, "value"))
                 is_real = self.text(part(node, "type")) in _REAL_TYPES

@@ -100,9 +100,9 @@ class TypeScriptLowering(Lowering):
         while callee is not None and callee.type == "parenthesized_expression":
             callee = next(iter(self.children(callee)), None)
         for each in (callee, *self.children(part(node, "arguments"))):
-            if each is not None and each.type in _FUNCTIONS:
-                if self.is_a("block", body := part(each, "body")):
-                    yield body
+            body = part(each, "body") if each is not None and each.type in _FUNCTIONS else None
+            if body is not None and self.is_a("block", body):
+                yield body
 
     def _named(self, name: Node, value: Node, line: int) -> Iterator[ir.Statement]:
         """A value with its name; a function of several statements is one of that name, those in an
