@@ -38,12 +38,12 @@ from garkcli.sources.step_words import (
     ELEMENTARY,
     MATHEMATICS,
     NO_SLOPES,
-    OPERATIONS,
     SHAPES,
     SUMS,
     TELLING,
     callee_name,
     is_sum,
+    operation_of,
     tells,
 )
 from garkcli.sources.values import (
@@ -118,7 +118,10 @@ class Follower(Evaluator):
         calls = [x.value for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
         callees = [x.callee for x in calls]
         self._f = max(callees, key=callees.count, default=None)
-        self._place = _place_changed(self._f, self._way)
+        places = _places_changed(self._f, self._way)
+        self._place = places[-1] if places else -1
+        if self._f is not None and len(places) > 1:
+            self._way = _with_results(self._f, places, self._way)
         self._has_step_inside = False
         self._slopes: list[StageSlope] = []
         self._values_given: dict[str, Sequence[Value]] = {}
@@ -560,11 +563,11 @@ class Follower(Evaluator):
             return self.combined("^", *args)
         pair = args if len(args) == 2 else [*of, *args]
         if (
-            name in OPERATIONS
+            (sign := operation_of(name)) is not None
             and len(pair) == 2
             and all(isinstance(x, Form | Number) for x in pair)
         ):
-            return self.combined(OPERATIONS[name], *pair)
+            return self.combined(sign, *pair)
         if (followed := self._followed(call, args)) is not None:
             return followed
         local = space.find(call.callee.name) if isinstance(call.callee, ir.Name) else NULL
@@ -926,12 +929,31 @@ def _is_place(expr: ir.Expr) -> bool:
     return isinstance(of, ir.Name)
 
 
-def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
-    """The argument that a function changes: the last one with values that are used elsewhere, and
-    no sum before, unlike arguments of f; otherwise the last one.
+def _with_results(
+    callee: ir.Expr, places: Sequence[int], way: Sequence[ir.Statement]
+) -> list[ir.Statement]:
+    """The statements with ``k, l = f(x, y)`` in place of ``f(x, y, k, l)``, if these names are
+    others in every call.
+    """
+    made: list[ir.Statement] = []
+    results: list[ir.Expr] = []
+    for x in way:
+        match x:
+            case ir.Do(ir.Call(of, args, named), line) if of == callee:
+                targets = [args[i] for i in places]
+                results += targets
+                others = tuple(y for i, y in enumerate(args) if i not in places)
+                x = ir.Assign(ir.Items(tuple(targets)), ir.Call(of, others, named), line)
+        made.append(x)
+    return made if len({*results}) == len(results) else list(way)
+
+
+def _places_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> list[int]:
+    """The arguments that a function may change: those with values that are used elsewhere, and no
+    sum before, unlike arguments of f.
     """
     if callee is None:
-        return -1
+        return []
     assigned = [x for x in ir.statements(way) if isinstance(x, ir.Assign)]
     used = {y for x in assigned for y in x.names}
     sums: set[str] = set()
@@ -949,9 +971,8 @@ def _place_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> int:
                     ]
                 )
     if len({*map(len, changed)}) != 1:
-        return -1
-    places = [i for i, of in enumerate(zip(*changed, strict=True)) if all(of)]
-    return places[-1] if places else -1
+        return []
+    return [i for i, of in enumerate(zip(*changed, strict=True)) if all(of)]
 
 
 def _is_over_components(name: str, body: ir.Body) -> bool:

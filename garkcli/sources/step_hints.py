@@ -20,9 +20,9 @@ from garkcli.sources.step_words import (
     COPIES,
     ELEMENTARY,
     NO_SLOPES,
-    OPERATIONS,
     SUMS,
     callee_name,
+    operation_of,
 )
 
 
@@ -215,7 +215,7 @@ class Hints:
         # k1(i) is an entry
         of = self._value(callee.of if isinstance(callee, ir.Field) else callee)
         made, is_sum = given | of, (name, count) in SUMS or name == "add"
-        is_sum |= name in OPERATIONS and not is_effect
+        is_sum |= operation_of(name) is not None and not is_effect
         is_other = name in NO_SLOPES | COPIES or (name in CONVERSIONS and len(call.args) == 1)
         if not count or (is_other and not is_sum):
             return made

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from garkcli.sources import ir
 
 
@@ -19,6 +21,12 @@ def tells(name: str) -> bool:
     return name.lower() in TELLING or name.startswith(("set_", "setState", "setTime"))
 
 
+def operation_of(name: str) -> str | None:
+    """The sign of a function that is an operation on vectors, ``multiplyByScalar``, ``vec_add``."""
+    return OPERATIONS.get(_OF_VECTORS.sub("", name))
+
+
+_OF_VECTORS = re.compile(r"_|scalar|vectors?|vec|arrays?|by")
 TELLING = {
     *("print", "println", "printf", "fprintf", "disp", "append", "push", "push_back", "add"),
     *("push!", "emplace_back", "write", "writeln"),
@@ -31,12 +39,12 @@ DOTS = {"dot", "matmul", "inner", "tensordot"}
 COPIES = {"memcpy", "dbl_memcpy", "copyto!", "set", "copy", "assign"}
 """Functions that assign their second argument to their first."""
 OPERATIONS = {
-    **dict.fromkeys(("add", "plus", "sum", "vec_add", "vadd", "add_vectors", "vector_add"), "+"),
+    **dict.fromkeys(("add", "plus", "sum", "vadd"), "+"),
     **dict.fromkeys(("sub", "subtract", "minus"), "-"),
-    **dict.fromkeys(("mul", "multiply", "times", "scale", "scaled", "mult_scalar", "mult"), "*"),
+    **dict.fromkeys(("mul", "multiply", "times", "scale", "scaled", "mult"), "*"),
     **dict.fromkeys(("divide", "div"), "/"),
 }
-"""Functions and methods that are operations on vectors."""
+"""Functions and methods that are operations on vectors, but for words that say so."""
 SHAPES = {"reshape", "flatten", "ravel", "squeeze"}
 """Methods that return a vector in another shape."""
 CHANGING = {

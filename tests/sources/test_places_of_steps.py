@@ -6,7 +6,7 @@ import pytest
 
 from garkcli.exact.display import to_text
 from garkcli.sources.found import Find
-from garkcli.sources.languages import csharp, python, typescript
+from garkcli.sources.languages import csharp, fortran, python, typescript
 
 STEP = """(f, y, t, h) {
   var k1 = f(t, y);
@@ -86,3 +86,40 @@ def test_several_values_of_csharp(old: str, new: str, weights: list[tuple[str, s
     """Components that do not agree make no step."""
     found = [x for x in csharp.find(PAIRS.replace(old, new), "x") if x.b]
     assert [tuple(map(to_text, x)) for table in found for x in table.b] == weights
+
+
+RESULTS = """
+subroutine ralston(t, h)
+  real(8), intent(in) :: t, h
+  complex(8), dimension(n) :: k1, k2, l1, l2, u, v
+  u = p
+  v = q
+  call rhs(n, t, u, v, k1, l1)
+  u = p + 2*h/3.d0*k1
+  v = q + 2*h/3.d0*l1
+  call rhs(n, t + 2*h/3.d0, u, v, k2, l2)
+  p = p + h*(k1 + 3*k2)/4.d0
+  q = q + h*(l1 + 3*l2)/4.d0
+end subroutine
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "weights"),
+    [("", "", [("1/4", "3/4")]), ("u, v, k2, l2", "u, v, l2, k2", []), ("3*l2", "3*k2", [])],
+)
+def test_several_results_of_a_subroutine(
+    old: str, new: str, weights: list[tuple[str, str]]
+) -> None:
+    found = [x for x in fortran.find(RESULTS.replace(old, new), "x") if x.b]
+    assert [tuple(map(to_text, x)) for table in found for x in table.b] == weights
+
+
+@pytest.mark.parametrize("times", ["mulScalar", "multiplyByScalar", "vec_scale", "times"])
+def test_operations_say_that_they_are_of_vectors(times: str) -> None:
+    text = (
+        "function ralston(y, h, f) { const k = f(y); const l = f(y.add(k.times(2*h/3)));"
+        " return y.add(k.times(h/4)).add(l.times(3*h/4)); }"
+    )
+    (table,) = typescript.find(text.replace("times", times), "x")
+    assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
