@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from functools import reduce
 from itertools import islice
 from typing import Any, TypeGuard
 
@@ -562,12 +563,15 @@ class Follower(Evaluator):
         if name in {"pow", "power"} and len(args) == 2 and isinstance(args[0], Form):
             return self.combined("^", *args)
         pair = args if len(args) == 2 else [*of, *args]
+        function = self._function_of(call)
+        # a function of JavaScript without parameters takes any number of arguments
+        is_of_many = function is not None and not function.parameters
         if (
             (sign := operation_of(name)) is not None
-            and len(pair) == 2
+            and (len(pair) == 2 or (sign == "+" and is_of_many and args))
             and all(isinstance(x, Form | Number) for x in pair)
         ):
-            return self.combined(sign, *pair)
+            return reduce(lambda x, y: self.combined(sign, x, y), pair)
         if (followed := self._followed(call, args)) is not None:
             return followed
         local = space.find(call.callee.name) if isinstance(call.callee, ir.Name) else NULL

@@ -36,6 +36,7 @@ from garkcli.sources.values import (
 from garkcli.sources.written_out import (
     is_written_out,
     with_calls,
+    with_euler_steps,
     with_functions,
     with_one_function,
 )
@@ -70,6 +71,7 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
     looks_like = False
     if is_of_fortran(like):
         body = with_calls(body)
+    body = with_euler_steps(body, like.functions)
     # functions that differ in numbers are one at several times, or components of one
     of_one = with_one_function(body, like.functions)
     for whole in [body] if of_one is body else [of_one, body]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence, Set
 from typing import Any
 
 from garkcli.frozen import Frozen, fields, replace
@@ -18,6 +18,7 @@ from garkcli.sources.elementwise import substituted
 _MEMBER = re.compile(r"(?P<head>[^\W\d]{1,40}?)_?(?P<number>[0-9]{1,2})(?P<tail>[^\W\d]{0,40})")
 _DIGITS = re.compile("[0-9]+")
 _OF = "f of "
+_EULER = re.compile("^(?!.*(implicit|backward|semi|symplectic)).*euler", re.IGNORECASE)
 MOST_ARGUMENTS = 12
 Values = Mapping[int, ir.Expr]
 """Values of assignments by the identities of these."""
@@ -63,6 +64,63 @@ def with_calls(body: ir.Body) -> ir.Body:
     called = {x.of for x in entries if any(map(_is_multiple, ir.inside(x.at)))}
     functions = frozenset(called - assigned)
     return substituted(body, {}, functions) if functions else body
+
+
+def with_euler_steps(body: ir.Body, functions: Container[str]) -> ir.Body:
+    """Statements with ``v = u + h*f(u)`` in place of ``call euler(u, v)``, and this sum for
+    ``euler(u)``, if functions of other sources are explicit Euler steps by name.
+    """
+    given: dict[str, list[ir.Call]] = defaultdict(list)
+    for x in ir.parts_of(body):
+        match x:
+            case ir.Call(ir.Name(name) | ir.Field(name=name)) if _EULER.search(name):
+                given[name].append(x)
+    for_effect = [x.value for x in ir.statements(body) if isinstance(x, ir.Do)]
+    steps = {
+        name
+        for name, calls in given.items()
+        if len(calls) > 1 and name not in functions
+        if _are_of_one_step([x.args[2 if x in for_effect else 1 :] for x in calls])
+    }
+    return _with_sums(body, steps) if steps else body
+
+
+def _are_of_one_step(further: Sequence[Sequence[ir.Expr]]) -> bool:
+    """Whether the further arguments of calls do not differ, but for flags: one may be the step."""
+    if len({*map(len, further)}) > 1:
+        return False
+    of_each = [{*of} for of in zip(*further, strict=True)]
+    return all(len(of) == 1 or all(map(_is_flag, of)) for of in of_each)
+
+
+def _is_flag(expr: ir.Expr) -> bool:
+    match expr:
+        case ir.Name(name):
+            return name.lower() in {"true", "false"}
+        case ir.Opaque(reason):
+            return "boolean" in reason
+    return False
+
+
+def _with_sums(node: Any, steps: Set[str]) -> Any:
+    if isinstance(node, tuple):
+        return tuple(_with_sums(x, steps) for x in node)
+    if not isinstance(node, Frozen):
+        return node
+    match node:
+        case ir.Do(ir.Call(ir.Name(name), (of, target, *_)), line) if name in steps:
+            return ir.Assign(target, _euler_step(name, of), line)
+        case ir.Call(ir.Name(name) | ir.Field(name=name), (of, *_)) if name in steps:
+            return _euler_step(name, _with_sums(of, steps))
+    parts = {name: getattr(node, name) for name in fields(node)}
+    made = {name: _with_sums(x, steps) for name, x in parts.items()}
+    changed = {name: x for name, x in made.items() if x is not parts[name] and x != parts[name]}
+    return replace(node, **changed) if changed else node
+
+
+def _euler_step(name: str, of: ir.Expr) -> ir.Expr:
+    slope = ir.Call(ir.Name(f"{_OF}{name}"), (of,))
+    return ir.Binary("+", of, ir.Binary("*", ir.Name(f"step_of_{name}"), slope))
 
 
 def _is_multiple(expr: object) -> bool:

@@ -123,3 +123,52 @@ def test_operations_say_that_they_are_of_vectors(times: str) -> None:
     )
     (table,) = typescript.find(text.replace("times", times), "x")
     assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
+
+
+EULER_STEPS = """
+subroutine ssp(u, v)
+  real, intent(in) :: u(:)
+  real, intent(out) :: v(:)
+  real :: u1(size(u)), u2(size(u))
+  call forward_euler(u, u1, h, .true.)
+  call forward_euler(u1, u2, h, .false.)
+  u2 = 0.75*u + 0.25*u2
+  call forward_euler(u2, v, h, .false.)
+  v = u/3. + 2*v/3.
+end subroutine
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "weights"),
+    [
+        ("", "", [("1/6", "1/6", "2/3")]),
+        ("u1, u2, h", "u1, u2, h/2", []),
+        ("u1, u2, h", "u1, u2, k", []),
+        ("forward_euler", "implicit_euler", []),
+        ("2*v/3.", "v/3.", []),
+    ],
+)
+def test_euler_steps_are_multiples_of_slopes(
+    old: str, new: str, weights: list[tuple[str, ...]]
+) -> None:
+    """They are so if all have one step."""
+    found = [x for x in fortran.find(EULER_STEPS.replace(old, new), "x") if x.b]
+    assert [tuple(map(to_text, x)) for table in found for x in table.b] == weights
+
+
+VARIADIC = """
+function addVectors() { return [].reduce.call(arguments, (x, y) => x.map((z, i) => z + y[i])); }
+function ralston(f, y, h) {
+  const k = f(y), l = f(addVectors(y, scale(2*h/3, k)));
+  return addVectors(y, scale(h/4, k), scale(3*h/4, l));
+}
+"""
+
+
+def test_a_sum_of_any_number_of_vectors() -> None:
+    """A function with parameters may store the sum in one of them."""
+    (table,) = [x for x in typescript.find(VARIADIC, "x") if x.b]
+    assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
+    text = VARIADIC.replace("addVectors()", "addVectors(x, y, z)")
+    assert [x for x in typescript.find(text, "x") if x.b] == []
