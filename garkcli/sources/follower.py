@@ -937,7 +937,7 @@ def _with_results(
     callee: ir.Expr, places: Sequence[int], way: Sequence[ir.Statement]
 ) -> list[ir.Statement]:
     """The statements with ``k, l = f(x, y)`` in place of ``f(x, y, k, l)``, if these names are
-    others in every call.
+    others in each of several calls.
     """
     made: list[ir.Statement] = []
     results: list[ir.Expr] = []
@@ -949,7 +949,8 @@ def _with_results(
                 others = tuple(y for i, y in enumerate(args) if i not in places)
                 x = ir.Assign(ir.Items(tuple(targets)), ir.Call(of, others, named), line)
         made.append(x)
-    return made if len({*results}) == len(results) else list(way)
+    is_called_once = len(results) == len(places)
+    return list(way) if is_called_once or len({*results}) < len(results) else made
 
 
 def _places_changed(callee: ir.Expr | None, way: Iterable[ir.Statement]) -> list[int]:
