@@ -129,7 +129,7 @@ class Follower(Evaluator):
         self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
-        self._stages: set[str] = set()
+        self._stages: set[ir.Expr] = set()
         self._effects: set[str] = set()
         self._turned: dict[str, int] = {}
         self._spans: dict[int, ir.Expr] = {}
@@ -340,11 +340,14 @@ class Follower(Evaluator):
 
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
         match target:
-            case ir.Index(ir.Name(name), (ir.Range(None, None), _) | (_, ir.Range(None, None))):
-                if is_of_slopes(value) and name not in self._stages:
+            case ir.Index(
+                ir.Name() | ir.Field(of=ir.Name()) as columns,
+                (ir.Range(None, None), _) | (_, ir.Range(None, None)),
+            ):
+                if is_of_slopes(value) and columns not in self._stages:
                     # K(:, 1) = f(t, y)
-                    self._stages.add(name)
-                    space[name] = Array([], is_growing=True)
+                    self._stages.add(columns)
+                    super()._store(columns, Array([], is_growing=True), space, line)
         target = self._place_of(self._array_behind(target), space)
         if isinstance(target, ir.Name):
             if isinstance(value, Form) and (symbols := difference_of_symbols(value.terms)):
@@ -512,7 +515,7 @@ class Follower(Evaluator):
         names = {*self._components, *(x for x in self._counters if x not in self._turned)}
         while isinstance(expr, ir.Index):
             at = tuple(x for x in expr.at if not (isinstance(x, ir.Name) and x.name in names))
-            if isinstance(expr.of, ir.Name) and expr.of.name in self._stages:
+            if expr.of in self._stages:
                 at = tuple(x for x in at if x != ir.Range())
             if len(at) == len(expr.at):
                 break

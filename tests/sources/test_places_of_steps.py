@@ -6,7 +6,7 @@ import pytest
 
 from garkcli.exact.display import to_text
 from garkcli.sources.found import Find
-from garkcli.sources.languages import csharp, fortran, python, typescript
+from garkcli.sources.languages import csharp, fortran, julia, python, typescript
 
 STEP = """(f, y, t, h) {
   var k1 = f(t, y);
@@ -172,3 +172,28 @@ def test_a_sum_of_any_number_of_vectors() -> None:
     assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
     text = VARIADIC.replace("addVectors()", "addVectors(x, y, z)")
     assert [x for x in typescript.find(text, "x") if x.b] == []
+
+
+COLUMNS = """
+function (step::Ralston)(f, x, h)
+    @inbounds let
+        @. step.y = x
+        step.k[:, 1] .= f(step.y)
+        @. step.y = x + step.k[:, 1] * 2 * h / 3
+        step.k[:, 2] .= f(step.y)
+        @. step.new = x + (step.k[:, 1] + 3 * step.k[:, 2]) * h / 4
+    end
+end
+"""
+ROWS = """
+def ralston(self, f, x, h):
+    self.k[0, :] = f(x)
+    self.k[1, :] = f(x + 2*h/3*self.k[0, :])
+    return x + h/4*(self.k[0, :] + 3*self.k[1, :])
+"""
+
+
+@pytest.mark.parametrize(("find", "text"), [(julia.find, COLUMNS), (python.find, ROWS)])
+def test_slopes_in_the_columns_or_rows_of_a_field(find: Find, text: str) -> None:
+    (table,) = find(text, "x")
+    assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
