@@ -44,7 +44,7 @@ OPERATIONS = {
     **dict.fromkeys(("mul", "multiply", "times", "scale", "scaled", "mult"), "*"),
     **dict.fromkeys(("divide", "div"), "/"),
 }
-"""Functions and methods that are operations on vectors, but for words that say so."""
+"""Functions and methods that are operations on vectors, without words such as ``vector``."""
 SHAPES = {"reshape", "flatten", "ravel", "squeeze"}
 """Methods that return a vector in another shape."""
 CHANGING = {

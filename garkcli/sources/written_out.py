@@ -86,7 +86,7 @@ def with_euler_steps(body: ir.Body, functions: Container[str]) -> ir.Body:
 
 
 def _are_of_one_step(further: Sequence[Sequence[ir.Expr]]) -> bool:
-    """Whether the further arguments of calls do not differ, but for flags: one may be the step."""
+    """Whether the further arguments of calls, of which one may be the step, are equal or flags."""
     if len({*map(len, further)}) > 1:
         return False
     of_each = [{*of} for of in zip(*further, strict=True)]
