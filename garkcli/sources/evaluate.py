@@ -392,7 +392,7 @@ class Evaluator:
         if isinstance(value, Array) or not isinstance(target, ir.Name):
             # arrays are never shared, and no record contains itself
             value = copied(value)
-        name = _plain_name(target)
+        name = plain_name(target)
         if not name:
             self._put(target, value, space, line)
             return
@@ -405,7 +405,7 @@ class Evaluator:
 
     def _places(self, target: ir.Expr, space: Space) -> list[Place]:
         """The places of an expression; none if unknown."""
-        name = _plain_name(target)
+        name = plain_name(target)
         if name:
             outer = None if name in space else space.find(name)
             if outer is not None:
@@ -651,7 +651,7 @@ class Evaluator:
         return self.array(integer(i) for i in range(ends[0], ends[1] + 1))
 
     def _field(self, expr: ir.Field, space: Space) -> Value:
-        if name := _plain_name(expr):
+        if name := plain_name(expr):
             return self._named(name, space)
         of = self.value(expr.of, space)
         if isinstance(of, SourceRecord) and expr.name in of.fields:
@@ -916,7 +916,7 @@ def _was_written(value: Value) -> bool:
     return is_lost or (isinstance(value, Number) and value.is_given)
 
 
-def _plain_name(expr: ir.Expr) -> str:
+def plain_name(expr: ir.Expr) -> str:
     """The name in an expression, also as ``self.name``; empty for others."""
     match expr:
         case ir.Name(name=name) | ir.Field(of=ir.Name(name="self" | "this" | "cls"), name=name):
@@ -926,7 +926,7 @@ def _plain_name(expr: ir.Expr) -> str:
 
 def names_of(target: ir.Expr) -> Iterator[str]:
     """The names with values that an assignment changes."""
-    while not _plain_name(target):
+    while not plain_name(target):
         match target:
             case ir.Index(of=of) | ir.Field(of=of) | ir.Call(callee=ir.Field(of=of)):
                 # A.row(1).head(2) is a part of A
@@ -935,7 +935,7 @@ def names_of(target: ir.Expr) -> Iterator[str]:
                 break
     for x in target.items if isinstance(target, ir.Items) else ():
         yield from names_of(x)
-    if name := _plain_name(target):
+    if name := plain_name(target):
         yield name
 
 

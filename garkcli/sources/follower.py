@@ -811,6 +811,11 @@ class Follower(Evaluator):
         )
 
     @property
+    def may_ignore_others(self) -> bool:
+        """Whether there may be a step without them."""
+        return self.has_others and not self._is_lost
+
+    @property
     def looks_like(self) -> bool:
         """Whether f is evaluated at ``x + h*k`` with another value k of f, also in a loop."""
         if self._has_step_inside:

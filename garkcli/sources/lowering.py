@@ -26,7 +26,6 @@ _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
 INCLUDED = ".inc"
 """The ending of include files in several languages."""
 FEWEST_NUMBERS = 5
-SHORT = 300
 A_PART = 400
 """Length below which any function may be part of a step."""
 MOST_OF_A_STEP = 4_000
@@ -257,11 +256,13 @@ class Lowering(ABC):
         text = self.text(node)
         if len(text) < A_PART:
             return True
-        is_likely = len(text) < SHORT or self._speaks or speaks(text[:HEAD])
+        if _calls_again(text):
+            return True
+        is_likely = self._speaks or speaks(text[:HEAD])
         numbers = _NUMBER.finditer(text)
         fewest = 1 if is_likely else FEWEST_NUMBERS
         has_numbers = next(islice(numbers, fewest - 1, None), None) is not None
-        return (has_numbers and (is_likely or bool(_WORDS.search(text)))) or _calls_again(text)
+        return has_numbers and (is_likely or bool(_WORDS.search(text)))
 
     def expr(self, node: Node | None) -> ir.Expr:
         """The lowered form of an expression; Opaque if it is nested too deep."""

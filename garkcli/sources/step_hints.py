@@ -13,13 +13,15 @@ from functools import reduce
 from garkcli.frozen import Frozen, fields
 from garkcli.sources import ir
 from garkcli.sources.elementwise import Each, each_in, loop_over, transformed
-from garkcli.sources.evaluate import names_of
+from garkcli.sources.evaluate import names_of, plain_name
 from garkcli.sources.known import CONVERSIONS
 from garkcli.sources.step_words import (
     APPENDING,
     COPIES,
     ELEMENTARY,
     NO_SLOPES,
+    NO_VALUES,
+    OF_ARRAYS,
     SUMS,
     callee_name,
     operation_of,
@@ -36,7 +38,7 @@ class _Made(Frozen):
     bases: frozenset[str] = frozenset()
 
     def __or__(self, other: _Made) -> _Made:
-        if self is _EMPTY or other is _EMPTY:
+        if self is _EMPTY or other is _EMPTY or self is other:
             return self if other is _EMPTY else other
         both = self.slopes | other.slopes, self.multiples | other.multiples
         return _Made(*both, self.bases | other.bases)
@@ -53,6 +55,28 @@ _EMPTY = _Made()
 """A literal: no factor that may be the step."""
 _SYMBOL = _Made()
 """A product of names without slopes, which may be the step; compared by identity."""
+_SUMS = {"add", *(name for name, _ in SUMS)}
+
+
+def may_add_multiples(body: ir.Body, functions: Collection[str]) -> bool:
+    """Whether statements have sums and products, or calls that may be sums: of such functions, and
+    of those of the source. Others have no fields.
+    """
+    signs: set[str] = set()
+    for statement in ir.statements(body):
+        if isinstance(statement, ir.Scope | ir.Branch | ir.Loop):
+            continue
+        if isinstance(statement, ir.Assign):
+            signs.add(statement.sign[-1:])
+        for x in statement.parts:
+            if isinstance(x, ir.Binary):
+                signs.add(x.sign[-1:])
+            elif isinstance(x, ir.Call):
+                name = callee_name(x.callee)
+                is_sum = operation_of(name) is not None or name in _SUMS
+                if is_sum or getattr(x.callee, "name", "") in functions:
+                    return True
+    return not signs.isdisjoint("+-") and not signs.isdisjoint("*/@")
 
 
 class Hints:
@@ -67,6 +91,7 @@ class Hints:
         fields: functions f that may be vector fields of a step: a sum has a name that f is given
             and a multiple of a slope of f, or both are given to a function of the source; f has
             several arguments, or is called several times.
+        are_any: whether there are multiples of slopes, which a caller may add to its value.
         of_stages: whether one of them is given multiples of slopes of a function that is given
             multiples of its slopes; the two may be one. Mathematics is none of them.
     """
@@ -81,23 +106,28 @@ class Hints:
         self._given: dict[ir.Expr, set[str]] = defaultdict(set)
         self._passed: dict[ir.Expr, set[ir.Expr]] = defaultdict(set)
         self._calls: Counter[ir.Expr] = Counter()
+        self._of_several: set[ir.Expr] = set()
         self._sums: list[_Made] = []
+        self._multiples: set[ir.Expr] = set()
         self._is_inside = False
         self._over(body)
-        several = {f for f, count in self._calls.items() if count > 1}
+        again = {f for f, count in self._calls.items() if count > 1}
+        several = again | self._of_several
         passed = self._passed
         self.fields = {
             f
             for x in self._sums
             for f in x.multiples & several
+            if callee_name(f) not in ELEMENTARY
             for g in {f, *(g for g in several if f in passed[g])}
             if not x.bases.isdisjoint(self._given[g])
         }
+        self.are_any = any(callee_name(f) not in ELEMENTARY for f in self._multiples & several)
         self.of_stages = any(
             g in passed[f] and f in passed[g]
-            for f in self.fields
-            if callee_name(f) not in ELEMENTARY
-            for g in several
+            for f in self.fields & again
+            for g in again
+            if callee_name(g) not in ELEMENTARY
         )
 
     def _over(self, body: Iterable[ir.Statement]) -> None:
@@ -155,20 +185,21 @@ class Hints:
 
     def _stored(self, target: ir.Expr, made: _Made) -> None:
         for name in names_of(target):
-            self._named[name] = self._named.get(name, _EMPTY) | made
+            self._named[name] = self._of_name(name) | made
 
     def _value(self, expr: object) -> _Made:
         match expr:
             case ir.Literal() | ir.Text():
                 return _EMPTY
             case ir.Name(name):
-                return self._of_name(name)
+                return _EMPTY if name in NO_VALUES else self._of_name(name)
             case ir.Binary(sign, left, right):
                 return self._combined(sign, self._value(left), self._value(right))
             case ir.Call():
                 return self._called(expr)
             case ir.Field(of, name):
-                return self._value(of) | self._of_name(name)
+                of_whole = _EMPTY if plain_name(expr) else self._value(of)
+                return of_whole | self._of_name(name)
             case ir.Index(of, (_, _, *_) as at):
                 # f(t, y) in Fortran
                 return self._called(ir.Call(of, tuple(at))) | self._value(of)
@@ -185,15 +216,23 @@ class Hints:
         return reduce(_Made.__or__, map(self._value, parts), _EMPTY)
 
     def _of_name(self, name: str) -> _Made:
-        return self._named.get(name, _EMPTY) | _Made(bases=frozenset({name}))
+        made = self._named.get(name)
+        if made is None:
+            made = self._named[name] = _Made(bases=frozenset({name}))
+        return made
 
     def _combined(self, sign: str, x: _Made, y: _Made) -> _Made:
-        if "*" in sign or "/" in sign:
-            return x.times(y)
-        made = x | y
-        if made.multiples and sign.endswith(("+", "-")):
-            self._sums.append(made)
-        return made
+        if sign.endswith(("+", "-")):
+            made = x | y
+            if made.multiples:
+                self._sums.append(made)
+            return made
+        is_divided = "/" in sign and (y.slopes or y.multiples)
+        is_product = ("*" in sign or "/" in sign or sign == "@") and not is_divided
+        # nothing else is linear in slopes
+        product = x.times(y) if is_product else _SYMBOL
+        self._multiples |= product.multiples
+        return product
 
     def _each(self, each: Each) -> _Made:
         for name, vector in zip(each.names, each.vectors, strict=True):
@@ -214,19 +253,23 @@ class Hints:
         given = self._all((*call.args, *(x for _, x in call.named)))
         # k1(i) is an entry
         of = self._value(callee.of if isinstance(callee, ir.Field) else callee)
-        made, is_sum = given | of, (name, count) in SUMS or name == "add"
+        made = given | of
+        is_sum = (name, count) in SUMS or name == "add"
         is_sum |= operation_of(name) is not None and not is_effect
         is_other = name in NO_SLOPES | COPIES or (name in CONVERSIONS and len(call.args) == 1)
         if not count or (is_other and not is_sum):
             return made
         if is_sum or getattr(callee, "name", "") in self._functions:
             made = _Made(frozenset(), made.slopes | made.multiples, made.bases)
+            self._multiples |= made.multiples
             self._sums.append(made)
             if is_sum:
                 return made
-        elif name not in ELEMENTARY:
-            made = of
+        elif name not in OF_ARRAYS:
+            made = _Made(of.slopes, of.multiples) if isinstance(callee, ir.Field) else of
         self._given[callee] |= given.bases
         self._passed[callee] |= given.multiples
-        self._calls[callee] += 1 + (count > 1)
+        self._calls[callee] += 1
+        if count > 1:
+            self._of_several.add(callee)
         return made | _Made(frozenset({callee}))

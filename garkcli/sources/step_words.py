@@ -66,16 +66,22 @@ MATHEMATICS = {
     *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
 }
 """Functions of two numbers in various languages."""
-ELEMENTARY = {
+_OF_NUMBERS = {
     *("exp", "log", "log2", "log10", "log1p", "expm1", "sqrt", "cbrt", "square", "abs", "fabs"),
     *("sin", "cos", "tan", "asin", "acos", "atan", "arcsin", "arccos", "arctan", "sinh", "cosh"),
     *("tanh", "erf", "erfc", "sign", "floor", "ceil", "round", "trunc", "real", "imag", "conj"),
     *("isnan", "isfinite", "isinf", "any", "all", "len", "size", "length", "shape", "ndim", "type"),
+}
+"""Functions of one number in various languages: seldom vector fields."""
+OF_ARRAYS = {
     *("zeros", "ones", "empty", "zeros_like", "ones_like", "empty_like", "eye", "diag", "arange"),
     *("linspace", "range", "enumerate", "zip", "map", "next", "iter", "sorted", "isinstance"),
     *("getattr", "reshape", "ravel", "concatenate", "hstack", "vstack", "stack", "moveaxis"),
     *("transpose", "squeeze", "atleast_1d", "broadcast_to", "broadcast_arrays", "expand_dims"),
     *("prod", "cumsum", "mean", "argmax", "argmin", "argsort", "unique", "nonzero", "searchsorted"),
 }
-"""Functions of one number, and of arrays, in various languages: seldom vector fields."""
+"""Functions of arrays, whose values may have slopes that they are given."""
+ELEMENTARY = _OF_NUMBERS | OF_ARRAYS
 NO_SLOPES = MATHEMATICS | TELLING | SHAPES
+NO_VALUES = {"True", "False", "true", "false", "np", "numpy", "xp", "jnp", "math", "Math", "torch"}
+"""Names that stand for no value of a step: modules."""

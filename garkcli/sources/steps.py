@@ -19,7 +19,7 @@ from garkcli.sources.evaluate import Evaluator, names_of, shown
 from garkcli.sources.follower import Follower, counter_of, is_of_fortran
 from garkcli.sources.polynomials import Place
 from garkcli.sources.stages import NEAR, NoStep, Roles, terms_of
-from garkcli.sources.step_hints import Hints
+from garkcli.sources.step_hints import Hints, may_add_multiples
 from garkcli.sources.step_words import NO_SLOPES, callee_name, is_sum
 from garkcli.sources.values import (
     ONE,
@@ -69,6 +69,8 @@ def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = T
         NoStep: there is none.
     """
     looks_like = False
+    if not may_add_multiples(body, like.functions):
+        raise NoStep
     if is_of_fortran(like):
         body = with_calls(body)
     body = with_euler_steps(body, like.functions)
@@ -133,13 +135,18 @@ def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     Raises:
         NoStep: there are no such calls.
     """
-    follower, names = Follower(like, ()), Space(space)
-    turns: list[tuple[str, Place, Value]] = []
+    calls: list[tuple[str, ir.Expr]] = []
     for statement in body:
         match statement:
             case ir.Do(value=ir.Call(callee, (part,), ())) if name := callee_name(callee):
-                form = terms_of(follower.value(part, names)) or {}
-                turns += [(name, at, x) for at, x in form.items() if at and len(form) == 1]
+                calls.append((name, part))
+    if len(calls) < FEWEST_TURNS:
+        raise NoStep
+    follower, names = Follower(like, ()), Space(space)
+    turns: list[tuple[str, Place, Value]] = []
+    for name, part in calls:
+        form = terms_of(follower.value(part, names)) or {}
+        turns += [(name, at, x) for at, x in form.items() if at and len(form) == 1]
     callees = list(dict.fromkeys(name for name, _, _ in turns))
     are_in_turns = all(x[0] != y[0] for x, y in pairwise(turns))
     if len(turns) < FEWEST_TURNS or len(callees) != 2 or not are_in_turns:
@@ -192,15 +199,17 @@ class _StepReader:
             self._paths += 1
             if self._paths > MAX_PATHS:
                 raise NoStep
-            if is_lost and have_sums and not _hints(way, self._like).of_stages:
-                # there is no step, and this path does not look like one
+            hints = _hints(way, self._like)
+            if not hints.are_any or (is_lost and have_sums and not hints.of_stages):
+                # this path is no step; without one elsewhere it need not look like one
+                is_lost = True
                 continue
             follower = self._follower(way, counters)
             try:
                 try:
                     roles = follower.roles(Space(self._space))
                 except NoStep:
-                    if not follower.has_others:
+                    if not follower.may_ignore_others or not hints.of_stages:
                         raise
                     follower = self._follower(way, counters, ignores_others=True)
                     roles = follower.roles(Space(self._space))
@@ -247,7 +256,7 @@ class _StepReader:
             elif isinstance(statement, ir.Loop):
                 parts = [(statement.body, (*counters, *_counted(statement)))]
             for inside, names in parts:
-                if not _may_evaluate(inside, self._like):
+                if not _hints(inside, self._like).of_stages:
                     continue
                 try:
                     roles = self.by_every_way(inside, names)
@@ -292,12 +301,6 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
 
 def _has_sums_in_calls(body: ir.Body, like: Evaluator) -> bool:
     return any(is_sum(y) for x in _calls(body, like) for of in x.args for y in ir.inside(of))
-
-
-def _may_evaluate(body: ir.Body, like: Evaluator) -> bool:
-    """Whether statements call a function several times."""
-    evaluations, helpers = _calls_in(body, like)
-    return evaluations > 1 or helpers > 0
 
 
 def _calls_in(body: ir.Body, like: Evaluator) -> tuple[int, int]:

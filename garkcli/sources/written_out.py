@@ -29,7 +29,7 @@ def with_functions(body: ir.Body, has_increments: bool) -> ir.Body | None:
 
     Args:
         body: the statements.
-        has_increments: whether the first factor of all expressions is the step.
+        has_increments: whether the first factor of all expressions of some family is the step.
     """
     values: dict[int, ir.Expr] = {}
     families: dict[tuple[str, str], list[ir.Assign]] = defaultdict(list)
@@ -45,6 +45,9 @@ def with_functions(body: ir.Body, has_increments: bool) -> ir.Body | None:
             expressions = [x.value for x in members if x.value is not None]
             calls = _calls(f"{head}{tail}", expressions, has_increments)
             values |= {id(x): call for x, call in zip(members, calls, strict=False)}
+    if has_increments and not any(isinstance(x, ir.Binary) for x in values.values()):
+        # the same as without increments
+        return None
     return _replaced(body, values) if values else None
 
 
@@ -152,13 +155,16 @@ def with_one_function(body: ir.Body, functions: Mapping[str, ir.Scope]) -> ir.Bo
         functions: of the source.
     """
     local = {x.name: x for x in ir.statements(body) if isinstance(x, ir.Scope)}
-    called = (x.callee for x in ir.parts_of(body) if isinstance(x, ir.Call))
+    called = {getattr(x.callee, "name", "") for x in ir.parts_of(body) if isinstance(x, ir.Call)}
+    members: dict[str, list[ir.Scope]] = defaultdict(list)
+    for name in called:
+        scope = local.get(name, functions.get(name))
+        if scope is not None and (match := _MEMBER.fullmatch(scope.name)) is not None:
+            members[match["head"]].append(scope)
     families: dict[tuple[str, object], set[str]] = defaultdict(set)
-    for callee in called:
-        scope = (local | dict(functions)).get(getattr(callee, "name", ""))
-        match = _MEMBER.fullmatch(scope.name) if scope is not None else None
-        if scope is not None and match is not None:
-            families[match["head"], _shape((scope.parameters, scope.body))].add(scope.name)
+    for head, scopes in members.items():
+        for scope in scopes if len(scopes) > 1 else ():
+            families[head, _shape((scope.parameters, scope.body))].add(scope.name)
     values: dict[str, ir.Expr] = {
         name: ir.Name(f"each {head}")
         for (head, _), names in families.items()
