@@ -294,7 +294,12 @@ class TableFinder(Harvester):
     def _of_letters(
         self, title: str, line: int, named: Iterable[tuple[str, Value]], is_told: bool = False
     ) -> bool:
-        """Whether arrays and numbers with the letters of papers are a Rosenbrock method."""
+        """Whether arrays and numbers with the letters of papers are a Rosenbrock method, which has
+        two matrices.
+        """
+        named = list(named)
+        if sum(is_matrix(x) for _, x in named) < 2:
+            return False
         kinds: tuple[dict[str, Value], ...] = ({}, {}, {})
         for name, value in named:
             plain = name.rpartition("::")[2].rpartition(".")[2].strip("_")
@@ -473,6 +478,8 @@ class TableFinder(Harvester):
         known: Collection[object] = (),
     ) -> None:
         """Adds tables of arrays, except those with a matrix known from a record."""
+        if not any(isinstance(x, Array | SourceRecord) for x in values.values()):
+            return
         if _is_general_linear(values):
             self._unread(scope.title, scope.line, kind="general linear")
             return

@@ -862,7 +862,7 @@ def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
                 # file << x << y
                 used.update(y for y in ir.inside(x.target) if isinstance(y, ir.Name))
         else:
-            used.update(y for y in ir.inside(x) if isinstance(y, ir.Name))
+            used |= x.every_name
     return [
         ir.Do(x.value, x.line)
         if isinstance(x, ir.Assign)

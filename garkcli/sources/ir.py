@@ -146,7 +146,16 @@ Expr: TypeAlias = (
 )
 
 
-class _Valued(Frozen):
+class _Statement(Frozen):
+    """Any statement."""
+
+    @cached_property
+    def every_name(self) -> frozenset[Name]:
+        """The names in it."""
+        return frozenset(x for x in inside(self) if isinstance(x, Name))
+
+
+class _Valued(_Statement):
     """A statement with a value."""
 
     @cached_property
@@ -196,7 +205,7 @@ class Return(_Valued):
 Kind: TypeAlias = Choice["module", "function", "class", "entry"]
 
 
-class Scope(Frozen):
+class Scope(_Statement):
     """A function, a class, an entry of a list of macros.
 
     Attributes:
@@ -228,7 +237,7 @@ class Scope(Frozen):
         return self.of or self.name
 
 
-class Branch(Frozen):
+class Branch(_Statement):
     """One of several branches; without ``is_total`` perhaps none is taken.
 
     Attributes:
@@ -240,7 +249,7 @@ class Branch(Frozen):
     is_total: bool = False
 
 
-class Loop(Frozen):
+class Loop(_Statement):
     """A body for every value of a name; with an empty name a loop that is not followed."""
 
     name: str

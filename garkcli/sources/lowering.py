@@ -256,13 +256,11 @@ class Lowering(ABC):
         text = self.text(node)
         if len(text) < A_PART:
             return True
-        if _calls_again(text):
-            return True
         is_likely = self._speaks or speaks(text[:HEAD])
         numbers = _NUMBER.finditer(text)
         fewest = 1 if is_likely else FEWEST_NUMBERS
         has_numbers = next(islice(numbers, fewest - 1, None), None) is not None
-        return has_numbers and (is_likely or bool(_WORDS.search(text)))
+        return (has_numbers and (is_likely or bool(_WORDS.search(text)))) or _calls_again(text)
 
     def expr(self, node: Node | None) -> ir.Expr:
         """The lowered form of an expression; Opaque if it is nested too deep."""

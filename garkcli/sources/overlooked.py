@@ -95,7 +95,7 @@ def _is_method(
     named: dict[str, set[str]] = {}
     numbers: list[str] = []
     for x in own:
-        sizes = list(map(sized, _fractions(getattr(x, "value", None))))
+        sizes = list(map(sized, _fractions(getattr(x, "parts", ()))))
         numbers += sizes
         for name in names_of(x.target) if isinstance(x, ir.Assign) and sizes else ():
             named.setdefault(family_of(name), set()).update(y for y in sizes if y not in used)
@@ -152,9 +152,9 @@ def sized(x: float) -> str:
     return f"{abs(x):.9g}"
 
 
-def _fractions(expr: object) -> Iterator[float]:
-    """The numbers and roots in an expression that are not integers; ``h/6`` gives 1/6."""
-    for x in ir.inside(expr):
+def _fractions(parts: Iterable[object]) -> Iterator[float]:
+    """The numbers and roots among expressions that are not integers; ``h/6`` gives 1/6."""
+    for x in parts:
         match x:
             case ir.Literal():
                 value = _near(x)

@@ -9,7 +9,6 @@ that does not fit gives no table.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence, Set
 from contextlib import suppress
 from itertools import pairwise
@@ -20,7 +19,7 @@ from garkcli.sources.follower import Follower, counter_of, is_of_fortran
 from garkcli.sources.polynomials import Place
 from garkcli.sources.stages import NEAR, NoStep, Roles, terms_of
 from garkcli.sources.step_hints import Hints, may_add_multiples
-from garkcli.sources.step_words import NO_SLOPES, callee_name, is_sum
+from garkcli.sources.step_words import callee_name, is_sum
 from garkcli.sources.values import (
     ONE,
     ZERO,
@@ -53,6 +52,8 @@ MAX_NUMBERS = 6
 """Most numbers tried as the step."""
 FEWEST_TURNS = 5
 """Fewest alternating calls of a splitting."""
+Known = dict[tuple[int, ...], Hints]
+"""Hints in some statements of a function, by the identities of these."""
 
 
 def steps_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = True) -> list[Roles]:
@@ -92,19 +93,17 @@ def _steps_with_calls(
     body: ir.Body, space: Space, like: Evaluator, is_function: bool, is_plain: bool
 ) -> list[Roles]:
     """The steps in statements, unless ``is_plain`` those with vector fields written out."""
-    hints, count = _hints(body, like), sum(1 for _ in ir.statements(body))
+    known: Known = {}
+    hints, count = _hints(body, like, known), sum(1 for _ in ir.statements(body))
     if not hints.fields or (count > MAX_STATEMENTS_OF_ONE_STAGE and not hints.of_stages):
         raise NoStep
     if not is_plain and not any(map(is_written_out, hints.fields)):
         raise NoStep
-    evaluations, helpers = _calls_in(body, like)
-    is_long = count > MAX_STATEMENTS
     modes = [("", False)]
-    if helpers and not is_long:
+    if count <= MAX_STATEMENTS:
         modes.append(("", True))
-    if hints.of_stages and evaluations > 1 and not is_long and _has_sums_in_calls(body, like):
         # the step may be a number that is set around it
-        modes += [(name, False) for name in _numbers_in(body, space)]
+        modes += [(name, False) for name in _numbers_in(body, space) if hints.of_stages]
     looks_like = False
     helpers_seen: set[str] = set()
     for symbol, is_inlined in modes:
@@ -112,7 +111,7 @@ def _steps_with_calls(
             continue
         own = Space(space)
         own.update({symbol: Form({(symbol,): ONE})} if symbol else {})
-        reader = _StepReader(own, like, helpers_seen if is_inlined else set())
+        reader = _StepReader(own, like, helpers_seen if is_inlined else set(), known)
         try:
             if is_function:
                 roles = reader.by_every_way(body)
@@ -167,6 +166,7 @@ class _StepReader:
         space: the names around them.
         like: an evaluator of their language.
         inlined: the functions of the source that are followed.
+        known: the hints in them so far.
 
     Attributes:
         looks_like: whether a part of them looks like a step.
@@ -174,10 +174,11 @@ class _StepReader:
         is_open: whether nothing says which result of the last step is the step.
     """
 
-    def __init__(self, space: Space, like: Evaluator, inlined: Set[str]) -> None:
+    def __init__(self, space: Space, like: Evaluator, inlined: Set[str], known: Known) -> None:
         self._space = space
         self._like = like
         self._inlined = frozenset(inlined)
+        self._known = known
         self._paths = 0
         self.looks_like = False
         self.helpers: set[str] = set()
@@ -199,7 +200,7 @@ class _StepReader:
             self._paths += 1
             if self._paths > MAX_PATHS:
                 raise NoStep
-            hints = _hints(way, self._like)
+            hints = _hints(way, self._like, self._known)
             if not hints.are_any or (is_lost and have_sums and not hints.of_stages):
                 # this path is no step; without one elsewhere it need not look like one
                 is_lost = True
@@ -256,7 +257,7 @@ class _StepReader:
             elif isinstance(statement, ir.Loop):
                 parts = [(statement.body, (*counters, *_counted(statement)))]
             for inside, names in parts:
-                if not _hints(inside, self._like).of_stages:
+                if not _hints(inside, self._like, self._known).of_stages:
                     continue
                 try:
                     roles = self.by_every_way(inside, names)
@@ -279,8 +280,11 @@ def _has_result(roles: Roles, other: Roles) -> bool:
     return shown(roles["A"]) == shown(other["A"]) and shown(other["b"]) in results
 
 
-def _hints(body: Sequence[ir.Statement], like: Evaluator) -> Hints:
-    return Hints(body, like.functions, like.has_whole_quotients)
+def _hints(body: Sequence[ir.Statement], like: Evaluator, known: Known) -> Hints:
+    key = tuple(map(id, body))
+    if key not in known:
+        known[key] = Hints(body, like.functions, like.has_whole_quotients)
+    return known[key]
 
 
 def _plain(arm: ir.Body) -> ir.Body:
@@ -297,31 +301,6 @@ def _numbers_in(body: ir.Body, space: Space) -> list[str]:
                 names |= {y.name: None for y in (left, right) if isinstance(y, ir.Name)}
     found = [x for x in names if isinstance(space.find(x), Number)]
     return found if len(found) <= MAX_NUMBERS else []
-
-
-def _has_sums_in_calls(body: ir.Body, like: Evaluator) -> bool:
-    return any(is_sum(y) for x in _calls(body, like) for of in x.args for y in ir.inside(of))
-
-
-def _calls_in(body: ir.Body, like: Evaluator) -> tuple[int, int]:
-    """The most calls of one function, and the number of functions of the source that are called."""
-    counts = Counter(x.callee for x in _calls(body, like) if x.args)
-    helpers = sum(getattr(x, "name", "") in like.functions for x in counts)
-    return max(counts.values(), default=0), helpers
-
-
-def _calls(body: ir.Body, like: Evaluator) -> Iterator[ir.Call]:
-    """The calls in some statements, in Fortran also those that look like entries, without
-    mathematics and output of other sources.
-    """
-    for x in ir.parts_of(body):
-        match x:
-            case ir.Call(callee):
-                name = getattr(callee, "name", "")
-                if name in like.functions or callee_name(callee) not in NO_SLOPES:
-                    yield x
-            case ir.Index(ir.Name() as callee, (_, _, *_) as at) if is_of_fortran(like):
-                yield ir.Call(callee, tuple(at))
 
 
 def _counted(loop: ir.Loop) -> Iterator[str]:
