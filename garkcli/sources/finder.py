@@ -225,7 +225,9 @@ class TableFinder(Harvester):
         records_made += [
             x for x in space.values() if isinstance(x, SourceRecord) and x.kind in _MADE
         ]
-        self.makers += [(self._place(scope.title, x.line), x) for x in records_made if x.args]
+        self.makers += [
+            (self._place(x.key or scope.title, x.line), x) for x in records_made if x.args
+        ]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count, first = self._count(), len(self._meant)

@@ -518,3 +518,14 @@ def test_calls_of_one_name_are_methods_if_they_fit(
     path.write_text(f"{method}\ncheck([0, 1], [[0, 0], [1, 0]], {weights})\n", "utf-8")
     found = list(audited([str(path)]))
     assert [x.has_errors for x in found if x.is_read] == [False] * count
+
+
+@pytest.mark.parametrize(("name", "count"), [("backward_euler", 2), ("ratio", 1)])
+def test_calls_with_one_stage_are_methods_if_their_name_says_so(
+    tmp_path: Path, name: str, count: int
+) -> None:
+    zeros, others = "[0, 0, 0, 0]", "[1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]"
+    method = f"check([0, 1/2, 1/2, 1], [{zeros}, {others}], [1/6, 1/3, 1/3, 1/6])"
+    path = tmp_path / "x.py"
+    path.write_text(f"kutta = {method}\n{name} = check([1], [[1]], [1])\n", "utf-8")
+    assert [x.order.order for x in audited([str(path)]) if x.order] == [4, 1][:count]
