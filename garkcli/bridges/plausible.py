@@ -17,7 +17,7 @@ from garkcli.sources.found import FoundTable
 
 _SHORT = re.compile("euler|midpoint|implicit|trapez|crank", re.IGNORECASE)
 NEAR = 0.01
-"""Sums that differ by less count as equal."""
+"""Sums that differ by less count as equal; those of rows relative to the largest entry."""
 TINY = 1e-9
 """Conditions with smaller residuals count as held."""
 FAR = 0.5
@@ -56,7 +56,7 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
         moment = _sum(map(operator.mul, colour.b, colour.c)) - 0.5
         return len(rows) > 1 and (is_lower or bool(abs(moment) < NEAR))
     pairs = zip(rows, colour.c, strict=True)
-    agreeing = sum(bool(abs(_sum(row) - to_ball(c)) < NEAR) for row, c in pairs)
+    agreeing = sum(_agree(row, c) for row, c in pairs)
     by_nodes, by_rows = (
         abs(_sum(map(operator.mul, colour.b, x)) - 0.5) for x in (colour.c, map(_sum, rows))
     )
@@ -75,6 +75,12 @@ def speaks(table: FoundTable) -> bool:
 
 def _are_whole(rows: Iterable[Sequence[Number]]) -> bool:
     return all(isinstance(x, fmpq) and x.q == 1 for row in rows for x in row)
+
+
+def _agree(row: Sequence[Number], node: Number) -> bool:
+    # tiny numbers, such as covariances, are near any others
+    largest = max(map(abs, map(to_ball, (*row, node))))
+    return bool(abs(_sum(row) - to_ball(node)) <= NEAR * largest)
 
 
 def _sum(row: Iterable[Number]) -> arb:

@@ -11,7 +11,7 @@ from garkcli.sources.values import ZERO, Array, Number, SourceRecord, Value, who
 TINY = 1e-9
 """Rounding of weights leaves their sum this near to 1."""
 NEAR = 0.01
-"""Sums that differ by less are equal."""
+"""Sums that differ by less, relative to the largest entry of a row, are equal."""
 _TABLEAU = re.compile("butcher|tableau|(?<!s)table")
 """Names of whole tableaus: ``rk_table``, but not ``a_stable``."""
 FAR = 0.5
@@ -57,7 +57,9 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     if not all(isinstance(x, Number) for row in numbers for x in row):
         return None
     near = [[x.near if isinstance(x, Number) else 0.0 for x in row] for row in rows]
-    agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
+    agreeing = sum(
+        abs(sum(row[1:]) - row[0]) <= NEAR * max(map(abs, row)) for row in near[:stages]
+    )
     # rows of zeros agree with any nodes
     zeros = sum(not any(row) for row in near[:stages])
     off = abs(sum(near[stages][1:]) - 1)

@@ -529,3 +529,17 @@ def test_calls_with_one_stage_are_methods_if_their_name_says_so(
     path = tmp_path / "x.py"
     path.write_text(f"kutta = {method}\n{name} = check([1], [[1]], [1])\n", "utf-8")
     assert [x.order.order for x in audited([str(path)]) if x.order] == [4, 1][:count]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Q = [[1e-6, 0, 0], [0, 3e-9, 0], [0, 0, 1]]",
+        "a = [[1e-4, 0], [2e-4, 0]]\nb = [0.5, 0.5]\nc = [0, 1e-3]",
+    ],
+)
+def test_tiny_numbers_are_no_row_sums(tmp_path: Path, text: str) -> None:
+    """Entries of covariances are near any nodes that are as small."""
+    path = tmp_path / "filter.py"
+    path.write_text(f"{text}\n", encoding="utf-8")
+    assert [*audited([str(path)])] == []
