@@ -42,6 +42,7 @@ from garkcli.sources.step_words import (
     SHAPES,
     SUMS,
     TELLING,
+    TEXTS,
     callee_name,
     is_sum,
     operation_of,
@@ -547,6 +548,8 @@ class Follower(Evaluator):
             return self.value(whole, space)
         if (each := each_in(call)) and (entries := self._of_each(each, space)) is not None:
             return entries
+        if name.rpartition("::")[2] in TEXTS:
+            return self.unknown("a text")
         args = [self.value(x, space) for x in call.args if not _is_of_rest(x)]
         args += [x for _, y in call.named if isinstance(x := self.value(y, space), Form)]
         if name in CONVERSIONS and len(args) == 1:
@@ -926,6 +929,9 @@ def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
             pass
         case _:
             return False
+    if any(isinstance(x, ir.Text) for x in ir.inside(value)):
+        # output to a file
+        return False
     names = {callee_name(callee)} & (COPIES | TELLING)
     return (callee_name(callee), len(value.args)) not in SUMS and not names
 

@@ -18,6 +18,7 @@ from garkcli.sources.known import SAME
 from garkcli.sources.naming import ROLES, speaks
 from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import SIGNATURES, other_kind
+from garkcli.sources.step_words import operation_of
 
 if TYPE_CHECKING:
     from tree_sitter import Language, Node
@@ -135,7 +136,7 @@ class Lowering(ABC):
                 continue
             self._depth += 1
             try:
-                lowered += map(_branched, self.statement(node))
+                lowered += map(_branched, map(_assigned, self.statement(node)))
             finally:
                 self._depth -= 1
         return tuple(lowered)
@@ -452,6 +453,14 @@ _OPERATIONS = (
     | dict.fromkeys(("pow", "powi"), "^")
 )
 """Methods of numbers that are operations with another number."""
+_CHANGING = re.compile(
+    r"(add|plus|sub|subtract|minus|mul|multiply|times|scale|div|divide)"
+    r"(?:_?(?:assign|self|scalar|equals?|in_?place))+",
+    re.IGNORECASE,
+)
+"""Methods of vectors that are operations and change their object: ``add_assign``."""
+ADD_MULTIPLE = "addScaledVector"
+"""``y.addScaledVector(k, h)`` is y += h k in three.js."""
 _UNITS = {"getZero": "0.0", "getOne": "1.0"}
 _OF_IT = {"recip": "inv", "reciprocal": "inv", "Select": "map"} | {
     x: x for x in ("sqrt", "cbrt", "cos", "sin", "len", "map", "transpose", "sum")
@@ -476,6 +485,8 @@ def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr 
     """The operation for a method of a number or list; None for other methods."""
     if name in _OPERATIONS and len(args) == 1:
         return ir.Binary(_OPERATIONS[name], of, args[0])
+    if name == ADD_MULTIPLE and len(args) == 2:
+        return ir.Binary("+", of, ir.Binary("*", args[1], args[0]))
     if name in {"neg", "negate"} and not args:
         return ir.Unary("-", of)
     if name in _UNITS and not args:
@@ -502,6 +513,27 @@ def _branched(statement: ir.Statement) -> ir.Statement:
                 arms = tuple((replace(statement, value=x),) for x in values)
                 return ir.Branch(arms, line, is_total=True)
     return statement
+
+
+def _assigned(statement: ir.Statement) -> ir.Statement:
+    """A statement; ``y += x`` for a method that changes its object."""
+    match statement:
+        case ir.Do(ir.Call(ir.Field(of, name), (value,), ()), line):
+            if (found := _CHANGING.fullmatch(name)) and (sign := operation_of(found[1].lower())):
+                return ir.Assign(of, value, line, sign)
+    return statement
+
+
+def done(made: ir.Expr, line: int) -> ir.Statement:
+    """A call for its effect; an operation on a vector changes it: ``y.add(k.mul(h))``."""
+    match made:
+        case ir.Binary(sign, of, value) if _is_changed(of):
+            return ir.Assign(of, value, line, sign)
+    return ir.Do(made, line)
+
+
+def _is_changed(of: ir.Expr) -> bool:
+    return isinstance(of, ir.Name) or (isinstance(of, ir.Field) and _is_changed(of.of))
 
 
 def _is_macro(made: ir.Statement) -> bool:

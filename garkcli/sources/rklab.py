@@ -57,9 +57,7 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     if not all(isinstance(x, Number) for row in numbers for x in row):
         return None
     near = [[x.near if isinstance(x, Number) else 0.0 for x in row] for row in rows]
-    agreeing = sum(
-        abs(sum(row[1:]) - row[0]) <= NEAR * max(map(abs, row)) for row in near[:stages]
-    )
+    agreeing = sum(abs(sum(row[1:]) - row[0]) <= NEAR * max(map(abs, row)) for row in near[:stages])
     # rows of zeros agree with any nodes
     zeros = sum(not any(row) for row in near[:stages])
     off = abs(sum(near[stages][1:]) - 1)

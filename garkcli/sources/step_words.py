@@ -26,12 +26,14 @@ def operation_of(name: str) -> str | None:
     return OPERATIONS.get(_OF_VECTORS.sub("", name))
 
 
-_OF_VECTORS = re.compile(r"_|scalar|vectors?|vec|arrays?|by")
+_OF_VECTORS = re.compile(r"_|scalar|vectors?|vec|arrays?|by|assign|self|inplace")
 TELLING = {
     *("print", "println", "printf", "fprintf", "disp", "append", "push", "push_back", "add"),
     *("push!", "emplace_back", "write", "writeln"),
 }
 """Functions that store or print their arguments without changing them."""
+TEXTS = {"to_string", "tostring", "str", "string", "repr", "num2str", "sprintf", "sprint"}
+"""Functions whose value is a text."""
 APPENDING = {"append", "push_back", "emplace_back", "push", "add"}
 """Methods that put a value behind the end of a list."""
 DOTS = {"dot", "matmul", "inner", "tensordot"}

@@ -6,7 +6,7 @@ import pytest
 
 from garkcli.exact.display import to_text
 from garkcli.sources.found import Find
-from garkcli.sources.languages import csharp, fortran, julia, python, typescript
+from garkcli.sources.languages import c, csharp, fortran, julia, python, rust, typescript
 
 STEP = """(f, y, t, h) {
   var k1 = f(t, y);
@@ -196,4 +196,63 @@ def ralston(self, f, x, h):
 @pytest.mark.parametrize(("find", "text"), [(julia.find, COLUMNS), (python.find, ROWS)])
 def test_slopes_in_the_columns_or_rows_of_a_field(find: Find, text: str) -> None:
     (table,) = find(text, "x")
+    assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
+
+
+IN_RUST = """
+fn ralston(f: &dyn Fn(&State) -> State, y: &mut State, h: f64) {
+    let k = f(y);
+    let l = f(&y.add(&k.mul(2.0 * h / 3.0)));
+    y.add_assign(&k.mul(h / 4.0));
+    y.add_assign(&l.mul(3.0 * h / 4.0));
+}
+"""
+IN_JAVASCRIPT = """
+function ralston(f, y, h) {
+  let k = f(y);
+  k.multiplyScalar(h);
+  let l = f(y.clone().addScaledVector(k, 2/3));
+  l.multiplyScalar(h);
+  let sum = k;
+  sum.addScaledVector(l, 3);
+  sum.multiplyScalar(1/4);
+  y.add(sum);
+  return y;
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "misprint"),
+    [
+        (rust.find, IN_RUST, ("2.0 * h / 3", "1.0 * h / 3")),
+        (typescript.find, IN_JAVASCRIPT, ("2/3", "1/3")),
+    ],
+)
+def test_methods_that_change_their_object(find: Find, text: str, misprint: tuple[str, str]) -> None:
+    """Operations called for their effect: the last one is the same in a sum."""
+    for written, entry in ((text, "2/3"), (text.replace(*misprint), "1/3")):
+        (table,) = find(written, "x")
+        assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]
+        ((rows,),) = table.A
+        assert rows is not None
+        assert to_text(rows[1][0]) == entry
+
+
+OUTPUT = """
+void solve(double t, double h, State y, double end) {
+  while (t < end) {
+    State k = f(t, y);
+    State l = f(t + 2*h/3, y + 2*h/3*k);
+    y = y + h/4*(k + 3*l);
+    save("step" + std::to_string(t) + ".txt", y);
+    t += h;
+  }
+}
+"""
+
+
+def test_output_into_a_file_is_no_vector_field() -> None:
+    """A function with a text is none, nor is one that makes a text."""
+    (table,) = c.find(OUTPUT, "x.cpp")
     assert [tuple(map(to_text, x)) for x in table.b] == [("1/4", "3/4")]

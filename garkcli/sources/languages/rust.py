@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from garkcli.sources import ir
 from garkcli.sources.lowering import (
     Lowering,
+    done,
     kinds,
     less_one,
     line_of,
@@ -92,6 +93,8 @@ class RustLowering(Lowering):
             case "for_expression":
                 name, over = part(node, "pattern"), self.expr(part(node, "value"))
                 yield self.loop(node, self.text(name) if self.is_a("name", name) else "", over)
+            case "expression_statement" if inside and inside[0].type == "call_expression":
+                yield done(self.expr(inside[0]), line)
             case "expression_statement":
                 yield from self.block(inside)
             case kind if kind.endswith(("expression", "invocation")):

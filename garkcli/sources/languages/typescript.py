@@ -9,6 +9,7 @@ from garkcli.sources import ir
 from garkcli.sources.lowering import (
     Lowering,
     counted,
+    done,
     kinds,
     line_of,
     method_called,
@@ -91,7 +92,9 @@ class TypeScriptLowering(Lowering):
                 yield from self.block(bodies)
             case "parenthesized_expression" | "unary_expression":
                 yield from self.block(inside)
-            case "object" | "call_expression" | "new_expression" | "identifier":
+            case "call_expression":
+                yield done(self.expr(node), line)
+            case "object" | "new_expression" | "identifier":
                 yield ir.Do(self.expr(node), line)
 
     def _run_at_once(self, node: Node) -> Iterator[Node]:
